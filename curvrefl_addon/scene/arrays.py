@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""What the renderer knows of a Blender scene: frozen numpy arrays, no bpy.
+
+Everything is right-handed Blender world space in metres unless a field says "object space".
+`scene.extract` fills these; `renderer` only reads them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+type Float32Array = NDArray[np.float32]
+type Float64Array = NDArray[np.float64]
+type Int32Array = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshArrays:
+    """One evaluated mesh in object space.
+
+    A *corner* carries what may differ between the faces that meet in a vertex (normal, UV, colour).
+    Where nothing differs, corners are the vertices themselves and `corner_vertex` is 0..N-1.
+    """
+
+    name: str
+    positions: Float32Array
+    """(vertices, 3)"""
+    corner_vertex: Int32Array
+    """(corners,) index into `positions`"""
+    corner_normals: Float32Array
+    """(corners, 3) unit shading normals"""
+    corner_uv: Float32Array | None
+    """(corners, 2) of the active UV map"""
+    corner_color: Float32Array | None
+    """(corners, 4) scene-linear, of the active colour attribute"""
+    triangles: Int32Array
+    """(triangles, 3) index into corners"""
+    triangle_slot: Int32Array
+    """(triangles,) material slot"""
+    signature: int = 0
+    """Changes when any array above changes"""
+
+
+@dataclass(frozen=True, slots=True)
+class ImageArrays:
+    """A texture, scene-linear, row 0 at the bottom (v = 0)."""
+
+    name: str
+    pixels: Float32Array
+    """(height, width, 4)"""
+    repeat: bool = True
+    """Extend by repetition, else clamp to the border texel"""
+    nearest: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MaterialArrays:
+    """The part of the Principled BSDF that the renderer shades (also made from Diffuse, Glossy and Emission nodes)."""
+
+    name: str
+    base_color: tuple[float, float, float] = (0.8, 0.8, 0.8)
+    image: int = -1
+    """Index into `SceneArrays.images` of the base colour texture, -1 for none"""
+    uv_scale: tuple[float, float] = (1.0, 1.0)
+    uv_offset: tuple[float, float] = (0.0, 0.0)
+    uses_vertex_color: bool = False
+    """Base colour is multiplied with the corner colour"""
+    metallic: float = 0.0
+    roughness: float = 0.5
+    ior: float = 1.5
+    specular_level: float = 0.5
+    """Principled "IOR Level": scales the dielectric reflectance, 0.5 leaves it at the IOR's own"""
+    emission: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Emitted radiance, strength included"""
+    glossy_only: bool = False
+    """A Glossy BSDF: reflectance is the base colour at every angle, without diffuse part"""
+
+
+@dataclass(frozen=True, slots=True)
+class LightArrays:
+    """A lamp.
+
+    `color` is scene-linear with exposure, temperature and texture-free strength applied:
+    POINT, SPOT: radiant power in W; SUN: irradiance in W/m2; AREA: radiant power in W.
+    """
+
+    name: str
+    kind: str
+    """'POINT', 'SUN', 'SPOT' or 'AREA'"""
+    color: tuple[float, float, float]
+    matrix: Float64Array
+    """(4, 4) world matrix, columns normalised; the lamp shines along its -Z"""
+    radius: float = 0.0
+    """POINT, SPOT: radius of the ball"""
+    angle: float = 0.0
+    """SUN: angular diameter in radians"""
+    spot_angle: float = 0.0
+    """SPOT: full cone angle in radians"""
+    spot_blend: float = 0.0
+    size: tuple[float, float] = (0.0, 0.0)
+    """AREA: full width and height in metres, world scale applied"""
+    ellipse: bool = False
+    """AREA: disk or ellipse instead of a rectangle"""
+    casts_shadow: bool = True
+    visible_glossy: bool = True
+    """The lamp itself is seen in mirrors"""
+
+
+@dataclass(frozen=True, slots=True)
+class WorldArrays:
+    """Background radiance: `color` times, where there is one, an equirectangular image."""
+
+    color: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Scene-linear radiance (strength included), or the factor on `image`"""
+    image: Float32Array | None = None
+    """(height, width, 3) scene-linear, row 0 at the bottom, Blender's equirectangular mapping"""
+    rotation: Float64Array = field(default_factory=lambda: np.eye(3))
+    """(3, 3): image direction = rotation @ world direction"""
+
+
+@dataclass(frozen=True, slots=True)
+class InstanceArrays:
+    """One placed mesh."""
+
+    object_name: str
+    object_id: int
+    """1, 2, ...: the same for all instances that show one object; 0 is the background"""
+    mesh: int
+    """Index into `SceneArrays.meshes`"""
+    matrix: Float64Array
+    """(4, 4) object to world"""
+    materials: tuple[int, ...]
+    """Per slot, index into `SceneArrays.materials`; never empty"""
+    visible_camera: bool = True
+    visible_glossy: bool = True
+    visible_shadow: bool = True
+    holdout: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SceneArrays:
+    """A whole scene at one frame."""
+
+    meshes: tuple[MeshArrays, ...]
+    instances: tuple[InstanceArrays, ...]
+    materials: tuple[MaterialArrays, ...]
+    """Index 0 is the default material for empty slots"""
+    images: tuple[ImageArrays, ...]
+    lights: tuple[LightArrays, ...]
+    world: WorldArrays
+    reflectors: tuple[int, ...] = ()
+    """object_id of the chosen reflectors"""
+    warnings: tuple[str, ...] = ()
+    """What could not be represented, one sentence each"""

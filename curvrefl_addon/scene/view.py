@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""The eye: one perspective or orthographic view onto the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .arrays import Float64Array
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """Matrices of a picture of `width` x `height` pixels (OpenGL clip space, z from -1 to 1)."""
+
+    world_to_view: Float64Array
+    """(4, 4)"""
+    view_to_clip: Float64Array
+    """(4, 4) projection"""
+    width: int
+    height: int
+
+    @property
+    def is_orthographic(self) -> bool:
+        return bool(self.view_to_clip[3, 3] != 0.0)
+
+    @property
+    def eye(self) -> Float64Array:
+        """(4,) homogeneous eye: a point with w = 1, or the unit direction towards an infinite eye with w = 0."""
+        view_to_world = np.linalg.inv(self.world_to_view)
+        if self.is_orthographic:
+            axis = view_to_world[:3, 2]
+            return np.array([*(axis / np.linalg.norm(axis)), 0.0])
+        return np.array([*view_to_world[:3, 3], 1.0])
+
+    @property
+    def world_to_clip(self) -> Float64Array:
+        """(4, 4)"""
+        return self.view_to_clip @ self.world_to_view
+
+    def jittered(self, dx: float, dy: float) -> View:
+        """The same view with the picture plane moved by (dx, dy) pixels."""
+        shift = np.eye(4)
+        shift[0, 3] = 2.0 * dx / self.width
+        shift[1, 3] = 2.0 * dy / self.height
+        return replace(self, view_to_clip=shift @ self.view_to_clip)
+
+    def project(self, points: Float64Array) -> Float64Array:
+        """Pixel coordinates (n, 2), origin bottom left, of world points (n, 3)."""
+        clip = points @ self.world_to_clip[:, :3].T + self.world_to_clip[:, 3]
+        ndc = clip[:, :2] / clip[:, 3:4]
+        return (ndc * 0.5 + 0.5) * np.array([self.width, self.height])

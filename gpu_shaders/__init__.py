@@ -1,0 +1,4 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""GLSL sources, one file per method or pass, and the loader that joins them."""

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Vertex fetch from the record textures of renderer/geometry.py.
+// Needs the samplers (FLOAT_2D) `positions` and `corners`.
+
+vec4 fetch_record(sampler2D records, int index)
+{
+  return texelFetch(records, ivec2(index % 2048, index / 2048), 0);
+}
+
+struct Corner {
+  vec3 position;  // world space
+  int position_index;
+  float object_id;
+  vec3 normal;
+  vec2 uv;
+  vec3 color;  // vertex colour, scene-linear
+};
+
+Corner fetch_corner(int index)
+{
+  vec4 first = fetch_record(corners, 2 * index);
+  vec4 second = fetch_record(corners, 2 * index + 1);
+  Corner corner;
+  corner.position_index = int(first.w + 0.5);
+  vec4 place = fetch_record(positions, corner.position_index);
+  corner.position = place.xyz;
+  corner.object_id = place.w;
+  corner.normal = first.xyz;
+  corner.uv = second.xy;
+  int packed_color = int(second.z + 0.5);
+  vec3 root = vec3(packed_color & 255, (packed_color >> 8) & 255, packed_color >> 16) / 255.0;
+  corner.color = root * root;
+  return corner;
+}
