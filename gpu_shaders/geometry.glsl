@@ -3,10 +3,7 @@
 // Vertex fetch from the record textures of renderer/geometry.py.
 // Needs the samplers (FLOAT_2D) `positions` and `corners`.
 
-vec4 fetch_record(sampler2D records, int index)
-{
-  return texelFetch(records, ivec2(index % 2048, index / 2048), 0);
-}
+#include "records.glsl"
 
 struct Corner {
   vec3 position;  // world space

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Safeguarded Newton descent on the optical path length over the sphere of directions.
 
-On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length E-P-V, so a descent
-that never accepts a longer path cannot cycle or wander off. Second derivatives come from differences of the
+On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length E-P-V, so a descent that
+ never accepts a longer path cannot cycle or wander off. Second derivatives come from differences of the
 gradient, because the map holds r and grad r only.
 """
 
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .fermat import path_gradient, sample
+from .fermat import SurfaceSample, path_gradient, sample
 from .radial_surfaces import Float64Array, RadialSurface, unit
 
 if TYPE_CHECKING:
@@ -21,12 +21,21 @@ if TYPE_CHECKING:
 
 DIFFERENCE = 1e-3
 """Angle for second derivatives, radians; shrinks with the distance of a vertex in contact."""
+SMALLEST_DIFFERENCE = 1e-5
 FLATTEST = 1e-5
 """Smallest eigenvalue of the second derivative, relative to the largest, that is not shifted."""
 LONGEST_STEP = 0.3
 """Radians"""
-HALVINGS = 6
+TRIALS = 6
+"""Lengths of one step that are tried"""
 SHORTENING = 0.35
+SUFFICIENT = 1e-4
+"""Share of the predicted descent that a step must keep (Armijo)"""
+ROUNDING = 2e-7
+"""Path lengths closer than this share of the radius count as equal: float32 cannot tell them apart."""
+CONTRACTION = 0.7
+"""A step at positive curvature is also taken where it shrinks the gradient to this share. An interpolated map
+ripples by some 1e-4 of its radius between texels, which hides the last pixels of descent from the path length."""
 
 
 def tangent_frame(u: Float64Array) -> tuple[Float64Array, Float64Array]:
@@ -36,10 +45,35 @@ def tangent_frame(u: Float64Array) -> tuple[Float64Array, Float64Array]:
     return first, np.cross(u, first)
 
 
-def path_length(eye: Float64Array, vertices: Float64Array, points: Float64Array) -> Float64Array:
-    """|E-P| + |P-V| (n,); for an eye at infinity the first term is measured from the plane through the centre."""
-    to_eye = np.linalg.norm(eye[:3] - points, axis=1) if eye[3] else -(points @ eye[:3])
-    return to_eye + np.linalg.norm(vertices - points, axis=1)
+def guess(eye: Float64Array, vertices: Float64Array) -> Float64Array:
+    """Directions (n, 3) between eye and vertex, nearer to the one that is nearer to the centre.
+
+    On the great circle from the eye's direction to the vertex's, at the share d_E / (d_E + d_V).
+    """
+    a, b = np.broadcast_to(unit(eye[:3]), vertices.shape), unit(vertices)
+    share = np.ones(len(vertices))
+    if eye[3]:
+        distance = np.linalg.norm(eye[:3])
+        share = distance / (distance + np.linalg.norm(vertices, axis=1))
+    cosine = np.clip(np.einsum("ij,ij->i", a, b), -1.0, 1.0)
+    across = b - cosine[:, None] * a
+    across = np.where(np.linalg.norm(across, axis=1, keepdims=True) < 1e-6, tangent_frame(a)[0], unit(across))
+    angle = (share * np.arccos(cosine))[:, None]
+    return np.cos(angle) * a + np.sin(angle) * across
+
+
+def path_change(eye: Float64Array, vertices: Float64Array, start: Float64Array, end: Float64Array) -> Float64Array:
+    """Path length by `end` minus path length by `start` (n,), without subtracting two long lengths.
+
+    |X-Q| - |X-P| = (Q-P).(P+Q-2X) / (|X-P| + |X-Q|); for an eye at infinity the first leg is a projection.
+    """
+    moved = end - start
+
+    def leg(x: Float64Array) -> Float64Array:
+        lengths = np.linalg.norm(x - start, axis=1) + np.linalg.norm(x - end, axis=1)
+        return np.einsum("ij,ij->i", moved, start + end - 2.0 * x) / np.maximum(lengths, 1e-30)
+
+    return (leg(eye[:3]) if eye[3] else -(moved @ eye[:3])) + leg(vertices)
 
 
 def minimise(
@@ -49,70 +83,80 @@ def minimise(
 
     Converged means that a Newton step at a point of positive curvature moves less than `tolerance` pixels.
     """
-    count = len(vertices)
-    u = start.copy()
-    converged = np.zeros(count, bool)
-    iterations = np.zeros(count, int)
-    active = np.arange(count)
     eye = screen.eye
+    u = start.copy()
+    converged = np.zeros(len(vertices), bool)
+    iterations = np.zeros(len(vertices), int)
+    active = np.arange(len(vertices))
 
     for _ in range(steps):
         if len(active) == 0:
             break
         here, target = u[active], vertices[active]
         at = sample(surface, here)
-        first, second = tangent_frame(here)
-
-        def gradient(
-            directions: Float64Array, target: Float64Array = target
-        ) -> Float64Array:
-            return path_gradient(eye, target, directions, sample(surface, directions))
-
-        def dot(p: Float64Array, q: Float64Array) -> Float64Array:
-            return np.einsum("ij,ij->i", p, q)
-
-        g = gradient(here)
-        gx, gy = dot(g, first), dot(g, second)
-        to_vertex = np.linalg.norm(target - at.position, axis=1)
-        delta = DIFFERENCE * np.minimum(1.0, 3.0 * to_vertex / at.radius) + 1e-5
-        g_first = gradient(unit(here + delta[:, None] * first))
-        g_second = gradient(unit(here + delta[:, None] * second))
-        hxx = (dot(g_first, first) - gx) / delta
-        hyy = (dot(g_second, second) - gy) / delta
-        hxy = 0.5 * ((dot(g_first, second) - gy) + (dot(g_second, first) - gx)) / delta
-
-        middle, spread = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
-        lowest, highest = middle - spread, middle + spread
-        wanted = np.maximum(np.abs(lowest), FLATTEST * np.abs(highest))
-        shift = np.maximum(0.0, wanted - lowest)
-        determinant = (hxx + shift) * (hyy + shift) - hxy * hxy
-        safe = np.where(determinant > 0.0, determinant, np.inf)
-        sx = -((hyy + shift) * gx - hxy * gy) / safe
-        sy = -((hxx + shift) * gy - hxy * gx) / safe
-        length = np.hypot(sx, sy)
-        capped = np.minimum(1.0, LONGEST_STEP / np.maximum(length, 1e-30))
-        step = (capped * sx)[:, None] * first + (capped * sy)[:, None] * second
+        g = path_gradient(eye, target, here, at)
+        step, regular = _newton_step(surface, eye, target, here, at, g)
         pixels = np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
-        done = (pixels < tolerance) & (shift == 0.0) & (determinant > 0.0)
+        done = (pixels < tolerance) & regular
         iterations[active] += 1
 
-        before = path_length(eye, target, at.position)
-        slope = dot(g, step)
+        slope = _dot(g, step)
+        length = np.linalg.norm(g, axis=1)
         factor = np.ones(len(active))
         accepted = np.zeros(len(active), bool)
         moved = here.copy()
-        for _ in range(HALVINGS):
+        for _ in range(TRIALS):
             trial = unit(here + factor[:, None] * step)
-            length_there = path_length(eye, target, sample(surface, trial).position)
-            good = ~accepted & (length_there <= before + 1e-4 * factor * slope)
+            there = sample(surface, trial)
+            change = path_change(eye, target, at.position, there.position)
+            descends = change <= SUFFICIENT * factor * slope + ROUNDING * at.radius
+            contracts = np.linalg.norm(path_gradient(eye, target, trial, there), axis=1) < CONTRACTION * length
+            good = ~accepted & (descends | (regular & contracts))
             moved[good] = trial[good]
             accepted |= good
             factor = np.where(accepted, factor, SHORTENING * factor)
             if accepted.all():
                 break
-        # The last step is below a tolerance already: it is taken even where rounding hides the descent.
-        moved[done & ~accepted] = unit(here + step)[done & ~accepted]
+        # The last step is below the tolerance: where rounding hides its descent the point stays.
         u[active] = moved
         converged[active[done]] = True
         active = active[~done & accepted]
     return u, converged, iterations
+
+
+def _newton_step(
+    surface: RadialSurface,
+    eye: Float64Array,
+    vertices: Float64Array,
+    u: Float64Array,
+    at: SurfaceSample,
+    g: Float64Array,
+) -> tuple[Float64Array, np.ndarray]:
+    """Tangent step (n, 3), and whether the second derivative was positive as it was, without a shift."""
+    first, second = tangent_frame(u)
+    to_vertex = np.linalg.norm(vertices - at.position, axis=1)
+    delta = DIFFERENCE * np.minimum(1.0, 3.0 * to_vertex / at.radius) + SMALLEST_DIFFERENCE
+
+    def difference(direction: Float64Array) -> Float64Array:
+        moved = unit(u + delta[:, None] * direction)
+        return (path_gradient(eye, vertices, moved, sample(surface, moved)) - g) / delta[:, None]
+
+    by_first, by_second = difference(first), difference(second)
+    gx, gy = _dot(g, first), _dot(g, second)
+    hxx, hyy = _dot(by_first, first), _dot(by_second, second)
+    hxy = 0.5 * (_dot(by_first, second) + _dot(by_second, first))
+    middle, spread = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
+    lowest, highest = middle - spread, middle + spread
+    shift = np.maximum(0.0, np.maximum(np.abs(lowest), FLATTEST * np.abs(highest)) - lowest)
+    hxx, hyy = hxx + shift, hyy + shift
+    determinant = hxx * hyy - hxy * hxy
+    safe = np.where(determinant > 0.0, determinant, np.inf)
+    sx = -(hyy * gx - hxy * gy) / safe
+    sy = -(hxx * gy - hxy * gx) / safe
+    capped = np.minimum(1.0, LONGEST_STEP / np.maximum(np.hypot(sx, sy), 1e-30))
+    step = (capped * sx)[:, None] * first + (capped * sy)[:, None] * second
+    return step, (shift == 0.0) & (determinant > 0.0)
+
+
+def _dot(p: Float64Array, q: Float64Array) -> Float64Array:
+    return np.einsum("ij,ij->i", p, q)

@@ -21,6 +21,11 @@ type Float64Array = NDArray[np.float64]
 class RadialSurface(Protocol):
     """Anything that gives r and grad r for unit directions."""
 
+    @property
+    def bound(self) -> float:
+        """No r is larger."""
+        ...
+
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         """Radius (n,) and its tangential gradient (n, 3) for unit directions u (n, 3)."""
         ...
@@ -45,6 +50,10 @@ class Ellipsoid:
     b: float = 1.0
     c: float = 1.0
 
+    @property
+    def bound(self) -> float:
+        return max(self.a, self.b, self.c)
+
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         inverse_squares = np.array([self.a, self.b, self.c]) ** -2.0
         r = (u**2 @ inverse_squares) ** -0.5
@@ -63,6 +72,10 @@ class Bumpy:
         [[3.0, 0.5, -1.0], [-0.7, 2.8, 0.9], [1.1, -0.4, 3.2], [2.1, 2.2, 0.3], [-1.9, 0.8, 2.4], [0.6, -2.6, 1.7]]
     )
     _PHASES = np.array([0.3, 1.1, 2.0, 2.9, 4.1, 5.2])
+
+    @property
+    def bound(self) -> float:
+        return self.scale * (1.0 + self.amplitude)
 
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         phases = u @ self._WAVES.T + self._PHASES

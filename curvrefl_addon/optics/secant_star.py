@@ -15,7 +15,11 @@ when contact and grazing are included:
 * a step longer than `LONGEST_STEP` radians is shortened, so that an extrapolation cannot leave for the far side;
 * the end of the search is checked and polished by `newton.minimise`: Newton steps on the path length with second
   derivatives by differences of the same gradient. It takes one step where the secant search was right, and finds the
-  point where it was not. What it cannot solve stays unsolved.
+  point where it was not. Where it fails it begins once more between eye and vertex (`newton.guess`); what that cannot
+  solve stays unsolved.
+
+A vertex that ends on the far side, or unsolved, is hidden if the segment from the eye to it pierces the reflector
+(`pierce`); the point where it does places it for the triangles that cross the horizon.
 """
 
 from __future__ import annotations
@@ -26,13 +30,19 @@ import numpy as np
 
 from . import status
 from .fermat import SurfaceSample, is_reflection_side, path_gradient, sample, towards_eye
-from .newton import minimise, tangent_frame
+from .newton import guess, minimise, tangent_frame
+from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
 
 SMALL_DETERMINANT = 1e-5
 """Relative to a'^2 b'^2: gradient differences closer to parallel than about 0.2 degrees are ill-conditioned."""
 LONGEST_STEP = 0.7
 """Radians on the sphere of directions."""
+SEARCH_TOLERANCE = 1.0
+"""Pixels: the paper's stop, a projected triangle smaller than a pixel"""
+SEARCH_STEPS = 6
+"""A search that takes longer is wandering; the descent takes over."""
+NEWTON_STEPS = 20
 SMALLEST_START = 0.01
 """Half the start edge AB in radians where A and B (nearly) coincide."""
 
@@ -153,20 +163,33 @@ def solve(
     surface: RadialSurface,
     screen: Screen,
     vertices: Float64Array,
-    steps: int = 20,
-    newton_steps: int = 20,
+    steps: int = SEARCH_STEPS,
+    newton_steps: int = NEWTON_STEPS,
     tolerance: float = 0.05,
 ) -> Solution:
     """Reflection points of vertices (n, 3) relative to the star centre; `tolerance` in pixels."""
-    u, iterations = secant_search(surface, screen, vertices, steps, 4.0 * tolerance)
+    u, iterations = secant_search(surface, screen, vertices, steps, SEARCH_TOLERANCE)
     u, converged, polished = minimise(surface, screen, vertices, u, newton_steps, tolerance)
-    at = sample(surface, u)
-    code = np.where(
-        converged,
-        np.where(is_reflection_side(screen.eye, vertices, at), status.REFLECTED, status.HIDDEN),
-        status.UNSOLVED,
-    )
-    return Solution(u, at, code, iterations + polished)
+    iterations += polished
+    reflected = converged & is_reflection_side(screen.eye, vertices, sample(surface, u))
+
+    left = np.flatnonzero(~reflected)
+    pierced, point = pierce(surface, screen.eye, vertices[left])
+    hidden = np.zeros(len(vertices), bool)
+    hidden[left] = pierced | converged[left]
+    u[left[pierced]] = unit(point[pierced])
+
+    left = np.flatnonzero(~reflected & ~hidden)
+    if len(left):
+        u[left], converged[left], polished = minimise(
+            surface, screen, vertices[left], guess(screen.eye, vertices[left]), newton_steps, tolerance
+        )
+        iterations[left] += polished
+        side = is_reflection_side(screen.eye, vertices[left], sample(surface, u[left]))
+        reflected[left] = converged[left] & side
+        hidden[left] = converged[left] & ~side
+    code = np.select([reflected, hidden], [status.REFLECTED, status.HIDDEN], status.UNSOLVED)
+    return Solution(u, sample(surface, u), code, iterations)
 
 
 def _least_squares(g: Float64Array) -> tuple[Float64Array, Float64Array, np.ndarray]:

@@ -41,6 +41,11 @@ class View:
         """(4, 4)"""
         return self.view_to_clip @ self.world_to_view
 
+    @property
+    def focal_pixels(self) -> float:
+        """Pixels per radian at the picture's centre; orthographic: pixels per metre."""
+        return 0.5 * self.height * float(self.view_to_clip[1, 1])
+
     def jittered(self, dx: float, dy: float) -> View:
         """The same view with the picture plane moved by (dx, dy) pixels."""
         shift = np.eye(4)

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every vertex solver shares: fetching the vertex, the ladder after the search, storing the result.
+// Needs the uniform block `solver` (renderer/solve.py), the samplers `positions` and `radial`, and the images
+// `reflection_points` and `virtual_positions`.
+#include "status.glsl"
+#include "records.glsl"
+#include "newton.glsl"
+#include "pierce.glsl"
+
+bool is_finite(vec3 v)
+{
+  return !any(isnan(v)) && !any(isinf(v));
+}
+
+vec3 vertex_in_map(int index)
+{
+  return (solver.world_to_map * vec4(fetch_record(positions, index).xyz, 1.0)).xyz;
+}
+
+// Everything is stored in world space. reflection_points: P and status + 4 iterations.
+// virtual_positions: where the vertex seems to be, and |PV|.
+void store(int index, int status, int iterations, vec3 point, vec3 virtual_position, float length_to_vertex)
+{
+  ivec2 texel = ivec2(index % 2048, index / 2048);
+  vec3 world_point = (solver.map_to_world * vec4(point, 1.0)).xyz;
+  vec3 world_virtual = (solver.map_to_world * vec4(virtual_position, 1.0)).xyz;
+  imageStore(reflection_points, texel, vec4(world_point, float(status + 4 * iterations)));
+  imageStore(virtual_positions, texel, vec4(world_virtual, length_to_vertex));
+}
+
+void store_invalid(int index)
+{
+  store(index, INVALID, 0, vec3(0.0), vec3(0.0), 0.0);
+}
+
+void store_reflected(int index, int iterations, vec3 vertex, vec3 point)
+{
+  float length_to_vertex = length(vertex - point);
+  vec3 virtual_position = point - length_to_vertex * towards_eye(solver.eye, point);
+  store(index, REFLECTED, iterations, point, virtual_position, length_to_vertex);
+}
+
+// A hidden vertex has no image. It is placed as its mirror image in the tangent plane at `point`, where the reflection of
+// the triangles that cross the horizon goes on: on the horizon itself both agree.
+void store_hidden(int index, int iterations, vec3 vertex, vec3 point)
+{
+  vec3 normal = surface_normal(sample_surface(safe_unit(point)));
+  vec3 offset = vertex - point;
+  store(index, HIDDEN, iterations, point, vertex - 2.0 * dot(normal, offset) * normal, length(offset));
+}
+
+// After a search that ended at u: reflected, else hidden, else one more descent from between eye and vertex.
+void finish(int index, vec3 vertex, vec3 u, bool converged, int iterations)
+{
+  vec4 eye = solver.eye;
+  SurfaceSample at = sample_surface(u);
+  if (converged && is_reflection_side(eye, vertex, at)) {
+    store_reflected(index, iterations, vertex, at.position);
+    return;
+  }
+  vec3 point;
+  if (pierce(eye, vertex, solver.screen.z, point)) {
+    store_hidden(index, iterations, vertex, point);
+    return;
+  }
+  if (!converged) {
+    u = newton_guess(eye, vertex);
+    converged = minimise(eye, solver.screen.x, vertex, solver.counts.z, solver.screen.y, u, iterations);
+    at = sample_surface(u);
+    if (converged && is_reflection_side(eye, vertex, at)) {
+      store_reflected(index, iterations, vertex, at.position);
+      return;
+    }
+  }
+  if (converged) {
+    store_hidden(index, iterations, vertex, at.position);
+  }
+  else {
+    store(index, UNSOLVED, iterations, at.position, vertex, length(vertex - at.position));
+  }
+}
