@@ -12,6 +12,7 @@ struct Corner {
   vec3 normal;
   vec2 uv;
   vec3 color;  // vertex colour, scene-linear
+  float mirror;  // 1, 2, ... on a reflector
 };
 
 Corner fetch_corner(int index)
@@ -28,5 +29,6 @@ Corner fetch_corner(int index)
   int packed_color = int(second.z + 0.5);
   vec3 root = vec3(packed_color & 255, (packed_color >> 8) & 255, packed_color >> 16) / 255.0;
   corner.color = root * root;
+  corner.mirror = second.w;
   return corner;
 }

@@ -19,6 +19,9 @@ import numpy as np
 from ..scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from .gpu_objects import indexed_batch, record_texture
 
+HOLDOUT = -1
+"""Material index of what cuts a hole into the picture."""
+
 
 @dataclass(frozen=True)
 class WorldGeometry:
@@ -39,7 +42,9 @@ class WorldGeometry:
     triangles: Int32Array
     """(triangles, 3) index into corners"""
     triangle_material: Int32Array
-    """(triangles,) index into SceneArrays.materials"""
+    """(triangles,) index into SceneArrays.materials, or HOLDOUT"""
+    corner_mirror: Int32Array | None = None
+    """(corners,) 1, 2, ... on the first, second, ... reflector and 0 elsewhere; None: no reflector is here"""
 
     @cached_property
     def bounds(self) -> tuple[Float32Array, Float32Array]:
@@ -55,12 +60,14 @@ class WorldGeometry:
 
     @cached_property
     def corner_texture(self) -> Any:
-        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed colour, unused)."""
+        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed colour, mirror)."""
         records = np.zeros((len(self.corner_position), 2, 4), np.float32)
         records[:, 0, :3] = self.corner_normals
         records[:, 0, 3] = self.corner_position
         records[:, 1, :2] = self.corner_uv
         records[:, 1, 2] = 0xFFFFFF if self.corner_color is None else _pack_color(self.corner_color)
+        if self.corner_mirror is not None:
+            records[:, 1, 3] = self.corner_mirror
         return record_texture(records.reshape(-1, 4))
 
     @cached_property
@@ -75,10 +82,16 @@ class WorldGeometry:
         )
 
 
-def flatten(scene: SceneArrays, keep: Callable[[InstanceArrays], bool] = lambda _: True) -> WorldGeometry:
+def flatten(
+    scene: SceneArrays,
+    keep: Callable[[InstanceArrays], bool] = lambda _: True,
+    mirror_of: Callable[[InstanceArrays], int] | None = None,
+    holdouts: bool = False,
+) -> WorldGeometry:
     """Place every instance that `keep` accepts into world space.
 
-    Normals go by the inverse transpose; a mirroring matrix (negative scale) keeps them pointing to the same side.
+    `mirror_of` numbers the reflectors (see `corner_mirror`). With `holdouts`, instances that hold out get that as their
+    material: the eye sees a hole there, a mirror sees the object. Normals go by the inverse transpose; a mirroring matrix (negative scale) keeps them pointing to the same side.
     """
     chosen = [instance for instance in scene.instances if keep(instance)]
     parts = [_place(scene.meshes[instance.mesh], instance) for instance in chosen]
@@ -124,12 +137,19 @@ def flatten(scene: SceneArrays, keep: Callable[[InstanceArrays], bool] = lambda 
         ),
         triangle_material=joined(
             [
-                np.asarray(instance.materials, np.int32)[np.minimum(mesh.triangle_slot, len(instance.materials) - 1)]
+                np.full(len(mesh.triangles), HOLDOUT, np.int32)
+                if holdouts and instance.holdout
+                else np.asarray(instance.materials, np.int32)[
+                    np.minimum(mesh.triangle_slot, len(instance.materials) - 1)
+                ]
                 for mesh, instance in zip(meshes, chosen, strict=True)
             ],
             (0,),
             np.int32,
         ),
+        corner_mirror=np.repeat(np.array([mirror_of(instance) for instance in chosen], np.int32), corner_counts)
+        if mirror_of
+        else None,
     )
 
 

@@ -8,6 +8,7 @@ One shader file per method (`gpu_shaders/<method>.comp.glsl`) over `solver.glsl`
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -49,21 +50,31 @@ class VertexSolution:
         packed = np.rint(points[:, 3]).astype(np.int32)
         return points[:, :3], packed & 3, packed >> 2, read_records(self.virtual_positions, self.count)
 
-    def statistics(self) -> dict[str, Any]:
-        """Counts and iterations as `report.json` has them; waits for the GPU."""
-        _, code, iterations, _ = self.read()
-        searched = iterations[code == status.REFLECTED]
-        return {
-            "vertices": self.count,
-            "reflected": int((code == status.REFLECTED).sum()),
-            "hidden": int((code == status.HIDDEN).sum()),
-            "unconverged": int((code >= status.UNSOLVED).sum()),
-            "iterations": {
-                "mean": float(searched.mean()) if len(searched) else 0.0,
-                "p99": float(np.percentile(searched, 99)) if len(searched) else 0.0,
-                "max": int(searched.max()) if len(searched) else 0,
-            },
-        }
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        target = gpu.types.GPUFrameBuffer(color_slots=(self.reflection_points,))
+        with target.bind():
+            target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+
+
+def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
+    """Counts and iterations over all solutions as `report.json` has them; waits for the GPU."""
+    parts = [solution.read() for solution in solutions]
+    code = np.concatenate([np.zeros(0, np.int32), *(part[1] for part in parts)])
+    iterations = np.concatenate([np.zeros(0, np.int32), *(part[2] for part in parts)])
+    searched = iterations[code == status.REFLECTED]
+    some = len(searched) > 0
+    return {
+        "vertices": len(code),
+        "reflected": len(searched),
+        "hidden": int((code == status.HIDDEN).sum()),
+        "unconverged": int((code >= status.UNSOLVED).sum()),
+        "iterations": {
+            "mean": float(searched.mean()) if some else 0.0,
+            "p99": float(np.percentile(searched, 99)) if some else 0.0,
+            "max": int(searched.max()) if some else 0,
+        },
+    }
 
 
 def solve_vertices(

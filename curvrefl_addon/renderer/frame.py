@@ -1,0 +1,314 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The renderer: (scene arrays, view, settings) -> a whole picture with true reflections on the chosen mirrors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from time import perf_counter
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ..errors import InputError
+from ..optics.catalogue import METHODS
+from ..optics.cube_map import nearest_texel
+from ..scene.arrays import Float32Array, InstanceArrays, Int32Array, SceneArrays
+from ..scene.view import View
+from .environment_cube import EnvironmentCube
+from .geometry import flatten
+from .gpu_objects import cube_texture, read_texture, require_gpu
+from .lighting import Lighting
+from .materials import Materials
+from .mirror import Mirror
+from .pixel_filter import offsets
+from .shade import ShadePass
+from .solve import VertexSolution, statistics
+from .surfaces import BackFaces, SurfaceBuffer, draw_primary, draw_reflected
+from .view_block import view_block
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How to render."""
+
+    method: str = "secant_star"
+    """A name of `optics.catalogue.METHODS`"""
+    samples: int = 16
+    """Jittered sub-frames of an anti-aliased picture; 1: pixel centres only"""
+    pixel_tolerance: float = 0.5
+    """Largest error of a reflected chord in pixels; the solver goes to a tenth of it"""
+    map_resolution: int = 128
+    """Texels along an edge of the reflector's radial cube map"""
+    environment_resolution: int = 512
+    """Texels along an edge of `environment_cube`"""
+
+
+@dataclass
+class _Targets:
+    """Everything that has the size of the picture."""
+
+    width: int
+    height: int
+    seen: SurfaceBuffer = field(init=False)
+    reflected: SurfaceBuffer = field(init=False)
+    back_faces: BackFaces = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.seen = SurfaceBuffer(self.width, self.height)
+        self.reflected = SurfaceBuffer(self.width, self.height)
+        self.back_faces = BackFaces(self.width, self.height)
+
+
+class Renderer:
+    """GPU resources of one scene; `free()` when done."""
+
+    def __init__(self, scene: SceneArrays, settings: Settings | None = None) -> None:
+        """Upload the scene and bake its reflectors.
+
+        Raises InputError for settings out of range and for reflectors that no map can hold, GpuUnavailableError
+        without a GPU context.
+        """
+        self.settings = settings or Settings()
+        _check(self.settings)
+        require_gpu()
+        self.scene = scene
+        self.warnings: list[str] = list(scene.warnings)
+        start = perf_counter()
+        chosen = [i for i, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
+        self.mirrors = [
+            Mirror(scene, index, number, self.settings.map_resolution) for number, index in enumerate(chosen, 1)
+        ]
+        self.bake_ms = 1e3 * (perf_counter() - start)
+        for mirror in self.mirrors:
+            self.warnings += mirror.map.warnings
+        numbers = {id(scene.instances[index]): number for number, index in enumerate(chosen, 1)}
+
+        def is_seen(instance: InstanceArrays) -> bool:
+            return instance.visible_camera
+
+        def mirror_of(instance: InstanceArrays) -> int:
+            return numbers.get(id(instance), 0)
+
+        self._seen_geometry = flatten(scene, is_seen, mirror_of, holdouts=True)
+        self._materials = Materials(scene)
+        self._lighting = Lighting(scene, flatten(scene), self.settings.samples)
+        self.warnings += self._lighting.warnings
+        self._shade = ShadePass(self._lighting, self._materials)
+        self._targets: _Targets | None = None
+        self._cubes: list[EnvironmentCube] | None = None
+        self._solved: tuple[View, list[VertexSolution]] | None = None
+
+    def free(self) -> None:
+        """Let go of all GPU resources; the renderer is of no use afterwards."""
+        self._lighting.free()
+        for mirror in self.mirrors:
+            mirror.free()
+        self.mirrors = []
+        self._targets = self._cubes = self._solved = None
+
+    def render(self, view: View) -> Frame:
+        """Draw the picture; its times have the GPU's work in them."""
+        targets = self._targets_for(view)
+        color = gpu.types.GPUTexture((view.width, view.height), format="RGBA32F")
+        color.filter_mode(False)
+        canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
+        times = {"bake": self.bake_ms}
+        warnings = list(self.warnings)
+        start = perf_counter()
+        solutions: list[VertexSolution] = []
+        environments = self._environments(view, warnings)
+        if environments is None:
+            solutions = self._solve(view)
+            for solution in solutions:
+                solution.wait()
+        times["solve"] = 1e3 * (perf_counter() - start)
+
+        start = perf_counter()
+        with canvas.bind():
+            canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
+        jitter = offsets(self.settings.samples)
+        for i, (dx, dy) in enumerate(jitter):
+            uniforms = self._draw_surfaces(targets, view.jittered(-dx, -dy), solutions, environments is None)
+            self._lighting.prepare(i)
+            reflected = targets.reflected if environments is None else environments
+            self._shade.add(canvas, targets.seen, reflected, uniforms, 1.0 / len(jitter))
+        with canvas.bind():
+            canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        times["draw"] = 1e3 * (perf_counter() - start)
+        times["frame"] = times["solve"] + times["draw"]
+        return Frame(self, view, color, solutions, times, tuple(warnings))
+
+    def _environments(self, view: View, warnings: list[str]) -> list[Any] | None:
+        """Per mirror the cube map that stands for what it reflects, or None where vertices are solved."""
+        if any(mirror.holds_eye(view) for mirror in self.mirrors):
+            warnings.append("The eye is inside a reflector, which shows only itself there: its reflection is black.")
+            return [cube_texture(np.zeros((6, 1, 1, 4), np.float32))] * len(self.mirrors)
+        if self.settings.method != "environment_cube" or not self.mirrors:
+            return None
+        return [cube.color for cube in self._environment_cubes()]
+
+    def _environment_cubes(self) -> list[EnvironmentCube]:
+        if self._cubes is None:
+            self._cubes = [
+                EnvironmentCube(
+                    mirror,
+                    mirror.whole_scenery,
+                    self._materials,
+                    self._lighting,
+                    self._shade,
+                    self.settings.environment_resolution,
+                )
+                for mirror in self.mirrors
+            ]
+        return self._cubes
+
+    def _targets_for(self, view: View) -> _Targets:
+        if self._targets is None or (self._targets.width, self._targets.height) != (view.width, view.height):
+            self._targets = _Targets(view.width, view.height)
+        return self._targets
+
+    def _solve(self, view: View) -> list[VertexSolution]:
+        return [
+            mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors
+        ]
+
+    def _draw_surfaces(
+        self, targets: _Targets, view: View, solutions: list[VertexSolution], reflect: bool
+    ) -> Any:
+        """Geometry passes of one sub-frame; returns the view's uniform block."""
+        uniforms = view_block(view)
+        draw_primary(targets.seen, self._seen_geometry, self._materials, uniforms)
+        if reflect:
+            targets.reflected.clear()
+            for mirror, solution in zip(self.mirrors, solutions, strict=True):
+                targets.back_faces.draw(mirror.surface, uniforms)
+                draw_reflected(
+                    targets.reflected,
+                    targets.seen,
+                    mirror.number,
+                    targets.back_faces,
+                    mirror.scenery(view, self.settings.pixel_tolerance),
+                    solution,
+                    self._materials,
+                    uniforms,
+                    depth_scale=mirror.map.r_max,
+                )
+        return uniforms
+
+    def geometry_of(self, view: View, solutions: list[VertexSolution]) -> dict[str, Float32Array]:
+        """Surface buffers through the pixel centres, read back (see `Frame`)."""
+        targets = self._targets_for(view)
+        vertices = self.settings.method != "environment_cube" and bool(solutions)
+        self._draw_surfaces(targets, view, solutions, vertices)
+        arrays = {
+            "seen_position": read_texture(targets.seen.position),
+            "seen_normal": read_texture(targets.seen.normal),
+            "seen_color": read_texture(targets.seen.color),
+        }
+        if vertices:
+            arrays["reflected_position"] = read_texture(targets.reflected.position)
+            arrays["reflected_color"] = read_texture(targets.reflected.color)
+        return arrays
+
+
+class Frame:
+    """One picture and what is behind it. Arrays are copies, float32, row 0 at the bottom; valid until `free()`."""
+
+    def __init__(
+        self,
+        renderer: Renderer,
+        view: View,
+        color: Any,
+        solutions: list[VertexSolution],
+        times_ms: dict[str, float],
+        warnings: tuple[str, ...],
+    ) -> None:
+        self._renderer = renderer
+        self.view = view
+        self.color_texture = color
+        """RGBA32F, scene-linear"""
+        self._solutions = solutions
+        self.times_ms = times_ms
+        """bake, solve, draw, frame = solve + draw"""
+        self.warnings = warnings
+        """One sentence each"""
+
+    @cached_property
+    def solve(self) -> dict[str, Any]:
+        """Counts and iterations over all mirrors, as `report.json` has them."""
+        return statistics(self._solutions)
+
+    @cached_property
+    def _geometry(self) -> dict[str, Float32Array]:
+        return self._renderer.geometry_of(self.view, self._solutions)
+
+    def color(self) -> Float32Array:
+        """(h, w, 4) scene-linear picture, anti-aliased."""
+        return read_texture(self.color_texture)
+
+    def mask(self) -> Int32Array:
+        """(h, w) object_id of the reflector at the pixel's centre, 0 elsewhere."""
+        ids = np.rint(self._geometry["seen_position"][..., 3]).astype(np.int32)
+        return np.where(self._geometry["seen_color"][..., 3] > 0.5, ids, 0)
+
+    def reflector_position(self) -> Float32Array:
+        """(h, w, 3) world point P seen at the pixel's centre; meant for the pixels of `mask`."""
+        return self._geometry["seen_position"][..., :3]
+
+    def reflected_position(self) -> Float32Array:
+        """(h, w, 4) world point that the mirror shows there (w = 1), or the background's unit direction (w = 0)."""
+        return self._reflected[0]
+
+    def reflected_object(self) -> Int32Array:
+        """(h, w) object_id of that point, 0 for the background."""
+        return self._reflected[1]
+
+    def iterations(self) -> Float32Array:
+        """(h, w) solver iterations, interpolated over the reflected triangles."""
+        if "reflected_color" not in self._geometry:
+            return np.zeros((self.view.height, self.view.width), np.float32)
+        return self._geometry["reflected_color"][..., 3]
+
+    @cached_property
+    def _reflected(self) -> tuple[Float32Array, Int32Array]:
+        mask = self.mask() > 0
+        seen, normal = self._geometry["seen_position"][..., :3], self._geometry["seen_normal"][..., :3]
+        eye = self.view.eye
+        to_eye = eye[:3] - seen * eye[3]
+        to_eye /= np.maximum(np.linalg.norm(to_eye, axis=-1, keepdims=True), 1e-30)
+        direction = 2.0 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
+        if "reflected_position" in self._geometry:
+            hits = self._geometry["reflected_position"]
+        elif self._renderer.settings.method == "environment_cube" and self._renderer.mirrors:
+            hits = self._cube_hits(direction)
+        else:
+            hits = np.zeros((*mask.shape, 4), np.float32)
+        ids = np.where(mask, np.rint(hits[..., 3]), 0).astype(np.int32)
+        position = np.zeros((*mask.shape, 4), np.float32)
+        position[..., :3] = np.where((ids > 0)[..., None], hits[..., :3], direction)
+        position[..., 3] = ids > 0
+        position[~mask] = 0.0
+        return position, ids
+
+    def _cube_hits(self, direction: Float32Array) -> Float32Array:
+        number = np.rint(self._geometry["seen_color"][..., 3]).astype(np.int32)
+        hits = np.zeros((*number.shape, 4), np.float32)
+        for mirror, cube in zip(self._renderer.mirrors, self._renderer._environment_cubes(), strict=True):
+            here = number == mirror.number
+            faces = cube.geometry()
+            hits[here] = faces[nearest_texel(faces.shape[1], direction[here])]
+        return hits
+
+
+def _check(settings: Settings) -> None:
+    if settings.method not in METHODS:
+        raise InputError(f'There is no method "{settings.method}": choose one of {", ".join(METHODS)}.')
+    if not 1 <= settings.samples <= 1024:
+        raise InputError(f"{settings.samples} samples are out of range: choose 1 to 1024.")
+    if not 0.01 <= settings.pixel_tolerance <= 100.0:
+        raise InputError(f"A tolerance of {settings.pixel_tolerance} pixels is out of range: choose 0.01 to 100.")
+    if not 8 <= settings.map_resolution <= 2048:
+        raise InputError(f"A map of {settings.map_resolution} texels is out of range: choose 8 to 2048.")

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of the GGX microfacet lobe, integrated at first use.
+
+The lobe is Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), with the height-correlated
+Smith term; its albedo is the mean of G2 / G1 over visible normals (Heitz, "Sampling the GGX Distribution of Visible
+Normals", JCGT 2018).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from ..scene.arrays import Float32Array, Float64Array
+
+TABLE_SIZE = 32
+"""Steps of roughness and of the viewer's cosine, both 0..1; as GGX_TABLE_SIZE in ggx.glsl"""
+IOR_SLICES = 16
+"""Steps of sqrt((ior - 1) / (ior + 1)), 0..1; as GGX_IOR_SLICES in ggx.glsl"""
+
+
+@cache
+def ggx_table(strata: int = 24) -> Float32Array:
+    """(TABLE_SIZE, TABLE_SIZE * (1 + IOR_SLICES), 4): rows roughness, columns the viewer's cosine, once per slice.
+
+    Slice 0: albedo with Fresnel 1, its cosine-weighted average over angles, 0, mean of (1 - cos)^5 over the lobe.
+    Slices 1..: z = mean over the lobe of (F - F0) / (1 - F0), not below 0, of the dielectric of that slice's IOR.
+    `strata` squared is the number of sampled normals per entry.
+    """
+    roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
+    cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
+    table = np.zeros((TABLE_SIZE, 1 + IOR_SLICES, TABLE_SIZE, 4))
+    iors = _slice_iors()
+    for row, rough in enumerate(roughness):
+        weight, cos_difference = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
+        albedo = weight.mean(axis=1)
+        table[row, 0, :, 0] = albedo
+        table[row, 0, :, 1] = 2.0 * np.trapezoid(albedo * cosine, cosine)
+        total = np.maximum(weight.sum(axis=1), 1e-9)
+        table[row, 0, :, 3] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
+        for index, ior in enumerate(iors):
+            f0 = ((ior - 1.0) / (ior + 1.0)) ** 2
+            share = np.maximum((fresnel_dielectric(cos_difference, ior) - f0) / (1.0 - f0), 0.0)
+            table[row, 1 + index, :, 2] = (weight * share).sum(axis=1) / total
+    return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
+
+
+def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
+    """Unpolarised reflectance of a smooth dielectric, `ior` >= 1."""
+    g = np.sqrt(np.maximum(ior * ior - 1.0 + cosine * cosine, 1e-12))
+    a = (g - cosine) / (g + cosine)
+    b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0)
+    return 0.5 * a * a * (1.0 + b * b)
+
+
+def _slice_iors() -> list[float]:
+    squares = np.minimum(np.linspace(0.0, 1.0, IOR_SLICES), 0.99) ** 2
+    return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
+
+
+def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array]:
+    """Weights G2 / G1 and cosines between viewer and microfacet, (cosines, strata^2), over visible normals."""
+    steps = (np.arange(strata) + 0.5) / strata
+    u1, u2 = (a.ravel()[None, :] for a in np.meshgrid(steps, steps, indexing="ij"))
+    view = np.stack([np.sqrt(1.0 - cosine**2), np.zeros_like(cosine), cosine], axis=1)
+    stretched = view * np.array([alpha, alpha, 1.0])
+    stretched /= np.linalg.norm(stretched, axis=1, keepdims=True)
+    x, z = stretched[:, 0:1], stretched[:, 2:3]
+    radius, phi = np.sqrt(u1), 2.0 * np.pi * u2
+    t1 = radius * np.cos(phi)  # the tangent frame of a viewer in the xz plane: y, and the cross product of both
+    t2 = radius * np.sin(phi)
+    s = 0.5 * (1.0 + z)
+    t2 = (1.0 - s) * np.sqrt(np.maximum(1.0 - t1**2, 0.0)) + s * t2
+    t3 = np.sqrt(np.maximum(1.0 - t1**2 - t2**2, 0.0))
+    normal = np.stack(np.broadcast_arrays(alpha * (-z * t2 + x * t3), alpha * t1, np.maximum(x * t2 + z * t3, 1e-9)))
+    normal /= np.linalg.norm(normal, axis=0)
+    cos_difference = np.clip(normal[0] * view[:, 0:1] + normal[2] * view[:, 2:3], 0.0, 1.0)
+    light_z = 2.0 * cos_difference * normal[2] - view[:, 2:3]
+    lambda_view = _smith_lambda(alpha, view[:, 2:3])
+    lambda_light = _smith_lambda(alpha, np.maximum(light_z, 1e-9))
+    weight = np.where(light_z > 0.0, (1.0 + lambda_view) / (1.0 + lambda_view + lambda_light), 0.0)
+    return weight, cos_difference
+
+
+def _smith_lambda(alpha: float, cosine: Float64Array) -> Float64Array:
+    tangent2 = 1.0 / cosine**2 - 1.0
+    return 0.5 * (np.sqrt(1.0 + alpha * alpha * tangent2) - 1.0)

@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Depth maps of shadow views: layers of one array texture, each drawn once, when first needed."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ...gpu_shaders.loader import load
+from ..scene.arrays import Float32Array, Int32Array
+from .gpu_objects import drawing_state
+from .lighting_shadow_views import ShadowView
+
+SLOPE_LIMIT_TEXELS = 20.0
+"""Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
+
+
+class ShadowCasters:
+    """Positions and triangles on the GPU, nothing else."""
+
+    def __init__(self, positions: Float32Array, triangles: Int32Array) -> None:
+        """`positions` (n, 3), `triangles` (t, 3) into them."""
+        self.batch: Any = None
+        if len(triangles) == 0:
+            return
+        layout = gpu.types.GPUVertFormat()
+        layout.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
+        vertices = gpu.types.GPUVertBuf(format=layout, len=len(positions))
+        vertices.attr_fill("pos", np.ascontiguousarray(positions, np.float32))
+        elements = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, np.int32))
+        self.batch = gpu.types.GPUBatch(type="TRIS", buf=vertices, elem=elements)
+
+
+class ShadowMaps:
+    """`layers` square depth maps of `resolution`."""
+
+    def __init__(self, casters: ShadowCasters, resolution: int, views: list[ShadowView]) -> None:
+        self.casters = casters
+        self.resolution = resolution
+        self.views = views
+        self.texture = gpu.types.GPUTexture(
+            (resolution, resolution) if views else (1, 1), layers=max(len(views), 1), format="DEPTH_COMPONENT32F"
+        )
+        self.texture.filter_mode(False)
+        self._drawn = [False] * len(views)
+
+    def draw(self, layers: list[int]) -> None:
+        """Make sure that these layers are there; restores the frame buffer and the state."""
+        missing = [layer for layer in layers if not self._drawn[layer]]
+        if not missing:
+            return
+        shader = shadow_depth_shader()
+        for layer in missing:
+            view = self.views[layer]
+            target = gpu.types.GPUFrameBuffer(depth_slot={"texture": self.texture, "layer": layer})
+            with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
+                gpu.state.viewport_set(0, 0, self.resolution, self.resolution)
+                target.clear(depth=1.0)
+                if self.casters.batch is not None:
+                    shader.bind()
+                    shader.uniform_float("world_to_clip", _matrix(view))
+                    limit = SLOPE_LIMIT_TEXELS * view.texel_slope
+                    shader.uniform_float("slope_limit", (0.0, limit) if view.is_perspective else (limit, 0.0))
+                    self.casters.batch.draw(shader)
+            self._drawn[layer] = True
+
+
+def _matrix(view: ShadowView) -> Any:
+    from mathutils import Matrix
+
+    return Matrix(view.world_to_clip.tolist())
+
+
+@cache
+def shadow_depth_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC3", "pos")
+    info.push_constant("MAT4", "world_to_clip")
+    info.push_constant("VEC2", "slope_limit")
+    info.depth_write("ANY")
+    info.vertex_source(load("shadow_depth.vert.glsl"))
+    info.fragment_source(load("shadow_depth.frag.glsl"))
+    return gpu.shader.create_from_info(info)

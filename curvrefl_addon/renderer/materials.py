@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials on the GPU: base colours per batch, the rest as a record texture that the shade pass looks up."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..scene.arrays import MaterialArrays, SceneArrays
+from .geometry import HOLDOUT
+from .gpu_objects import record_texture, texture_2d
+
+RECORDS = 2
+"""Per material: (metallic, roughness, ior, specular level), (emission rgb, glossy only)"""
+_HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
+
+
+class Materials:
+    """GPU side of `SceneArrays.materials` and `.images`."""
+
+    def __init__(self, scene: SceneArrays) -> None:
+        self._materials = scene.materials
+        self._images = [
+            texture_2d(
+                image.pixels, "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F", not image.nearest,
+                image.repeat,
+            )
+            for image in scene.images
+        ]
+        self._white = texture_2d(np.ones((1, 1, 4), np.float32))
+        records = np.zeros((len(scene.materials), RECORDS, 4), np.float32)
+        for record, material in zip(records, scene.materials, strict=True):
+            record[0] = (material.metallic, material.roughness, material.ior, material.specular_level)
+            record[1] = (*material.emission, float(material.glossy_only))
+        self.table = record_texture(records.reshape(-1, 4))
+
+    @staticmethod
+    def declare(info: Any, sampler: int) -> None:
+        """What `surface_color.glsl` needs, in a shader's create info; `sampler` is the slot of the base image."""
+        info.push_constant("VEC3", "base_color")
+        info.push_constant("FLOAT", "material")
+        info.push_constant("VEC4", "uv_transform")
+        info.push_constant("FLOAT", "uses_vertex_color")
+        info.sampler(sampler, "FLOAT_2D", "base_image")
+
+    def bind(self, shader: Any, index: int) -> None:
+        """Set what `declare` declared to material `index` on the bound shader."""
+        material = _HOLDOUT if index == HOLDOUT else self._materials[index]
+        shader.uniform_float("base_color", material.base_color)
+        shader.uniform_float("material", float(index))
+        shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
+        shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
+        shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image])

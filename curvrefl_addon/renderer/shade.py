@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shade pass: surface buffers in, scene-linear radiance out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import gpu
+
+from ...gpu_shaders.loader import load
+from .gpu_objects import drawing_state, full_screen_triangle
+from .lighting import Lighting
+from .materials import Materials
+from .surfaces import SurfaceBuffer
+from .view_block import TYPEDEF
+
+_SEEN = ("seen_position", "seen_normal", "seen_color")
+_REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
+
+
+class ShadePass:
+    """Lights surface buffers of one scene."""
+
+    def __init__(self, lighting: Lighting, materials: Materials) -> None:
+        self._lighting = lighting
+        self._materials = materials
+
+    def add(
+        self,
+        target: Any,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Any],
+        view_uniforms: Any,
+        weight: float,
+    ) -> None:
+        """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
+
+        `reflected` is the reflected scene's surface buffer, or for each mirror the environment cube texture that stands
+        for it.
+        """
+        vertices = isinstance(reflected, SurfaceBuffer)
+        shader = _shade_shader(not vertices)
+        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
+            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            shader.uniform_float("weight", weight)
+            shader.uniform_sampler("materials", self._materials.table)
+            for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
+                shader.uniform_sampler(name, texture)
+            self._lighting.bind(shader)
+            if vertices:
+                textures = (reflected.position, reflected.normal, reflected.color)
+                for name, texture in zip(_REFLECTED, textures, strict=True):
+                    shader.uniform_sampler(name, texture)
+                full_screen_triangle().draw(shader)
+            else:
+                for number, cube in enumerate(reflected, 1):
+                    shader.uniform_float("mirror", float(number))
+                    shader.uniform_sampler("environment", cube)
+                    full_screen_triangle().draw(shader)
+
+
+@cache
+def _shade_shader(cube: bool) -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(TYPEDEF)
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.uniform_buf(0, "ViewBlock", "view")
+    info.push_constant("FLOAT", "weight")
+    info.sampler(0, "FLOAT_2D", "materials")
+    for slot, name in enumerate(_SEEN, 1):
+        info.sampler(slot, "FLOAT_2D", name)
+    if cube:
+        info.define("ENVIRONMENT_CUBE")
+        info.push_constant("FLOAT", "mirror")
+        info.sampler(4, "FLOAT_CUBE", "environment")
+        used = 5
+    else:
+        for slot, name in enumerate(_REFLECTED, 4):
+            info.sampler(slot, "FLOAT_2D", name)
+        used = 7
+    Lighting.declare(info, used)
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("shade.frag.glsl"))
+    return gpu.shader.create_from_info(info)

@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Geometry passes: what the eye sees directly, and what it sees in a reflector, as surface buffers.
+
+A surface buffer holds for every pixel the surface there, unlit: world position and object, shading normal and
+material, base colour. Lighting is done once per pixel afterwards (`shade.py`), for what is visible only.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import gpu
+
+from ...gpu_shaders.loader import load
+from .geometry import WorldGeometry
+from .gpu_objects import drawing_state
+from .materials import Materials
+from .solve import VertexSolution
+from .view_block import TYPEDEF
+
+
+class SurfaceBuffer:
+    """Render targets of one geometry pass."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.position = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        """xyz world, object_id (0: nothing here)"""
+        self.normal = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        """xyz unit shading normal, material index"""
+        self.color = gpu.types.GPUTexture((width, height), format="RGBA16F")
+        """Base colour; the mirror's number (primary) or the solver's iterations (reflected)"""
+        self.depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
+        for texture in (self.position, self.normal, self.color):
+            texture.filter_mode(False)
+        self.frame_buffer = gpu.types.GPUFrameBuffer(
+            depth_slot=self.depth, color_slots=(self.position, self.normal, self.color)
+        )
+        self.width, self.height = width, height
+
+    def clear(self) -> None:
+        """Nothing anywhere."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+
+
+class BackFaces:
+    """Distance from the eye to a reflector's nearest back face, 0 where there is none."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.distance = gpu.types.GPUTexture((width, height), format="R32F")
+        self.distance.filter_mode(False)
+        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
+        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.distance,))
+        self.width, self.height = width, height
+
+    def draw(self, geometry: WorldGeometry, view_uniforms: Any) -> None:
+        """Fill from the reflector's triangles (closed, counter-clockwise from outside)."""
+        shader = _back_faces_shader()
+        with drawing_state("LESS_EQUAL", depth_write=True), self.frame_buffer.bind():
+            gpu.state.viewport_set(0, 0, self.width, self.height)
+            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            shader.uniform_sampler("positions", geometry.position_texture)
+            shader.uniform_sampler("corners", geometry.corner_texture)
+            for _, batch in geometry.batches:
+                batch.draw(shader)
+
+
+def draw_primary(target: SurfaceBuffer, geometry: WorldGeometry, materials: Materials, view_uniforms: Any) -> None:
+    """Fill `target` with what the eye sees directly."""
+    shader = _primary_shader()
+    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+        gpu.state.viewport_set(0, 0, target.width, target.height)
+        target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        shader.bind()
+        shader.uniform_block("view", view_uniforms)
+        shader.uniform_sampler("positions", geometry.position_texture)
+        shader.uniform_sampler("corners", geometry.corner_texture)
+        for material, batch in geometry.batches:
+            materials.bind(shader, material)
+            batch.draw(shader)
+
+
+def draw_reflected(
+    target: SurfaceBuffer,
+    mirrors: SurfaceBuffer,
+    mirror: int,
+    back_faces: BackFaces,
+    geometry: WorldGeometry,
+    solution: VertexSolution,
+    materials: Materials,
+    view_uniforms: Any,
+    depth_scale: float,
+) -> None:
+    """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
+
+    `depth_scale` is the distance that gets half of the depth range, metres.
+    """
+    shader = _reflected_shader()
+    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+        gpu.state.viewport_set(0, 0, target.width, target.height)
+        shader.bind()
+        shader.uniform_block("view", view_uniforms)
+        shader.uniform_float("mirror", float(mirror))
+        shader.uniform_float("depth_scale", depth_scale)
+        for name, texture in (
+            ("positions", geometry.position_texture),
+            ("corners", geometry.corner_texture),
+            ("reflection_points", solution.reflection_points),
+            ("virtual_positions", solution.virtual_positions),
+            ("mirror_position", mirrors.position),
+            ("mirror_normal", mirrors.normal),
+            ("mirror_color", mirrors.color),
+            ("back_faces", back_faces.distance),
+        ):
+            shader.uniform_sampler(name, texture)
+        for material, batch in geometry.batches:
+            materials.bind(shader, material)
+            batch.draw(shader)
+
+
+def _surface_outputs(info: Any) -> None:
+    info.fragment_out(0, "VEC4", "surface_position")
+    info.fragment_out(1, "VEC4", "surface_normal")
+    info.fragment_out(2, "VEC4", "surface_color_out")
+
+
+def _geometry_inputs(info: Any) -> None:
+    info.typedef_source(TYPEDEF)
+    info.uniform_buf(0, "ViewBlock", "view")
+    info.sampler(0, "FLOAT_2D", "positions")
+    info.sampler(1, "FLOAT_2D", "corners")
+
+
+@cache
+def _primary_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    _geometry_inputs(info)
+    Materials.declare(info, 2)
+    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_primary")
+    for kind, name in (("VEC3", "world_position"), ("VEC3", "world_normal"), ("VEC2", "uv"), ("VEC3", "vertex_color")):
+        interface.smooth(kind, name)
+    interface.flat("VEC2", "ids")
+    info.vertex_out(interface)
+    _surface_outputs(info)
+    info.vertex_source(load("primary.vert.glsl"))
+    info.fragment_source(load("primary.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _reflected_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    _geometry_inputs(info)
+    Materials.declare(info, 2)
+    info.push_constant("FLOAT", "mirror")
+    info.push_constant("FLOAT", "depth_scale")
+    for slot, name in enumerate(
+        ("reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color", "back_faces"), 3
+    ):
+        info.sampler(slot, "FLOAT_2D", name)
+    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_reflected")
+    for kind, name in (
+        ("VEC3", "world_position"),
+        ("VEC3", "world_normal"),
+        ("VEC2", "uv"),
+        ("VEC3", "vertex_color"),
+        ("FLOAT", "iterations"),
+        ("VEC3", "reflection_point"),
+        ("VEC2", "rejected"),
+    ):
+        interface.smooth(kind, name)
+    interface.flat("FLOAT", "object_id")
+    info.vertex_out(interface)
+    _surface_outputs(info)
+    info.depth_write("ANY")
+    info.vertex_source(load("reflected.vert.glsl"))
+    info.fragment_source(load("reflected.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _back_faces_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    _geometry_inputs(info)
+    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_back_faces")
+    interface.smooth("VEC3", "world_position")
+    info.vertex_out(interface)
+    info.fragment_out(0, "FLOAT", "eye_distance")
+    info.vertex_source(load("back_faces.vert.glsl"))
+    info.fragment_source(load("back_faces.frag.glsl"))
+    return gpu.shader.create_from_info(info)

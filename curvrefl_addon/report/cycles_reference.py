@@ -1,0 +1,217 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Stills of the open scene by Blender's own engines: Cycles as the truth, and the peers that we are measured against.
+
+Everything that is changed for a still is set back after it. All stills are scene-linear float32 arrays
+(height, width, 4), row 0 at the BOTTOM, of the scene's camera at its current frame, without denoising,
+compositing, sequencer, stereo or crop, and with an opaque background.
+
+The geometry is the *viewport's* (its subdivision levels, its hidden objects), since that is what the
+renderer under test is given.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import bpy
+
+from ..errors import InputError
+from ..scene.arrays import Float32Array
+from .images import load_exr
+from .temporary_settings import TemporarySettings, temporary_settings
+
+type Light = Literal["direct", "full"]
+
+LIGHTS: tuple[Light, ...] = ("direct", "full")
+PEERS = ("eevee", "cycles1", "cycles8")
+EEVEE_SAMPLES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """One rendered picture."""
+
+    pixels: Float32Array
+    """(height, width, 4) scene-linear"""
+    seconds: float
+    """Of the render call that made it, scene synchronisation included"""
+
+
+def render_reference(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    width: int,
+    height: int,
+    samples: int,
+    light: Light = "direct",
+) -> Still:
+    """The scene in Cycles on the CPU.
+
+    `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that
+    way; box-filtered pixels. 'full': the bounces, clamps and pixel filter that the user has set.
+    """
+    with temporary_settings() as changes:
+        use_still_output(changes, scene, width, height)
+        use_viewport_geometry(changes, scene, view_layer)
+        use_cycles(changes, scene, view_layer, samples, light)
+        return render_still(scene, view_layer)
+
+
+def render_peer(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    peer: str,
+    width: int,
+    height: int,
+    light: Light = "direct",
+) -> Still:
+    """The scene in one of `PEERS`. It is rendered twice; the second is kept and timed, the first compiles and loads.
+
+    'eevee' has ray tracing on and 16 samples; with `light` 'direct' its fast global illumination only occludes.
+    """
+    with temporary_settings() as changes:
+        use_still_output(changes, scene, width, height)
+        use_viewport_geometry(changes, scene, view_layer)
+        if peer == "eevee":
+            _use_eevee(changes, scene, light)
+        elif peer in ("cycles1", "cycles8"):
+            use_cycles(changes, scene, view_layer, int(peer.removeprefix("cycles")), light)
+        else:
+            raise InputError(f"Unknown peer '{peer}': choose from {', '.join(PEERS)}, or none.")
+        render_still(scene, view_layer)
+        return render_still(scene, view_layer)
+
+
+def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int) -> None:
+    """One whole plain picture of `scene` into a 32-bit EXR file."""
+    render = scene.render
+    changes.set(
+        render,
+        resolution_x=width,
+        resolution_y=height,
+        resolution_percentage=100,
+        use_border=False,
+        use_crop_to_border=False,
+        use_multiview=False,
+        use_compositing=False,
+        use_sequencer=False,
+        use_stamp=False,
+        use_freestyle=False,
+        use_motion_blur=False,
+        film_transparent=False,
+        use_file_extension=True,
+        use_overwrite=True,
+        use_placeholder=False,
+        save_output=True,
+        filepath=render.filepath,
+    )
+    changes.set(
+        render.image_settings,
+        media_type="IMAGE",
+        file_format="OPEN_EXR",
+        color_management="FOLLOW_SCENE",
+        color_mode="RGBA",
+        color_depth="32",
+        exr_codec="NONE",
+    )
+    if scene.camera is not None and scene.camera.type == "CAMERA":
+        # The renderer under test has a pinhole.
+        changes.set(scene.camera.data.dof, use_dof=False)
+    for marker in scene.timeline_markers:
+        # A marker with a camera would replace the chosen one as the render starts.
+        changes.set(marker, camera=None)
+
+
+def use_viewport_geometry(
+    changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer
+) -> None:
+    """Render what the viewport's dependency graph shows: its detail and its hidden objects."""
+    changes.set(scene.render, simplify_subdivision_render=scene.render.simplify_subdivision)
+    in_view_layer = set(view_layer.objects)
+    for obj in bpy.data.objects:
+        hidden = obj.hide_viewport or (obj in in_view_layer and not obj.visible_get(view_layer=view_layer))
+        if hidden:
+            changes.set(obj, hide_render=True)
+        for modifier in obj.modifiers:
+            changes.set(modifier, show_render=modifier.show_viewport)
+            if modifier.type in ("SUBSURF", "MULTIRES"):
+                changes.set(modifier, render_levels=modifier.levels)
+            if modifier.type == "SUBSURF":
+                changes.set(modifier, use_adaptive_subdivision=False)
+            elif modifier.type == "SCREW":
+                changes.set(modifier, render_steps=modifier.steps)
+    for curve in bpy.data.curves:
+        changes.set(curve, render_resolution_u=0, render_resolution_v=0)
+    for metaball in bpy.data.metaballs:
+        changes.set(metaball, render_resolution=metaball.resolution)
+
+
+def use_cycles(
+    changes: TemporarySettings,
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    samples: int,
+    light: Light,
+) -> None:
+    """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for `light`."""
+    if not hasattr(scene, "cycles"):
+        raise InputError("Cycles is not available: enable the add-on 'Cycles Render Engine' in the preferences.")
+    changes.set(scene.render, engine="CYCLES")
+    changes.set(
+        scene.cycles,
+        device="CPU",
+        samples=samples,
+        use_adaptive_sampling=False,
+        time_limit=0.0,
+        use_denoising=False,
+        film_exposure=1.0,
+    )
+    changes.set(view_layer, samples=0, use_pass_combined=True)
+    if light == "direct":
+        # One bounce off the mirror; what it shows is lit, then the path ends. Cycles still follows the last
+        # bounce to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
+        changes.set(
+            scene.cycles,
+            max_bounces=1,
+            diffuse_bounces=0,
+            glossy_bounces=1,
+            transmission_bounces=0,
+            volume_bounces=0,
+            sample_clamp_direct=0.0,
+            sample_clamp_indirect=0.0,
+            blur_glossy=0.0,
+            light_sampling_threshold=0.0,
+            use_fast_gi=False,
+            use_guiding=False,
+            pixel_filter_type="BOX",
+        )
+
+
+def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: Light) -> None:
+    changes.set(scene.render, engine="BLENDER_EEVEE")
+    changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES, use_raytracing=True)
+    if light == "direct":
+        changes.set(scene.eevee, fast_gi_method="AMBIENT_OCCLUSION_ONLY")
+
+
+def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Still:
+    """Render with the settings as they are (see `use_still_output`), through a file in a temporary folder."""
+    filepath = scene.render.filepath
+    with tempfile.TemporaryDirectory(prefix="curvrefl-") as folder:
+        path = Path(folder, "still.exr")
+        scene.render.filepath = str(path)
+        try:
+            start = time.perf_counter()
+            result = bpy.ops.render.render(write_still=True, scene=scene.name, layer=view_layer.name)
+            seconds = time.perf_counter() - start
+        finally:
+            scene.render.filepath = filepath
+        if "FINISHED" not in result or not path.is_file():
+            raise RuntimeError(f"{scene.render.engine} did not finish the picture of scene '{scene.name}'")
+        return Still(load_exr(path), seconds)

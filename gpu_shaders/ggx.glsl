@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Principled BSDF of Blender 5.2 as far as Curvrefl shades it: one GGX lobe over a Lambertian base.
+// Multiple scattering: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (2017), the single
+// lobe scaled by its missing energy as Turquin, "Practical multiple scattering compensation" (2019).
+// Needs the sampler (FLOAT_2D) `lighting_ggx` of renderer/lighting_ggx.py.
+
+#define GGX_TABLE_SIZE 32
+#define GGX_IOR_SLICES 16
+// Below this squared roughness squared a lobe is a mirror, which no lamp sample can hit.
+#define GGX_SINGULAR_ALPHA 7e-4
+
+const float LIGHTING_PI = 3.14159265358979;
+
+// The surface's lobes towards one viewer.
+struct Lobes {
+  vec3 diffuse;         // albedo of the Lambertian base, what the lobe above reflects taken off
+  vec3 metal_f0;        // Fresnel at normal incidence of the metal, or of a glossy BSDF at every angle
+  float metal_edge;     // 1: Schlick towards white at the edge, 0: none
+  vec3 metal_weight;    // share of the metal times its multiple scattering
+  float dielectric_weight;
+  float eta;            // IOR that gives the dielectric its reflectance after "IOR Level"
+  float alpha;          // GGX width
+  float cos_viewer;
+  vec3 specular_albedo; // of the whole lobe: metal and dielectric
+};
+
+// Never below the reflectance at normal incidence, as Cycles' generalised Schlick term.
+float fresnel_dielectric(float cosine, float eta)
+{
+  float root = (eta - 1.0) / (eta + 1.0);
+  float c = abs(cosine);
+  float g = eta * eta - 1.0 + c * c;
+  if (g <= 0.0) {
+    return 1.0;  // total reflection
+  }
+  g = sqrt(g);
+  float a = (g - c) / (g + c);
+  float b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+  return max(0.5 * a * a * (1.0 + b * b), root * root);
+}
+
+// IOR whose reflectance at normal incidence is that of `ior` times 2 * level.
+float leveled_ior(float ior, float level)
+{
+  if (level == 0.5) {
+    return ior;
+  }
+  float root = (ior - 1.0) / (ior + 1.0);
+  float f0 = min(root * root * 2.0 * max(level, 0.0), 0.99);
+  float eta = (1.0 + sqrt(f0)) / (1.0 - sqrt(f0));
+  return ior < 1.0 ? 1.0 / eta : eta;
+}
+
+vec3 schlick(vec3 f0, float edge, float cosine)
+{
+  float s = clamp(1.0 - cosine, 0.0, 1.0);
+  float s2 = s * s;
+  return mix(f0, vec3(1.0), edge * s2 * s2 * s);
+}
+
+// Slice 0: albedo of the lobe with Fresnel 1, its average over angles, 0, mean of Schlick's (1 - cos)^5.
+// Slices 1..: z = mean share of a dielectric's Fresnel term between F0 and 1.
+vec4 ggx_table(float roughness, float cosine, float slice)
+{
+  vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;
+  vec2 size = vec2(float(GGX_TABLE_SIZE * (GGX_IOR_SLICES + 1)), float(GGX_TABLE_SIZE));
+  return textureLod(lighting_ggx, (place + vec2(slice * float(GGX_TABLE_SIZE), 0.0)) / size, 0.0);
+}
+
+// Average over the lobe of the dielectric's Fresnel term.
+float dielectric_albedo(float roughness, float cosine, float eta)
+{
+  float root = (eta - 1.0) / (eta + 1.0);
+  float slice = sqrt(abs(root)) * float(GGX_IOR_SLICES - 1);
+  float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
+  float share = mix(ggx_table(roughness, cosine, below + 1.0).z, ggx_table(roughness, cosine, below + 2.0).z,
+                    slice - below);
+  return mix(root * root, 1.0, share);
+}
+
+// 1 + what scatters more than once, in parts of the single scattering; `average`: mean Fresnel over angles.
+vec3 multiple_scattering(vec3 average, vec4 table)
+{
+  vec3 more = average * table.y / (1.0 - average * (1.0 - table.y));
+  return 1.0 + more * (1.0 - table.x) / max(table.x, 1e-4);
+}
+
+Lobes lobes_of(Surface s, float cos_viewer)
+{
+  Lobes lobes;
+  float cosine = clamp(cos_viewer, 1e-4, 1.0);
+  float roughness = clamp(s.roughness, 0.0, 1.0);
+  vec4 table = ggx_table(roughness, cosine, 0.0);
+  lobes.cos_viewer = cosine;
+  lobes.alpha = roughness * roughness;
+  lobes.eta = leveled_ior(s.ior, s.specular_level);
+  lobes.metal_f0 = s.base_color;
+  if (s.glossy_only) {
+    lobes.metal_edge = 0.0;
+    lobes.metal_weight = multiple_scattering(s.base_color, table);
+    lobes.dielectric_weight = 0.0;
+    lobes.diffuse = vec3(0.0);
+    lobes.specular_albedo = table.x * s.base_color * lobes.metal_weight;
+    return lobes;
+  }
+  float metallic = clamp(s.metallic, 0.0, 1.0);
+  lobes.metal_edge = 1.0;
+  lobes.metal_weight = metallic * multiple_scattering(mix(s.base_color, vec3(1.0), 1.0 / 21.0), table);
+  lobes.specular_albedo = vec3(0.0);
+  if (metallic > 0.0) {
+    lobes.specular_albedo += table.x * lobes.metal_weight * mix(s.base_color, vec3(1.0), table.w);
+  }
+  lobes.dielectric_weight = 0.0;
+  lobes.diffuse = (1.0 - metallic) * s.base_color;
+  if (metallic < 1.0 && lobes.eta != 1.0) {
+    float average = lobes.eta < 1.0 ?
+      0.997118 + lobes.eta * (0.1014 - lobes.eta * (0.965241 + lobes.eta * 0.130607)) :
+      (lobes.eta - 1.0) / (4.08567 + 1.00071 * lobes.eta);
+    float scattering = multiple_scattering(vec3(average), table).x;
+    float albedo = dielectric_albedo(roughness, cosine, lobes.eta);
+    lobes.dielectric_weight = (1.0 - metallic) * scattering;
+    lobes.specular_albedo += vec3(table.x * lobes.dielectric_weight * albedo);
+    lobes.diffuse *= clamp(1.0 - albedo, 0.0, 1.0);
+  }
+  return lobes;
+}
+
+// BSDF of the glossy lobe times the cosine to the light; `alpha` may be wider than the surface's own.
+vec3 glossy_lobe(Lobes lobes, float alpha, vec3 normal, vec3 to_viewer, vec3 to_light, float cos_light)
+{
+  vec3 half_vector = normalize(to_viewer + to_light);
+  float cos_half = clamp(dot(normal, half_vector), 0.0, 1.0);
+  float cos_difference = clamp(dot(to_viewer, half_vector), 0.0, 1.0);
+  float alpha2 = alpha * alpha;
+  float spread = cos_half * cos_half * (alpha2 - 1.0) + 1.0;
+  float distribution = alpha2 / (LIGHTING_PI * spread * spread);
+  float cv = lobes.cos_viewer;
+  // Smith's masking and shadowing, height-correlated, over 4 cos cos
+  float lambda_v = cos_light * sqrt(alpha2 + (1.0 - alpha2) * cv * cv);
+  float lambda_l = cv * sqrt(alpha2 + (1.0 - alpha2) * cos_light * cos_light);
+  float visibility = 0.5 / max(lambda_v + lambda_l, 1e-7);
+  vec3 fresnel = lobes.metal_weight * schlick(lobes.metal_f0, lobes.metal_edge, cos_difference);
+  if (lobes.dielectric_weight > 0.0) {
+    fresnel += lobes.dielectric_weight * fresnel_dielectric(cos_difference, lobes.eta);
+  }
+  return fresnel * (distribution * visibility * cos_light);
+}
+
+// Sharp reflectance, without microfacets.
+vec3 mirror_reflectance(Surface s, float cos_viewer)
+{
+  if (s.glossy_only) {
+    return s.base_color;
+  }
+  float metallic = clamp(s.metallic, 0.0, 1.0);
+  float eta = leveled_ior(s.ior, s.specular_level);
+  return mix(vec3(fresnel_dielectric(cos_viewer, eta)), schlick(s.base_color, 1.0, cos_viewer), metallic);
+}

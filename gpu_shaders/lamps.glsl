@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lamps of renderer/lighting_lamps.py. Records of a lamp:
+//   0: place of this sub-frame's sample (sun: direction to it), kind
+//   1: intensity (sun: irradiance; area: radiance times area), width of the sample for highlights
+//   2: middle (sun: direction to it), radius
+//   3: direction in which it shines, cosine of the cone's or the sun's half angle
+//   4, 5: half axes of an area lamp (else unit), with: ellipse or smoothness of a spot's edge; seen in mirrors
+//   6: radiance of its body, kind of shadow (0 none, 1 one map, 2 cube)
+//   7..10: one map: rows that give texel x, texel y, depth and w; 11: its layer
+//   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
+#define LAMP_POINT 0
+#define LAMP_SPOT 1
+#define LAMP_SUN 2
+#define LAMP_AREA 3
+
+float spot_share(int base, vec3 from_lamp)
+{
+  float t = clamp((dot(from_lamp, lighting_data[base + 3].xyz) - lighting_data[base + 3].w) * lighting_data[base + 4].w,
+                  0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+float lamp_shadow(int base, vec3 position)
+{
+  int kind = int(lighting_data[base + 6].w);
+  if (kind == 0) {
+    return 1.0;
+  }
+  if (kind == 1) {
+    vec4 p = vec4(position, 1.0);
+    float w = dot(lighting_data[base + 10], p);
+    if (w <= 0.0) {
+      return 1.0;
+    }
+    vec3 window = vec3(dot(lighting_data[base + 7], p), dot(lighting_data[base + 8], p),
+                       dot(lighting_data[base + 9], p)) / w;
+    return lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(lighting_data[base + 11].x));
+  }
+  vec3 ray = position - lighting_data[base].xyz;
+  vec3 size = abs(ray);
+  vec2 across;
+  float depth;
+  float layer;
+  if (size.x >= size.y && size.x >= size.z) {
+    depth = size.x;
+    across = ray.yz;
+    layer = ray.x > 0.0 ? lighting_data[base + 7].x : lighting_data[base + 7].y;
+  }
+  else if (size.y >= size.z) {
+    depth = size.y;
+    across = ray.xz;
+    layer = ray.y > 0.0 ? lighting_data[base + 7].z : lighting_data[base + 7].w;
+  }
+  else {
+    depth = size.z;
+    across = ray.xy;
+    layer = ray.z > 0.0 ? lighting_data[base + 8].x : lighting_data[base + 8].y;
+  }
+  if (layer < -0.5) {
+    return 1.0;
+  }
+  vec2 texel = across / depth * lighting_data[base + 9].y + lighting_data[base + 9].x;
+  float window_depth = lighting_data[base + 8].z + lighting_data[base + 8].w / depth;
+  return lit_smooth(vec3(texel, window_depth - 1e-6), int(layer + 0.5));
+}
+
+// Radiance towards the viewer from all lamps.
+vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
+{
+  vec3 sum = vec3(0.0);
+  int count = int(lighting_data[0].x);
+  for (int i = 0; i < count; i++) {
+    int base = HEADER_RECORDS + i * LAMP_RECORDS;
+    vec4 place = lighting_data[base];
+    int kind = int(place.w);
+    vec3 to_light = place.xyz;
+    vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
+    float width = lighting_data[base + 1].w;
+    if (kind != LAMP_SUN) {
+      to_light = place.xyz - s.position;
+      float distance2 = max(dot(to_light, to_light), 1e-12);
+      to_light *= inversesqrt(distance2);
+      width *= inversesqrt(distance2);
+      if (kind == LAMP_AREA) {
+        // no closer than a share of its own size: a point stands for its surroundings
+        irradiance *= max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
+        distance2 = max(distance2, 0.25 * lighting_data[base + 1].w * lighting_data[base + 1].w);
+      }
+      else {
+        // as from a disk that faces the surface
+        vec3 to_middle = lighting_data[base + 2].xyz - s.position;
+        distance2 = dot(to_middle, to_middle) + lighting_data[base + 2].w * lighting_data[base + 2].w;
+        if (kind == LAMP_SPOT) {
+          irradiance *= spot_share(base, -to_light);
+        }
+      }
+      irradiance /= max(distance2, 1e-12);
+    }
+    float cos_light = dot(s.normal, to_light);
+    if (cos_light <= 0.0 || irradiance.r + irradiance.g + irradiance.b <= 0.0) {
+      continue;
+    }
+    irradiance *= lamp_shadow(base, s.position);
+    vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
+    // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
+    float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
+    if (alpha > GGX_SINGULAR_ALPHA) {
+      scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
+    }
+    sum += scattered * irradiance;
+  }
+  return sum;
+}
+
+// Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
+// through lamps in Cycles); alpha 1 where any is hit.
+vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
+{
+  vec4 sum = vec4(0.0);
+  int count = int(lighting_data[0].x);
+  for (int i = 0; i < count; i++) {
+    int base = HEADER_RECORDS + i * LAMP_RECORDS;
+    int kind = int(lighting_data[base].w);
+    vec3 radiance = lighting_data[base + 6].rgb;
+    if (lighting_data[base + 5].w < 0.5 || radiance.r + radiance.g + radiance.b <= 0.0) {
+      continue;
+    }
+    vec3 shines = lighting_data[base + 3].xyz;
+    bool hit = false;
+    if (kind == LAMP_SUN) {
+      hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
+    }
+    else {
+      vec3 middle = lighting_data[base + 2].xyz - origin;
+      if (kind == LAMP_AREA) {
+        float facing = dot(direction, shines);
+        float t = dot(middle, shines) / (facing == 0.0 ? 1e-30 : facing);
+        vec3 place = t * direction - middle;
+        vec3 axis_x = lighting_data[base + 4].xyz;
+        vec3 axis_y = lighting_data[base + 5].xyz;
+        vec2 across = vec2(dot(place, axis_x) / dot(axis_x, axis_x), dot(place, axis_y) / dot(axis_y, axis_y));
+        bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
+                                                       max(abs(across.x), abs(across.y)) <= 1.0;
+        hit = facing < 0.0 && t > 0.0 && t < distance && inside;
+      }
+      else {
+        // a disk that faces the ray's origin
+        float away = length(middle);
+        vec3 axis = middle / max(away, 1e-30);
+        float facing = dot(direction, axis);
+        float t = away / max(facing, 1e-30);
+        vec3 place = t * direction - middle;
+        float radius = lighting_data[base + 2].w;
+        hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
+        if (kind == LAMP_SPOT) {
+          radiance *= spot_share(base, -direction);
+        }
+      }
+    }
+    if (hit) {
+      sum += vec4(radiance, 1.0);
+    }
+  }
+  return vec4(sum.rgb, min(sum.a, 1.0));
+}

@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface_color.glsl"
+
+void main()
+{
+  vec3 normal = normalize(world_normal);
+  surface_position = vec4(world_position, ids.x);
+  surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
+  surface_color_out = vec4(surface_color(uv, vertex_color), ids.y);
+}
