@@ -4,7 +4,7 @@
 void main()
 {
   // Seen from inside, the outside of a triangle is the one that turns its back.
-  bool outside = gl_FrontFacing == (mirrored == 1);
+  bool outside = gl_FrontFacing == (inverted == 1);
   if (outside_only == 1 && !outside) {
     discard;
   }

@@ -6,6 +6,6 @@ void main()
   map_position = position;
   map_normal = normal;
   float forward = dot(axis_forward, position);
-  // Depth comes from the fragment shader; z = 0 keeps everything in front of the origin from being clipped.
-  gl_Position = vec4(dot(axis_s, position), dot(axis_t, position), 0.0, forward);
+  // Only the near plane clips; depth comes from the fragment shader.
+  gl_Position = vec4(dot(axis_s, position), dot(axis_t, position), forward - 2.0 * near, forward);
 }

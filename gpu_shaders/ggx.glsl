@@ -118,9 +118,9 @@ Lobes lobes_of(Surface s, float cos_viewer)
       0.997118 + lobes.eta * (0.1014 - lobes.eta * (0.965241 + lobes.eta * 0.130607)) :
       (lobes.eta - 1.0) / (4.08567 + 1.00071 * lobes.eta);
     float scattering = multiple_scattering(vec3(average), table).x;
-    float albedo = dielectric_albedo(roughness, cosine, lobes.eta);
+    float albedo = table.x * scattering * dielectric_albedo(roughness, cosine, lobes.eta);
     lobes.dielectric_weight = (1.0 - metallic) * scattering;
-    lobes.specular_albedo += vec3(table.x * lobes.dielectric_weight * albedo);
+    lobes.specular_albedo += vec3((1.0 - metallic) * albedo);
     lobes.diffuse *= clamp(1.0 - albedo, 0.0, 1.0);
   }
   return lobes;

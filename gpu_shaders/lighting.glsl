@@ -3,13 +3,11 @@
 // Light on a surface point towards a viewer: lamps with shadows, the world with its shadows, emission.
 // Needs the samplers and the uniform block of renderer/lighting.py (Lighting.declare).
 //
-// lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
-//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour; 2..4: rows of the rotation
-//   from world to image directions.
+// lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp.
+//   0: number of lamps, world directions per pixel here, 1 for a world image, world directions in all;
+//   1: world colour, how many directions earlier sub-frames took; 2..4: rows of the rotation from world to image.
 #define HEADER_RECORDS 8
 #define LAMP_RECORDS 12
-#define MAX_LAMPS 32
-#define DIRECTION_RECORDS 5
 
 struct Surface {
   vec3 position;   // world space

@@ -17,7 +17,7 @@ float lit_smooth(vec3 window, int layer)
   float d10 = texelFetch(lighting_lamp_depth, ivec3(texel + ivec2(1, 0), layer), 0).r;
   float d01 = texelFetch(lighting_lamp_depth, ivec3(texel + ivec2(0, 1), layer), 0).r;
   float d11 = texelFetch(lighting_lamp_depth, ivec3(texel + ivec2(1, 1), layer), 0).r;
-  vec4 lit = step(vec4(window.z), vec4(d00, d10, d01, d11));
+  vec4 lit = step(vec4(min(window.z, 1.0)), vec4(d00, d10, d01, d11));  // past the last caster: lit by the empty map
   return mix(mix(lit.x, lit.y, part.x), mix(lit.z, lit.w, part.x), part.y);
 }
 
@@ -29,5 +29,5 @@ float lit_sharp(vec3 window, int layer)
   if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) {
     return 1.0;
   }
-  return step(window.z, texelFetch(lighting_world_depth, ivec3(texel, layer), 0).r);
+  return step(min(window.z, 1.0), texelFetch(lighting_world_depth, ivec3(texel, layer), 0).r);
 }

@@ -2,9 +2,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: seen, as diffuse light with the shadows of a few directions, and in glossy lobes.
 // Needs the samplers `lighting_world_image` (FLOAT_2D, equirectangular) and `lighting_world_maps` (FLOAT_2D_ARRAY,
-// octahedral: irradiance, irradiance over that of the directions, one radiance map per roughness level).
+// octahedral: irradiance; per class of pixels irradiance over that of its directions; one radiance map per roughness
+// level; last, five texels per direction: itself and its layer of the depth maps, weight, rows to the window).
 #define WORLD_MAP_SIZE 64.0
-#define WORLD_MAP_LOBES 2
+#define PIXEL_CLASSES 16
+#define WORLD_MAP_LOBES 17
+#define WORLD_MAP_DRAWS 23
+#define DIRECTION_RECORDS 5
+
+vec4 world_draw(int record)
+{
+  return texelFetch(lighting_world_maps, ivec3(record & 63, record >> 6, WORLD_MAP_DRAWS), 0);
+}
+
+// 0..15 over a block of 4 x 4 pixels, neighbours far apart (Bayer's matrix).
+int pixel_class()
+{
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  int fine = 2 * ((p.x ^ p.y) & 1) + (p.y & 1);
+  int coarse = 2 * (((p.x ^ p.y) >> 1) & 1) + ((p.y >> 1) & 1);
+  return 4 * fine + coarse;
+}
 
 vec3 world_color()
 {
@@ -69,20 +87,23 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
   vec3 irradiance = world_map(place, 0);
   vec3 lost = vec3(0.0);
   int count = int(lighting_data[0].y);
-  int start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS;
+  int total = int(lighting_data[0].w);
+  int group = pixel_class();
+  int draw = (group * total / PIXEL_CLASSES + int(lighting_data[1].w)) % total;
   for (int i = 0; i < count; i++) {
-    vec4 light = lighting_data[start];
+    int record = DIRECTION_RECORDS * draw;
+    vec4 light = world_draw(record);
     float cos_light = dot(s.normal, light.xyz);
-    if (cos_light > 0.0) {
+    if (cos_light > 0.0 && light.w >= 0.0) {
       vec4 p = vec4(s.position, 1.0);
-      vec3 window = vec3(dot(lighting_data[start + 2], p),
-                         dot(lighting_data[start + 3], p),
-                         dot(lighting_data[start + 4], p) - 2e-6);
-      lost += lighting_data[start + 1].rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
+      vec3 window = vec3(dot(world_draw(record + 2), p),
+                         dot(world_draw(record + 3), p),
+                         dot(world_draw(record + 4), p) - 2e-6);
+      lost += world_draw(record + 1).rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
     }
-    start += DIRECTION_RECORDS;
+    draw = draw + 1 == total ? 0 : draw + 1;
   }
-  vec3 seen = irradiance - world_map(place, 1) * lost;
+  vec3 seen = irradiance - world_map(place, 1 + group) * lost;
   vec3 light = lobes.diffuse * seen / LIGHTING_PI;
   if (max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
     vec3 reflected = reflect(-to_viewer, s.normal);

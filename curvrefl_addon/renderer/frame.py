@@ -96,7 +96,7 @@ class Renderer:
         self._materials = Materials(scene)
         self._lighting = Lighting(scene, flatten(scene), self.settings.samples)
         self.warnings += self._lighting.warnings
-        self._shade = ShadePass(self._lighting, self._materials)
+        self._shade = ShadePass(scene, self._lighting, self._materials)
         self._targets: _Targets | None = None
         self._cubes: list[EnvironmentCube] | None = None
         self._solved: tuple[View, list[VertexSolution]] | None = None

@@ -21,20 +21,25 @@ from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .lighting_shadow_maps import ShadowCasters, ShadowMaps
 from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
-from .lighting_world import world_light
+from .lighting_world import MAP_SIZE, world_light
 
 HEADER_RECORDS = 8
-DIRECTION_RECORDS = 5
-MAX_DIRECTIONS = 32
-"""World directions per sub-frame"""
-DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
+DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS
 """vec4 records of the uniform block; as in lighting.glsl"""
+DIRECTION_RECORDS = 5
+"""Texels per world direction"""
 SAMPLER_COUNT = 5
 MAX_LAMP_SAMPLES = 16
-WORLD_DIRECTIONS = 64
-"""World directions of a whole picture of 16 sub-frames"""
-WORLD_MAP_RESOLUTION = 512
-LAMP_MAP_BYTES = 128 << 20
+WORLD_DRAWS = 256
+"""World directions of all pixels together"""
+WORLD_DRAWS_PER_PIXEL = 96
+"""World directions of one pixel over all sub-frames"""
+MOST_DRAWS_AT_ONCE = 32
+"""World directions of one pixel in one sub-frame"""
+WORLD_MAP_RESOLUTION = 256
+LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
+LAMP_MAP_BYTES = 80 << 20
+"""The finest resolution that fits is taken"""
 
 
 class Lighting:
@@ -81,9 +86,9 @@ class Lighting:
         """
         index = sub_frame % self.sub_frames
         if index not in self._blocks:
-            lamp_layers, world_layers, records = self._records(index)
+            lamp_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers)
-            self._world_maps.draw(world_layers)
+            self._world_maps.draw(range(len(self._world_maps.views)))
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
@@ -112,12 +117,19 @@ class Lighting:
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         points = [lamp_points(light, self._samples, index) for index, light in enumerate(self._lights)]
-        total = sum(len(place) for place, light in zip(points, self._lights, strict=True) if light.casts_shadow)
-        resolution = 2048 if total <= 4 else 1024
-        while resolution > 256 and total * resolution * resolution * 4 > LAMP_MAP_BYTES:
-            resolution //= 2
+        resolution = LAMP_MAP_RESOLUTIONS[0]
+        for resolution in LAMP_MAP_RESOLUTIONS:
+            self._lamp_places, views = self._lamp_views(points, resolution)
+            if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
+                break
+        self._lamp_maps = ShadowMaps(self._casters, resolution, views)
+
+    def _lamp_views(
+        self, points: list[Float64Array], resolution: int
+    ) -> tuple[list[list[tuple[Float64Array, tuple[int, ...]]]], list[ShadowView]]:
+        """Per lamp its points with the layers of their maps (-1: nothing in shadow there), and all views."""
         views: list[ShadowView] = []
-        self._lamp_places: list[list[tuple[Float64Array, tuple[int, ...]]]] = []
+        lamps = []
         for light, places in zip(self._lights, points, strict=True):
             planned = []
             for place in places:
@@ -132,27 +144,43 @@ class Lighting:
                     if view is not None:
                         views.append(view)
                 planned.append((place, tuple(layers)))
-            self._lamp_places.append(planned)
-        self._lamp_maps = ShadowMaps(self._casters, resolution, views)
+            lamps.append(planned)
+        return lamps, views
 
     def _plan_world(self, scene: SceneArrays) -> None:
-        world = scene.world
+        """Choose the world's directions and their shadow views; fill its textures.
+
+        Layers of the maps: irradiance, ratios per pixel class, lobes, and the draws as records.
+        """
+        world = self._world = scene.world
         lit = max(world.color) > 0.0
-        per_frame = min(max(-(-WORLD_DIRECTIONS // self.sub_frames), 2), MAX_DIRECTIONS) if lit else 0
-        self._subsets = min(self.sub_frames, 2 * WORLD_DIRECTIONS // max(per_frame, 1))
-        self._light = world_light(world, max(per_frame * self._subsets, 1))
-        self._world = world
+        light = world_light(world, WORLD_DRAWS)
+        self._draws_at_once = min(-(-WORLD_DRAWS_PER_PIXEL // self.sub_frames), MOST_DRAWS_AT_ONCE) if lit else 0
         views: list[ShadowView] = []
-        self._world_layers: list[int] = []
-        for direction in self._light.directions if lit else ():
+        layers = np.full(len(light.directions), -1)
+        for index, direction in enumerate(light.directions if lit else ()):
             view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
-            self._world_layers.append(-1 if view is None else len(views))
             if view is not None:
+                layers[index] = len(views)
                 views.append(view)
         self._world_maps = ShadowMaps(self._casters, WORLD_MAP_RESOLUTION, views)
-        maps = self._light.maps
+        rows = [_window_rows(view, WORLD_MAP_RESOLUTION)[:3] for view in views]
+        self._draw_count = len(light.draws)
+        draws = np.zeros((MAP_SIZE * MAP_SIZE, 4), np.float32)
+        records = draws[: self._draw_count * DIRECTION_RECORDS].reshape(-1, DIRECTION_RECORDS, 4)
+        records[:, 0, :3] = light.directions[light.draws]
+        records[:, 0, 3] = layers[light.draws]
+        records[:, 1, :3] = light.weights * (self._draw_count / max(self._draws_at_once, 1))
+        for record, layer in zip(records, layers[light.draws], strict=True):
+            if layer >= 0:
+                record[2:5] = rows[layer]
+        run = min(self._draws_at_once * self.sub_frames, self._draw_count)
+        colors = np.concatenate([light.irradiance[None], light.ratios(max(run, 1)), light.lobes])
+        maps = np.ones((len(colors) + 1, MAP_SIZE, MAP_SIZE, 4), np.float32)
+        maps[:-1, ..., :3] = colors
+        maps[-1] = draws.reshape(MAP_SIZE, MAP_SIZE, 4)
         self._world_textures = gpu.types.GPUTexture(
-            (maps.shape[2], maps.shape[1]), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
+            (MAP_SIZE, MAP_SIZE), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
         )
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
@@ -161,35 +189,22 @@ class Lighting:
             image[..., :3] = world.image
             self._world_image = texture_2d(image, linear=True, repeat=True)
 
-    def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
-        """Layers that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+    def _records(self, index: int) -> tuple[list[int], Float64Array]:
+        """Lamp layers that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
         records = np.zeros((DATA_RECORDS, 4))
-        lamp_layers: list[int] = []
+        needed: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):
             place, layers = planned[index % len(planned)]
             start = HEADER_RECORDS + row * LAMP_RECORDS
             block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
             self._shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
-            lamp_layers += [layer for layer in layers if layer >= 0]
-        chosen = range(index % self._subsets, len(self._world_layers), self._subsets)
-        start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS
-        world_layers = []
-        for direction in chosen:
-            layer = self._world_layers[direction]
-            if layer < 0:
-                continue
-            view = self._world_maps.views[layer]
-            records[start, :3] = self._light.directions[direction]
-            records[start, 3] = layer
-            records[start + 1, :3] = self._light.weights[direction] * self._subsets
-            records[start + 2 : start + 5] = _window_rows(view, self._world_maps.resolution)[:3]
-            start += DIRECTION_RECORDS
-            world_layers.append(layer)
-        records[0] = [len(self._lights), len(world_layers), 0.0 if self._world.image is None else 1.0, 0.0]
+            needed += [layer for layer in layers if layer >= 0]
+        records[0] = [len(self._lights), self._draws_at_once, float(self._world.image is not None), self._draw_count]
         records[1, :3] = self._world.color
+        records[1, 3] = index * self._draws_at_once
         records[2:5, :3] = self._world.rotation
-        return lamp_layers, world_layers, records
+        return needed, records
 
     def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
         """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""

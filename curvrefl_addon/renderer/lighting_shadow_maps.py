@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
@@ -48,7 +49,7 @@ class ShadowMaps:
         self.texture.filter_mode(False)
         self._drawn = [False] * len(views)
 
-    def draw(self, layers: list[int]) -> None:
+    def draw(self, layers: Iterable[int]) -> None:
         """Make sure that these layers are there; restores the frame buffer and the state."""
         missing = [layer for layer in layers if not self._drawn[layer]]
         if not missing:

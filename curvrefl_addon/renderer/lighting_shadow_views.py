@@ -102,23 +102,24 @@ class SceneExtent:
         cast, receive = self.positions[casters] - place, self.positions[receivers] - place
         far = 1.05 * float(np.sqrt((cast**2).sum(axis=1).max()))
         near = 1e-3 * far
-        axis = np.concatenate([cast, receive]).mean(axis=0)
+        axis = 0.5 * (cast.min(axis=0) + cast.max(axis=0))
         length = np.linalg.norm(axis)
-        if length > 0.0:
+        cast_slopes = _slopes(cast @ _axes(-axis / length).T) if length > 0.0 else None
+        if cast_slopes is not None and np.all(np.abs(cast_slopes) < WIDEST_TANGENT):
             axes = _axes(-axis / length)
-            bounds = [_slopes(points @ axes.T) for points in (cast, receive)]
-            if bounds[0] is not None and bounds[1] is not None:
-                low = np.maximum(bounds[0][0], bounds[1][0])
-                high = np.minimum(bounds[0][1], bounds[1][1])
+            low, high = cast_slopes
+            receive_slopes = _slopes(receive @ axes.T)
+            if receive_slopes is not None:
+                low, high = np.maximum(low, receive_slopes[0]), np.minimum(high, receive_slopes[1])
                 if np.any(high < low):
                     return ()
-                if np.all(np.abs([low, high]) < WIDEST_TANGENT):
-                    low, high = _widened(low, high, resolution, 1e-3)
-                    return (_perspective(place, axes, low, high, near, far, resolution),)
+            low, high = _widened(low, high, resolution, 1e-3)
+            return (_perspective(place, axes, low, high, near, far, resolution),)
         low, high = _widened(np.array([-1.0, -1.0]), np.array([1.0, 1.0]), resolution, 0.0)
+        casting = np.isin(self.triangles, casters).all(axis=1) & self.casts
+        cast_triangles = self.positions[self.triangles[casting]] - place
         return tuple(
             _perspective(place, axes, low, high, near, far, resolution) if _meets_pyramid(cast_triangles, axes) else None
-            for cast_triangles in [self.positions[self.triangles[self.casts]] - place]
             for axes in CUBE_AXES
         )
 

@@ -21,6 +21,8 @@ MAP_SIZE = 64
 """Texels along an octahedral map, as WORLD_MAP_SIZE in world_light.glsl"""
 ROUGHNESS_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8, 1.0)
 """Of the maps of the glossy lobe, as in world_light.glsl"""
+PIXEL_CLASSES = 16
+"""Pixels of a 4 x 4 block see different directions; as in world_light.glsl"""
 SMALLEST_PATCH = np.radians(1.5)
 
 
@@ -29,35 +31,67 @@ class WorldLight:
     """Everything in world directions (not the image's)."""
 
     directions: Float64Array
-    """(k, 3) unit, towards the light"""
+    """(d, 3) unit, towards the light: one shadow map each"""
+    draws: np.ndarray
+    """(k,) indices into `directions`, the bright ones several times; any few in a row stand for the whole sky"""
     weights: Float64Array
-    """(k, 3) radiance times solid angle; sums to the integral over the sphere"""
-    maps: Float32Array
-    """(2 + levels, MAP_SIZE, MAP_SIZE, 4): irradiance by normal; irradiance over that of the directions; then per
-    roughness level the radiance that the lobe about a reflected direction sees"""
+    """(k, 3) radiance times solid angle of each draw; sums to the integral over the sphere"""
+    irradiance: Float64Array
+    """(MAP_SIZE, MAP_SIZE, 3) by normal, octahedral"""
+    lobes: Float64Array
+    """(levels, MAP_SIZE, MAP_SIZE, 3) radiance that the lobe about a reflected direction sees, per roughness level"""
+
+    def ratios(self, run: int) -> Float64Array:
+        """(PIXEL_CLASSES, MAP_SIZE, MAP_SIZE, 3): irradiance over that of the `run` draws that a pixel class sees.
+
+        Class c sees the draws from `class_start(c)` on; their weights stand for all.
+        """
+        normals = octahedral_directions(MAP_SIZE).reshape(-1, 3)
+        cosines = np.maximum(normals @ self.directions.T, 0.0)
+        count = len(self.draws)
+        result = np.ones((PIXEL_CLASSES, len(normals), 3))
+        for pixel_class in range(PIXEL_CLASSES):
+            seen = (class_start(pixel_class, count) + np.arange(run)) % count
+            by_draws = cosines[:, self.draws[seen]] @ self.weights[seen] * (count / run)
+            np.divide(self.irradiance.reshape(-1, 3), by_draws, out=result[pixel_class], where=by_draws > 0.0)
+        return np.clip(result, 0.0, 4.0).reshape(PIXEL_CLASSES, MAP_SIZE, MAP_SIZE, 3)
+
+
+def class_start(pixel_class: int, count: int) -> int:
+    """First draw of a pixel class."""
+    return pixel_class * count // PIXEL_CLASSES
+
+
+_last: list[tuple[WorldArrays, int, WorldLight]] = []
 
 
 def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """`count` directions and the maps of a world."""
-    sky_directions, solid_angles, radiance = _sky(world)
-    directions, weights = _quadrature(world, sky_directions, solid_angles, radiance, count)
-    normals = octahedral_directions(MAP_SIZE).reshape(-1, 3)
-    power = radiance * solid_angles[:, None]
+    """About `count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
+    for known, known_count, light in _last:
+        same = known.image is world.image and known.color == world.color
+        if same and known_count == count and np.array_equal(known.rotation, world.rotation):
+            return light
+    sky = _Sky.of(world, 64)
+    coarse = _Sky.of(world, 32)
+    normals = octahedral_directions(MAP_SIZE).reshape(-1, 3).astype(np.float32)
+    directions, draws, weights = _uniform(world, count) if world.image is None else _by_power(sky, count)
     if world.image is None:
         irradiance = np.tile(np.pi * np.asarray(world.color), (len(normals), 1))
+        lobes = np.tile(np.asarray(world.color, np.float64), (len(ROUGHNESS_LEVELS), len(normals), 1))
     else:
-        irradiance = np.maximum(normals @ sky_directions.T, 0.0, dtype=np.float32) @ power
-    by_directions = np.maximum(normals @ directions.T, 0.0) @ weights
-    ratio = np.where(by_directions > 0.0, irradiance / np.maximum(by_directions, 1e-30), 1.0)
-    layers = [irradiance, np.clip(ratio, 0.0, 4.0)]
-    for roughness in ROUGHNESS_LEVELS:
-        if world.image is None:
-            layers.append(np.tile(np.asarray(world.color, np.float64), (len(normals), 1)))
-        else:
-            layers.append(_lobe_radiance(world, roughness, normals))
-    maps = np.ones((len(layers), MAP_SIZE, MAP_SIZE, 4), np.float32)
-    maps[..., :3] = np.stack(layers).reshape(len(layers), MAP_SIZE, MAP_SIZE, 3)
-    return WorldLight(directions, weights, maps)
+        irradiance = np.maximum(normals @ coarse.directions.T.astype(np.float32), 0.0) @ coarse.power
+        lobes = np.stack(
+            [_lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS]
+        )
+    light = WorldLight(
+        directions,
+        draws,
+        weights,
+        np.asarray(irradiance, np.float64).reshape(MAP_SIZE, MAP_SIZE, 3),
+        lobes.reshape(len(ROUGHNESS_LEVELS), MAP_SIZE, MAP_SIZE, 3),
+    )
+    _last[:] = [(world, count, light)]
+    return light
 
 
 def octahedral_directions(size: int) -> Float64Array:
@@ -85,101 +119,135 @@ def image_directions(height: int, width: int) -> tuple[Float64Array, Float64Arra
 
 
 def _shrunk(image: Float32Array, height: int) -> Float64Array:
-    """The image averaged down to about `height` rows and twice as many columns, never up."""
-    rows, columns = image.shape[0] // max(image.shape[0] // height, 1), image.shape[1] // max(
-        image.shape[1] // (2 * height), 1
-    )
-    tall = np.add.reduceat(image, np.arange(rows) * image.shape[0] // rows, axis=0, dtype=np.float64)
-    both = np.add.reduceat(tall, np.arange(columns) * image.shape[1] // columns, axis=1)
-    row_counts = np.diff(np.append(np.arange(rows) * image.shape[0] // rows, image.shape[0]))
-    column_counts = np.diff(np.append(np.arange(columns) * image.shape[1] // columns, image.shape[1]))
-    return both / (row_counts[:, None, None] * column_counts[None, :, None])
+    """The image averaged down to `height` rows and twice as many columns, never up."""
+    shape = (min(height, image.shape[0]), min(2 * height, image.shape[1]))
+    for axis, parts in enumerate(shape):
+        starts = np.arange(parts) * image.shape[axis] // parts
+        counts = np.diff(np.append(starts, image.shape[axis])).reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
+        image = np.add.reduceat(image, starts, axis=axis) / counts.astype(np.float32)
+    return image.astype(np.float64)
 
 
-def _sky(world: WorldArrays, height: int = 64) -> tuple[Float64Array, Float64Array, Float64Array]:
-    """World directions (n, 3), solid angles (n,) and radiances (n, 3) of the sky's patches."""
-    if world.image is None:
-        pixels = np.broadcast_to(np.asarray(world.color, np.float64), (16, 32, 3))
-    else:
-        pixels = _shrunk(world.image, height) * np.asarray(world.color)
-    directions, solid = image_directions(*pixels.shape[:2])
-    solid_angles = np.broadcast_to(solid[:, None], pixels.shape[:2])
-    return (directions @ world.rotation).reshape(-1, 3), solid_angles.ravel(), pixels.reshape(-1, 3).copy()
+@dataclass(frozen=True, slots=True)
+class _Sky:
+    """The sky in patches, world directions."""
+
+    directions: Float64Array
+    """(n, 3) unit, the middle of each patch's power"""
+    solid_angles: Float64Array
+    """(n,)"""
+    power: Float64Array
+    """(n, 3) radiance times solid angle"""
+
+    @staticmethod
+    def of(world: WorldArrays, height: int) -> _Sky:
+        """`height` rows of patches, twice as many columns."""
+        if world.image is None:
+            pixels = np.broadcast_to(np.asarray(world.color, np.float64), (height, 2 * height, 3))
+        else:
+            pixels = _shrunk(world.image, height) * np.asarray(world.color)
+        directions, solid = image_directions(*pixels.shape[:2])
+        solid_angles = np.broadcast_to(solid[:, None], pixels.shape[:2]).ravel()
+        power = pixels.reshape(-1, 3) * solid_angles[:, None]
+        return _Sky((directions @ world.rotation).reshape(-1, 3), solid_angles, power)
 
 
-def _quadrature(
-    world: WorldArrays, directions: Float64Array, solid_angles: Float64Array, radiance: Float64Array, count: int
-) -> tuple[Float64Array, Float64Array]:
-    """Directions and weights; neighbours in the list are far apart on the sky, so that any few in a row stand for all."""
-    if world.image is None:
-        index = np.arange(count) + 0.5
-        height = 1.0 - 2.0 * index / count
-        turn = np.pi * (1.0 + np.sqrt(5.0)) * index
-        flat = np.sqrt(1.0 - height**2)
-        chosen = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height])
-        weights = np.tile(4.0 * np.pi / count * np.asarray(world.color, np.float64), (count, 1))
-    else:
-        power = radiance * solid_angles[:, None]
-        groups = _median_cut(directions, power.sum(axis=1), count)
-        chosen = np.empty((len(groups), 3))
-        weights = np.empty((len(groups), 3))
-        for row, members in enumerate(groups):
-            energy = power[members].sum(axis=1) + 1e-12
-            middle = energy @ directions[members]
-            chosen[row] = middle / np.linalg.norm(middle)
-            weights[row] = power[members].sum(axis=0)
-    order = _spread_order(len(chosen))
-    return chosen[order], weights[order]
+def _uniform(world: WorldArrays, count: int) -> tuple[Float64Array, np.ndarray, Float64Array]:
+    """Directions spread evenly (Sobol's first two dimensions on the sphere by equal areas), each drawn once."""
+    first, second = _sobol(count)
+    height = 1.0 - 2.0 * (first + 0.5 / count)
+    turn = 2.0 * np.pi * second
+    flat = np.sqrt(1.0 - height**2)
+    directions = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height])
+    weights = np.tile(4.0 * np.pi / count * np.asarray(world.color, np.float64), (count, 1))
+    return directions, np.arange(count), weights
 
 
-def _spread_order(count: int) -> np.ndarray:
-    """Permutation that steps through 0..count-1 by about the golden section."""
-    step = max(int(round(count * 0.6180339887)), 1)
-    while np.gcd(step, count) != 1:
-        step += 1
-    return (np.arange(count) * step) % count
+def _by_power(sky: _Sky, count: int) -> tuple[Float64Array, np.ndarray, Float64Array]:
+    """Directions of patches of about equal power; what has more (a sun) is drawn several times."""
+    energy = sky.power.sum(axis=1)
+    groups = _median_cut(sky.directions, energy, max(count * 3 // 4, 1))
+    directions = np.empty((len(groups), 3))
+    weights = np.empty((len(groups), 3))
+    for row, members in enumerate(groups):
+        middle = (energy[members] + 1e-12) @ sky.directions[members]
+        directions[row] = middle / max(float(np.linalg.norm(middle)), 1e-12)
+        weights[row] = sky.power[members].sum(axis=0)
+    times = _shares(weights.sum(axis=1), count)
+    draws = np.repeat(np.arange(len(groups)), times)
+    order = np.rint(_sobol(count)[0] * count).astype(np.int64)
+    return directions, draws[order], (weights / times[:, None])[draws[order]]
+
+
+def _shares(energy: Float64Array, count: int) -> np.ndarray:
+    """At least one each and `count` in all, else in proportion to `energy`."""
+    times = np.ones(len(energy), np.int64)
+    for _ in range(count - len(energy)):
+        times[np.argmax(energy / times)] += 1
+    return times
+
+
+def _sobol(count: int) -> tuple[Float64Array, Float64Array]:
+    """First two dimensions of Sobol's sequence; aligned runs of a power of two are stratified in both."""
+    first, second = np.zeros(count), np.zeros(count)
+    bits = max(int(count - 1).bit_length(), 1)
+    direction = 1 << (bits - 1)
+    columns = []
+    for _ in range(bits):
+        columns.append(direction)
+        direction ^= direction >> 1
+    for index in range(count):
+        a = b = 0
+        for bit in range(bits):
+            if index >> bit & 1:
+                a ^= 1 << (bits - 1 - bit)
+                b ^= columns[bit]
+        first[index], second[index] = a / (1 << bits), b / (1 << bits)
+    return first, second
 
 
 def _median_cut(directions: Float64Array, energy: Float64Array, count: int) -> list[np.ndarray]:
-    """Cut the sky into `count` groups of indices: always the one with the most energy times extent, across its length."""
+    """Cut the sky into `count` groups of indices: always the one with the most energy times extent, across its length.
+
+    The groups come in the order of the tree of cuts, so neighbours in the list are neighbours on the sky.
+    """
 
     def priority(members: np.ndarray) -> float:
         extent = float(np.linalg.norm(np.ptp(directions[members], axis=0)))
-        return energy[members].sum() * max(extent - SMALLEST_PATCH, 0.0)
+        return float(energy[members].sum()) * max(extent - SMALLEST_PATCH, 0.0)
 
     everything = np.arange(len(directions))
-    heap: list[tuple[float, int, np.ndarray]] = [(-priority(everything), 0, everything)]
-    done: list[np.ndarray] = []
-    serial = 0
+    # (-priority, place in the tree, width there, members)
+    heap: list[tuple[float, float, float, np.ndarray]] = [(-priority(everything), 0.0, 1.0, everything)]
+    done: list[tuple[float, float, float, np.ndarray]] = []
     while heap and len(heap) + len(done) < count:
-        value, _, members = heapq.heappop(heap)
+        group = heapq.heappop(heap)
+        value, place, width, members = group
         if value >= 0.0 or len(members) < 2:
-            done.append(members)
+            done.append(group)
             continue
         axis = int(np.argmax(np.ptp(directions[members], axis=0)))
         members = members[np.argsort(directions[members, axis], kind="stable")]
         running = np.cumsum(energy[members] + 1e-12)
         cut = int(np.clip(np.searchsorted(running, 0.5 * running[-1]), 1, len(members) - 1))
-        for part in (members[:cut], members[cut:]):
-            serial += 1
-            heapq.heappush(heap, (-priority(part), serial, part))
-    return done + [members for _, _, members in sorted(heap, key=lambda item: item[1])]
+        for side, part in enumerate((members[:cut], members[cut:])):
+            heapq.heappush(heap, (-priority(part), place + 0.5 * width * side, 0.5 * width, part))
+    return [members for _, _, _, members in sorted(done + heap, key=lambda group: group[1])]
 
 
-def _lobe_radiance(world: WorldArrays, roughness: float, reflected: Float64Array) -> Float64Array:
+def _lobe_radiance(sky: _Sky, roughness: float, reflected: Float32Array) -> Float64Array:
     """Radiance (n, 3) seen by the GGX lobe about each reflected direction, normal and viewer along it.
 
     The split-sum's first factor (Karis, "Real Shading in Unreal Engine 4", 2013).
     """
-    directions, solid_angles, radiance = _sky(world, 64 if roughness < 0.45 else 32)
     alpha2 = np.float32(roughness**4)
-    power = np.column_stack([radiance * solid_angles[:, None], solid_angles]).astype(np.float32)
+    power = np.column_stack([sky.power, sky.solid_angles]).astype(np.float32)
+    directions = sky.directions.T.astype(np.float32)
     result = np.empty((len(reflected), 4), np.float32)
-    sky = directions.T.astype(np.float32)
-    for start in range(0, len(reflected), 512):
-        cosine = reflected[start : start + 512].astype(np.float32) @ sky
-        kernel = (0.5 + 0.5 * cosine) * (alpha2 - np.float32(1.0)) + np.float32(1.0)
+    for start in range(0, len(reflected), 256):
+        cosine = reflected[start : start + 256] @ directions
+        kernel = cosine * (np.float32(0.5) * (alpha2 - np.float32(1.0))) + np.float32(0.5) * (alpha2 + np.float32(1.0))
         np.square(kernel, out=kernel)
         np.divide(np.maximum(cosine, 0.0, out=cosine), kernel, out=kernel)
-        result[start : start + 512] = kernel @ power
+        result[start : start + 256] = kernel @ power
     return (result[:, :3] / np.maximum(result[:, 3:], 1e-30)).astype(np.float64)

@@ -11,6 +11,7 @@ from typing import Any
 import gpu
 
 from ...gpu_shaders.loader import load
+from ..scene.arrays import SceneArrays
 from .gpu_objects import drawing_state, full_screen_triangle
 from .lighting import Lighting
 from .materials import Materials
@@ -24,9 +25,17 @@ _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 class ShadePass:
     """Lights surface buffers of one scene."""
 
-    def __init__(self, lighting: Lighting, materials: Materials) -> None:
+    def __init__(self, scene: SceneArrays, lighting: Lighting, materials: Materials) -> None:
         self._lighting = lighting
         self._materials = materials
+        self._has_bodies = any(light.radius > 0.0 or light.kind in ("AREA", "SUN") for light in scene.lights)
+        self._has_base = any(
+            not scene.materials[index].glossy_only
+            and (scene.materials[index].metallic < 1.0 or max(scene.materials[index].emission) > 0.0)
+            for instance in scene.instances
+            if instance.object_id in scene.reflectors
+            for index in instance.materials
+        )
 
     def add(
         self,
@@ -41,31 +50,35 @@ class ShadePass:
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment cube texture that stands
         for it.
         """
-        vertices = isinstance(reflected, SurfaceBuffer)
-        shader = _shade_shader(not vertices)
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            shader.bind()
-            shader.uniform_block("view", view_uniforms)
-            shader.uniform_float("weight", weight)
-            shader.uniform_sampler("materials", self._materials.table)
-            for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
-                shader.uniform_sampler(name, texture)
-            self._lighting.bind(shader)
-            if vertices:
+            if isinstance(reflected, SurfaceBuffer):
+                shader = self._bound(_shade_shader(False), seen, view_uniforms, weight)
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
                 full_screen_triangle().draw(shader)
             else:
+                shader = self._bound(_shade_shader(True), seen, view_uniforms, weight)
                 for number, cube in enumerate(reflected, 1):
                     shader.uniform_float("mirror", float(number))
                     shader.uniform_sampler("environment", cube)
                     full_screen_triangle().draw(shader)
+            if self._has_base or self._has_bodies:
+                full_screen_triangle().draw(self._bound(_front_shader(self._has_base), seen, view_uniforms, weight))
+
+    def _bound(self, shader: Any, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> Any:
+        shader.bind()
+        shader.uniform_block("view", view_uniforms)
+        shader.uniform_float("weight", weight)
+        shader.uniform_sampler("materials", self._materials.table)
+        for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
+            shader.uniform_sampler(name, texture)
+        self._lighting.bind(shader)
+        return shader
 
 
-@cache
-def _shade_shader(cube: bool) -> Any:
+def _info() -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(TYPEDEF)
     info.vertex_in(0, "VEC2", "pos")
@@ -75,6 +88,13 @@ def _shade_shader(cube: bool) -> Any:
     info.sampler(0, "FLOAT_2D", "materials")
     for slot, name in enumerate(_SEEN, 1):
         info.sampler(slot, "FLOAT_2D", name)
+    info.vertex_source(load("full_screen.vert.glsl"))
+    return info
+
+
+@cache
+def _shade_shader(cube: bool) -> Any:
+    info = _info()
     if cube:
         info.define("ENVIRONMENT_CUBE")
         info.push_constant("FLOAT", "mirror")
@@ -85,6 +105,15 @@ def _shade_shader(cube: bool) -> Any:
             info.sampler(slot, "FLOAT_2D", name)
         used = 7
     Lighting.declare(info, used)
-    info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("shade.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _front_shader(has_base: bool) -> Any:
+    info = _info()
+    if has_base:
+        info.define("MIRROR_BASE")
+    Lighting.declare(info, 4)
+    info.fragment_source(load("shade_front.frag.glsl"))
     return gpu.shader.create_from_info(info)

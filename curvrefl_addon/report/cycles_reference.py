@@ -54,7 +54,7 @@ def render_reference(
     """The scene in Cycles on the CPU.
 
     `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that
-    way; box-filtered pixels. 'full': the bounces, clamps and pixel filter that the user has set.
+    way; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter that the user has set.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
@@ -126,6 +126,8 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
     for marker in scene.timeline_markers:
         # A marker with a camera would replace the chosen one as the render starts.
         changes.set(marker, camera=None)
+    # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
+    changes.set(scene, camera=scene.camera)
 
 
 def use_viewport_geometry(
@@ -189,7 +191,9 @@ def use_cycles(
             light_sampling_threshold=0.0,
             use_fast_gi=False,
             use_guiding=False,
-            pixel_filter_type="BOX",
+            # Blender's default, which the renderer's anti-aliasing follows.
+            pixel_filter_type="BLACKMAN_HARRIS",
+            filter_width=1.5,
         )
 
 
@@ -197,6 +201,7 @@ def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: Light)
     changes.set(scene.render, engine="BLENDER_EEVEE")
     changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES, use_raytracing=True)
     if light == "direct":
+        changes.set(scene.render, filter_size=1.5)
         changes.set(scene.eevee, fast_gi_method="AMBIENT_OCCLUSION_ONLY")
 
 

@@ -17,12 +17,26 @@ SPHERE, FLOOR, CUBE = 37, 70001, 5
 IDS = {"sphere": SPHERE, "floor": FLOOR, "cube": CUBE}
 
 
-def sphere_with_exact_normals(name: str) -> bpy.types.Object:
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128, radius=RADIUS)
-    sphere = bpy.context.object
-    sphere.name = name
-    bpy.ops.object.shade_smooth()
-    return sphere
+def sphere(name: str, columns: int = 256, rows: int = 128) -> bpy.types.Object:
+    """A smooth sphere about the origin, fine enough for its normals to be the exact ones."""
+    longitude, latitude = np.meshgrid(np.arange(columns) * 2 * np.pi / columns, np.arange(1, rows) * np.pi / rows)
+    ring = np.stack((np.cos(longitude) * np.sin(latitude), np.sin(longitude) * np.sin(latitude), np.cos(latitude)), 2)
+    vertices = np.concatenate((RADIUS * ring.reshape(-1, 3), [(0, 0, RADIUS), (0, 0, -RADIUS)]))
+    top, bottom = len(vertices) - 2, len(vertices) - 1
+    faces: list[tuple[int, ...]] = []
+    for column in range(columns):
+        after = (column + 1) % columns
+        starts = [row * columns for row in range(rows - 1)]
+        faces.append((top, starts[0] + column, starts[0] + after))
+        faces.append((starts[-1] + after, starts[-1] + column, bottom))
+        faces += [(a + after, a + column, b + column, b + after) for a, b in zip(starts, starts[1:], strict=False)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(vertices.tolist(), [], faces)
+    mesh.shade_smooth()
+    mesh.update()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
 
 
 @pytest.fixture
@@ -31,7 +45,7 @@ def scene() -> bpy.types.Scene:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.world = bpy.data.worlds.new("world")
-    sphere_with_exact_normals("sphere")
+    sphere("sphere")
     bpy.ops.mesh.primitive_plane_add(size=2 * FLOOR_HALF, location=(0, 0, FLOOR_Z))
     bpy.context.object.name = "floor"
     bpy.context.object.data.materials.append(bpy.data.materials.new("wood"))

@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Methods against Cycles and against Blender's fast engines, on one view of one scene.
+
+Writes `report.json`, `report.html`, `reference.png`, METHOD.png, METHOD_error.png and PEER.png into a folder.
+They are made in a temporary folder beside and moved at the end: a comparison that fails leaves nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import bpy
+import gpu
+
+from ..errors import InputError
+from ..optics.catalogue import METHODS
+from ..renderer.frame import Renderer, Settings
+from ..scene.arrays import Float32Array, Int32Array, SceneArrays
+from ..scene.view import View
+from .cycles_reference import LIGHTS, PEERS, Light, render_peer, render_reference
+from .display import inverse_display_transform
+from .geometry_reference import GeometryReference, render_geometry
+from .html import report_page
+from .images import save_png
+from .metrics import BoolArray, error_map, flip_in_mask, geometry_error, mask_mismatch, psnr_in_mask
+
+DEFAULT_METHODS = ("secant_star", "environment_cube")
+LARGEST_SIDE = 8192
+MOST_SAMPLES = 65536
+TIMED_FRAMES = 3
+
+type Progress = Callable[[str], None]
+
+
+class FrameLike(Protocol):
+    """What a comparison reads of `renderer.frame.Frame`."""
+
+    times_ms: dict[str, float]
+    warnings: tuple[str, ...]
+
+    @property
+    def solve(self) -> dict[str, Any]: ...
+    def color(self) -> Float32Array: ...
+    def mask(self) -> Int32Array: ...
+    def reflected_position(self) -> Float32Array: ...
+    def reflected_object(self) -> Int32Array: ...
+
+
+class RendererLike(Protocol):
+    """What a comparison uses of `renderer.frame.Renderer`."""
+
+    def render(self, view: View) -> FrameLike: ...
+    def free(self) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """What to compare, checked: raises InputError for values out of range and unknown names."""
+
+    methods: tuple[str, ...] = DEFAULT_METHODS
+    width: int = 640
+    height: int = 480
+    samples: int = 256
+    light: Light = "direct"
+    peers: tuple[str, ...] = PEERS
+
+    def __post_init__(self) -> None:
+        if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
+            raise InputError(
+                f"A resolution of {self.width}x{self.height} is out of range: choose 1 to {LARGEST_SIDE} pixels a side."
+            )
+        if not 1 <= self.samples <= MOST_SAMPLES:
+            raise InputError(f"{self.samples} samples are out of range: choose 1 to {MOST_SAMPLES}.")
+        if self.light not in LIGHTS:
+            raise InputError(f"Unknown light '{self.light}': choose from {', '.join(LIGHTS)}.")
+        if not self.methods:
+            raise InputError(f"No method to compare: choose from {', '.join(METHODS)}.")
+        for names, known, what in ((self.methods, METHODS, "method"), (self.peers, PEERS, "peer")):
+            for name in names:
+                if name not in known:
+                    raise InputError(f"Unknown {what} '{name}': choose from {', '.join(known)}.")
+
+
+def new_renderer(scene: SceneArrays, method: str) -> RendererLike:
+    """The extension's renderer with its default settings."""
+    return Renderer(scene, Settings(method=method))
+
+
+def compare_blend(
+    path: Path | str,
+    reflector_names: Sequence[str],
+    methods: Sequence[str],
+    width: int,
+    height: int,
+    samples: int,
+    light: str,
+    peers: Sequence[str],
+    output: Path | str,
+    camera: str | None = None,
+    frame: int | None = None,
+    progress: Progress | None = None,
+    make_renderer: Callable[[SceneArrays, str], RendererLike] = new_renderer,
+) -> dict[str, Any]:
+    """Open the .blend file at `path` and compare its picture; see `compare_open_scene`."""
+    comparison = _comparison(methods, width, height, samples, light, peers)
+    output = _checked_output(Path(output))
+    open_blend(Path(path))
+    scene = bpy.context.scene
+    if frame is not None:
+        scene.frame_set(frame)
+    return compare_open_scene(
+        scene,
+        bpy.context.view_layer,
+        reflector_names,
+        comparison,
+        output,
+        scene_name=Path(path).name,
+        camera=camera,
+        progress=progress,
+        make_renderer=make_renderer,
+    )
+
+
+def compare_open_scene(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    reflector_names: Sequence[str],
+    comparison: Comparison,
+    output: Path | str,
+    scene_name: str | None = None,
+    camera: str | None = None,
+    progress: Progress | None = None,
+    make_renderer: Callable[[SceneArrays, str], RendererLike] = new_renderer,
+) -> dict[str, Any]:
+    """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
+
+    The scene is left as it was. A number that has no pixels to come from is None, and so is the PSNR of equal
+    pictures. `warnings` is in the report only where there are any. Image errors are over Cycles' mask of the mirrors.
+
+    Raises InputError for what the user can change: see `Comparison`, the scene's own conditions (camera,
+    reflectors), an output folder that cannot be written.
+    """
+    say = progress or _silent
+    output = _checked_output(Path(output))
+    with _camera_in_use(scene, camera):
+        say("Reading the scene")
+        start = time.perf_counter()
+        arrays = extract_scene(scene, view_layer, reflector_names)
+        extract_ms = 1e3 * (time.perf_counter() - start)
+        view = camera_view(scene, comparison.width, comparison.height)
+        with _folder_to_publish(output) as folder:
+            report, mismatch = _run(
+                scene, view_layer, arrays, view, comparison, extract_ms, folder, say, make_renderer
+            )
+            report = {
+                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "reflectors": list(reflector_names),
+                **report,
+            }
+            text = json.dumps(report, indent=1, allow_nan=False)
+            (folder / "report.html").write_text(report_page(report, mismatch), encoding="utf-8")
+            (folder / "report.json").write_text(text + "\n", encoding="utf-8")
+    say(f"Wrote {output / 'report.html'}")
+    return report
+
+
+def _run(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    arrays: SceneArrays,
+    view: View,
+    comparison: Comparison,
+    extract_ms: float,
+    folder: Path,
+    say: Progress,
+    make_renderer: Callable[[SceneArrays, str], RendererLike],
+) -> tuple[dict[str, Any], dict[str, float | None]]:
+    """All numbers of the report but its names, and per method the mismatch of masks; pictures go into `folder`."""
+    width, height = comparison.width, comparison.height
+    frames = {}
+    for method in comparison.methods:
+        # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
+        say(f"Rendering {method}")
+        frames[method] = _measure(arrays, view, method, extract_ms, make_renderer)
+
+    say("Tracing the mirrors' geometry in Cycles")
+    object_ids = {instance.object_name: instance.object_id for instance in arrays.instances}
+    truth = render_geometry(scene, view_layer, width, height, object_ids, arrays.reflectors)
+    mask = truth.mask != 0
+    say(f"Rendering the reference in Cycles with {comparison.samples} samples")
+    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
+    save_png(folder / "reference.png", _opaque(reference.pixels))
+
+    methods, mismatch = {}, {}
+    warnings = list(dict.fromkeys(warning for frame in frames.values() for warning in frame.warnings))
+    if not mask.any():
+        warnings.append("No reflector is in view: there are no mirror pixels to compare.")
+    for method, frame in frames.items():
+        save_png(folder / f"{method}.png", _opaque(frame.color))
+        difference = inverse_display_transform(error_map(frame.color, reference.pixels))
+        save_png(folder / f"{method}_error.png", difference)
+        methods[method] = {
+            "image": _image_error(frame.color, reference.pixels, mask),
+            "geometry": _geometry_error(frame, truth),
+            "time_ms": frame.times_ms,
+            "solve": frame.solve,
+        }
+        mismatch[method] = mask_mismatch(frame.mask, truth.mask)
+
+    peers = {}
+    for peer in comparison.peers:
+        say(f"Rendering the peer {peer}")
+        still = render_peer(scene, view_layer, peer, width, height, comparison.light)
+        save_png(folder / f"{peer}.png", _opaque(still.pixels))
+        peers[peer] = {
+            "image": _image_error(still.pixels, reference.pixels, mask),
+            "time_ms": 1e3 * still.seconds,
+        }
+
+    report: dict[str, Any] = {
+        "resolution": [width, height],
+        "blender": ".".join(str(part) for part in bpy.app.version),
+        "gpu": gpu.platform.renderer_get(),
+        "reference": {
+            "engine": "CYCLES",
+            "samples": comparison.samples,
+            "light": comparison.light,
+            "time_s": reference.seconds,
+        },
+        "mask_pixels": int(mask.sum()),
+        "methods": methods,
+        "peers": peers,
+    }
+    if warnings:
+        report["warnings"] = warnings
+    return report, mismatch
+
+
+@dataclass(frozen=True, slots=True)
+class _MeasuredFrame:
+    """Everything that is read of a frame, so that its renderer can be freed."""
+
+    color: Float32Array
+    mask: Int32Array
+    reflected_position: Float32Array
+    reflected_object: Int32Array
+    times_ms: dict[str, float]
+    solve: dict[str, Any]
+    warnings: tuple[str, ...]
+
+
+def _measure(
+    arrays: SceneArrays,
+    view: View,
+    method: str,
+    extract_ms: float,
+    make_renderer: Callable[[SceneArrays, str], RendererLike],
+) -> _MeasuredFrame:
+    """One warming frame (shaders compile, resources load), then the median times of `TIMED_FRAMES` more."""
+    renderer = make_renderer(arrays, method)
+    try:
+        renderer.render(view)
+        frames = [renderer.render(view) for _ in range(TIMED_FRAMES)]
+        times = {name: statistics.median(frame.times_ms[name] for frame in frames) for name in frames[0].times_ms}
+        frame = frames[-1]
+        return _MeasuredFrame(
+            color=frame.color(),
+            mask=frame.mask(),
+            reflected_position=frame.reflected_position(),
+            reflected_object=frame.reflected_object(),
+            times_ms={"extract": extract_ms, **times},
+            solve=frame.solve,
+            warnings=frame.warnings,
+        )
+    finally:
+        renderer.free()
+
+
+def _image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
+    psnr = psnr_in_mask(test, reference, mask)
+    # JSON has no infinity.
+    return {"flip": flip_in_mask(test, reference, mask), "psnr": None if psnr == math.inf else psnr}
+
+
+def _geometry_error(frame: _MeasuredFrame, truth: GeometryReference) -> dict[str, Any]:
+    return dict(
+        geometry_error(
+            mask=frame.mask,
+            reflected_position=frame.reflected_position,
+            reflected_object=frame.reflected_object,
+            reference_mask=truth.mask,
+            reference_reflector_position=truth.reflector_position,
+            reference_reflected_position=truth.reflected_position,
+            reference_reflected_object=truth.reflected_object,
+            reference_valid=truth.valid,
+        )
+    )
+
+
+def _opaque(pixels: Float32Array) -> Float32Array:
+    """The colours alone: pictures are compared before black, as they are shown."""
+    return pixels[..., :3]
+
+
+def _comparison(
+    methods: Sequence[str], width: int, height: int, samples: int, light: str, peers: Sequence[str]
+) -> Comparison:
+    """Names once each, in the order given."""
+    return Comparison(
+        tuple(dict.fromkeys(methods)), width, height, samples, light, tuple(dict.fromkeys(peers))  # type: ignore[arg-type]
+    )
+
+
+def _silent(_message: str) -> None:
+    """Says nothing."""
+
+
+@contextmanager
+def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+    """`scene.camera` is the camera object called `name` (or stays) for the time being."""
+    before = scene.camera
+    scene.camera = find_camera(scene, name)
+    try:
+        yield
+    finally:
+        scene.camera = before
+
+
+def _checked_output(output: Path) -> Path:
+    """The absolute folder to write to. Raises InputError when it cannot be one."""
+    output = output.absolute()
+    if output.exists() and not output.is_dir():
+        raise InputError(f"Cannot write the report to '{output}', which is a file: choose a folder.")
+    base = _existing_base(output)
+    if not base.is_dir() or not os.access(base, os.W_OK | os.X_OK):
+        raise InputError(f"Cannot write to '{base}': choose another folder for the report.")
+    return output
+
+
+def _existing_base(output: Path) -> Path:
+    """`output` itself or the nearest folder above it that exists."""
+    return next(folder for folder in (output, *output.parents) if folder.exists())
+
+
+@contextmanager
+def _folder_to_publish(output: Path) -> Iterator[Path]:
+    """A temporary folder whose files are moved to `output` at the end, and dropped if something fails before."""
+    folder = Path(tempfile.mkdtemp(prefix=".curvrefl-", dir=_existing_base(output)))
+    try:
+        yield folder
+        output.mkdir(parents=True, exist_ok=True)
+        # The report last: where it is, all that it names is.
+        for path in sorted(folder.iterdir(), key=lambda path: path.name.startswith("report")):
+            os.replace(path, output / path.name)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)

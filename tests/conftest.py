@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the repository importable as `curvrefl`; gives tests of the layers above unit a GPU or a reason to skip."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+try:
+    import bpy  # noqa: F401  (before gpu)
+except ImportError:
+    HAS_BLENDER = False
+else:
+    HAS_BLENDER = True
+
+TESTS = Path(__file__).resolve().parent
+# Helpers beside the tests that use them; tests/scenes is a package of scene builders.
+sys.path[:0] = [str(TESTS.parent / "tools"), str(TESTS), str(TESTS / "blender")]
+
+import bootstrap  # noqa: E402
+
+bootstrap.load_package()
+
+
+def _gpu_missing() -> str:
+    """Why there is no GPU context, or nothing when there is one."""
+    if not HAS_BLENDER:
+        return "this Python has no Blender (bpy)"
+    from curvrefl.curvrefl_addon.renderer.gpu_objects import GpuUnavailableError, require_gpu
+
+    try:
+        require_gpu()
+    except GpuUnavailableError as error:
+        return str(error)
+    return ""
+
+
+@pytest.fixture(scope="session")
+def gpu() -> Iterator[None]:
+    """A GPU context; without one the test is skipped, with the reason."""
+    reason = _gpu_missing()
+    if reason:
+        pytest.skip(reason)
+    yield
