@@ -8,7 +8,10 @@
 
 float height_over_surface(vec3 point)
 {
-  return length(point) - textureLod(radial, point, 0.0).x;
+  float from_center = length(point);
+  // The star centre itself has no direction; any will do, it is inside.
+  vec3 u = from_center > 0.0 ? point / from_center : vec3(0.0, 0.0, 1.0);
+  return from_center - textureLod(radial, u, 0.0).x;
 }
 
 bool pierce(vec4 eye, vec3 vertex, float bound, out vec3 point)

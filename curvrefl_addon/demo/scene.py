@@ -78,7 +78,7 @@ def build_demo(path: Path) -> None:
     add_unseen_things()
     set_world_image(studio_light("forest.exr"), turn=np.radians(8.0), strength=0.55)
     add_sun(toward=(-0.55, -0.55, 0.8), strength=2.7, color=(1.0, 0.95, 0.87), angle=np.radians(2.0))
-    add_camera(eye=(0.03, -0.72, 0.30), target=(0.004, 0.0, 0.0885), lens=71.0)
+    add_camera(eye=(0.03, -0.72, 0.30), target=(0.004, 0.0, 0.0905), lens=67.5)
     bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
 
 

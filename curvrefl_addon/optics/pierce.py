@@ -38,7 +38,10 @@ def pierce(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) ->
 
     def height(back: Float64Array) -> Float64Array:
         points = vertices - back[:, None] * direction
-        return np.linalg.norm(points, axis=1) - surface.radius(unit(points))[0]
+        length = np.linalg.norm(points, axis=1)
+        # The star centre itself has no direction; any will do, it is inside.
+        points[length == 0.0] = direction[length == 0.0]
+        return length - surface.radius(unit(points))[0]
 
     outside, inside = first.copy(), first.copy()
     found = np.zeros(len(vertices), bool)

@@ -54,8 +54,8 @@ class Lighting:
         self.warnings = ()
         triangles = geometry.corner_position[geometry.triangles].reshape(-1, 3)
         casts = _casting_triangles(scene, geometry, triangles)
-        self._casters = ShadowCasters(geometry.positions, triangles[casts])
         self._extent = SceneExtent(geometry.positions, triangles, casts)
+        self._casters = ShadowCasters(geometry.positions, self._extent)
         self._lights = self._chosen_lights(scene.lights)
         self._samples = min(self.sub_frames, MAX_LAMP_SAMPLES)
         self._plan_lamps()
@@ -122,7 +122,7 @@ class Lighting:
             self._lamp_places, views = self._lamp_views(points, resolution)
             if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
                 break
-        self._lamp_maps = ShadowMaps(self._casters, resolution, views)
+        self._lamp_maps = ShadowMaps(self._casters, resolution, views, bias_texels=1.0)
 
     def _lamp_views(
         self, points: list[Float64Array], resolution: int
@@ -163,7 +163,7 @@ class Lighting:
             if view is not None:
                 layers[index] = len(views)
                 views.append(view)
-        self._world_maps = ShadowMaps(self._casters, WORLD_MAP_RESOLUTION, views)
+        self._world_maps = ShadowMaps(self._casters, WORLD_MAP_RESOLUTION, views, bias_texels=0.5)
         rows = [_window_rows(view, WORLD_MAP_RESOLUTION)[:3] for view in views]
         self._draw_count = len(light.draws)
         draws = np.zeros((MAP_SIZE * MAP_SIZE, 4), np.float32)

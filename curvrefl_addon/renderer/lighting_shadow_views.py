@@ -25,7 +25,7 @@ MARGIN_TEXELS = 2.0
 
 @dataclass(frozen=True, slots=True)
 class ShadowView:
-    """One depth map's projection."""
+    """One depth map's projection, and what need not be drawn into it."""
 
     world_to_clip: Float64Array
     """(4, 4); w is 1 everywhere for parallel light"""
@@ -34,6 +34,8 @@ class ShadowView:
     """Size of a texel over distance (perspective) or over the map's depth range (parallel)"""
     depth_terms: tuple[float, float] = (0.0, 0.0)
     """Perspective: depth in the window, 0..1, is the first plus the second over the distance along the axis"""
+    idle_planes: frozenset[int] = frozenset()
+    """Planes of `SceneExtent.hull` whose triangles cast on nothing"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,27 +57,38 @@ class SceneExtent:
         self.casts = casts
         self.size = float(np.linalg.norm(np.ptp(self.positions, axis=0))) if len(positions) else 0.0
         self.hull = _hull_planes(self.positions, triangles, self.size)
+        self._splits: dict[frozenset[int], tuple[Float64Array, ...]] = {}
 
-    def casters_and_receivers(self, light: Float64Array) -> tuple[Int32Array, Int32Array]:
-        """Position indices of triangles that may cast and that may receive; `light`: homogeneous, w = 0 a direction to it."""
-        may_cast = self.casts.copy()
-        may_receive = np.ones(len(self.triangles), bool)
-        for plane in self.hull:
-            if float(plane.normal @ light[:3]) - plane.offset * float(light[3]) > 0.0:
-                may_cast[plane.triangles] = False
-            else:
-                may_receive[plane.triangles] = False
-        return _used(self.triangles[may_cast], len(self.positions)), _used(
-            self.triangles[may_receive], len(self.positions)
+    def split_by(self, light: Float64Array) -> tuple[frozenset[int], Float64Array, Float64Array]:
+        """For a light (homogeneous place, w = 0: direction to it) the planes that cast on nothing, and positions
+        (n, 3) of the triangles that may cast and of those that may receive."""
+        idle = frozenset(
+            index
+            for index, plane in enumerate(self.hull)
+            if float(plane.normal @ light[:3]) - plane.offset * float(light[3]) > 0.0
         )
+        if idle not in self._splits:
+            may_cast = self.casts & ~self.in_planes(idle)
+            may_receive = ~self.in_planes(frozenset(range(len(self.hull))) - idle)
+            self._splits[idle] = tuple(
+                self.positions[_used(self.triangles[chosen], len(self.positions))] for chosen in (may_cast, may_receive)
+            )
+        return idle, *self._splits[idle]
+
+    def in_planes(self, planes: frozenset[int]) -> np.ndarray:
+        """(triangles,) bool: lies in one of these planes of the hull."""
+        mask = np.zeros(len(self.triangles), bool)
+        for index in planes:
+            mask[self.hull[index].triangles] = True
+        return mask
 
     def parallel_view(self, to_light: Float64Array, resolution: int) -> ShadowView | None:
         """Map of parallel light from the unit direction `to_light`; None where nothing can be in shadow."""
-        casters, receivers = self.casters_and_receivers(np.append(to_light, 0.0))
+        idle, casters, receivers = self.split_by(np.append(to_light, 0.0))
         if len(casters) == 0 or len(receivers) == 0:
             return None
         axes = _axes(to_light)
-        cast, receive = self.positions[casters] @ axes.T, self.positions[receivers] @ axes.T
+        cast, receive = casters @ axes.T, receivers @ axes.T
         low = np.maximum(cast[:, :2].min(axis=0), receive[:, :2].min(axis=0))
         high = np.minimum(cast[:, :2].max(axis=0), receive[:, :2].max(axis=0))
         if np.any(high < low):
@@ -92,14 +105,14 @@ class SceneExtent:
         matrix[2, :3] = -2.0 * axes[2] / (near - far)
         matrix[2, 3] = (near + far) / (near - far)
         texel = float(np.max(high - low)) / resolution
-        return ShadowView(matrix, False, texel / (near - far))
+        return ShadowView(matrix, False, texel / (near - far), idle_planes=idle)
 
     def point_views(self, place: Float64Array, resolution: int) -> tuple[ShadowView | None, ...]:
         """One fitted map, or the six of a cube (+X, -X, +Y, -Y, +Z, -Z; None for empty faces); () without shadows."""
-        casters, receivers = self.casters_and_receivers(np.append(place, 1.0))
+        idle, casters, receivers = self.split_by(np.append(place, 1.0))
         if len(casters) == 0 or len(receivers) == 0:
             return ()
-        cast, receive = self.positions[casters] - place, self.positions[receivers] - place
+        cast, receive = casters - place, receivers - place
         far = 1.05 * float(np.sqrt((cast**2).sum(axis=1).max()))
         near = 1e-3 * far
         axis = 0.5 * (cast.min(axis=0) + cast.max(axis=0))
@@ -114,12 +127,14 @@ class SceneExtent:
                 if np.any(high < low):
                     return ()
             low, high = _widened(low, high, resolution, 1e-3)
-            return (_perspective(place, axes, low, high, near, far, resolution),)
+            return (_perspective(place, axes, low, high, near, far, resolution, idle),)
         low, high = _widened(np.array([-1.0, -1.0]), np.array([1.0, 1.0]), resolution, 0.0)
-        casting = np.isin(self.triangles, casters).all(axis=1) & self.casts
+        casting = self.casts & ~self.in_planes(idle)
         cast_triangles = self.positions[self.triangles[casting]] - place
         return tuple(
-            _perspective(place, axes, low, high, near, far, resolution) if _meets_pyramid(cast_triangles, axes) else None
+            _perspective(place, axes, low, high, near, far, resolution, idle)
+            if _meets_pyramid(cast_triangles, axes)
+            else None
             for axes in CUBE_AXES
         )
 
@@ -172,6 +187,7 @@ def _perspective(
     near: float,
     far: float,
     resolution: int,
+    idle: frozenset[int],
 ) -> ShadowView:
     """View from `place` with slopes `low` to `high`."""
     clip = np.zeros((4, 4))
@@ -186,7 +202,7 @@ def _perspective(
     view[:3, :3] = axes
     view[:3, 3] = -axes @ place
     terms = (0.5 * (1.0 + (far + near) / (far - near)), -far * near / (far - near))
-    return ShadowView(clip @ view, True, float(np.max(high - low)) / resolution, terms)
+    return ShadowView(clip @ view, True, float(np.max(high - low)) / resolution, terms, idle)
 
 
 def _meets_pyramid(triangles: Float64Array, axes: Float64Array) -> bool:

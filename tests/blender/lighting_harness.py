@@ -178,7 +178,7 @@ def cycles_picture(stage: Stage, samples: int = 256, world_light_samples: bool =
     cycles.samples = samples
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False
-    cycles.pixel_filter_type = "BOX"
+    cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     cycles.filter_width = 0.01
     cycles.max_bounces = 4
     cycles.diffuse_bounces = 0

@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the verbs of the command line do; `cli` parses and calls.
+
+Each takes the parsed options and returns an exit code. All raise InputError for what the user can put right. Blender
+and the renderer are imported inside, so that bad usage is answered at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib.util
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+from .errors import InputError
+from .output import checked_file, checked_folder, folder_to_publish
+
+if TYPE_CHECKING:
+    from .scene.arrays import SceneArrays
+    from .scene.view import View
+
+ROOT = Path(__file__).resolve().parent.parent
+LAYERS = ("unit", "blender", "gui")
+PASSES = ("color", "position", "object", "iterations")
+
+
+def say(text: str) -> None:
+    """A line on stderr: stdout is for results."""
+    print(f"curvrefl: {text}", file=sys.stderr, flush=True)
+
+
+def render(options: argparse.Namespace) -> int:
+    """Render the file's picture, and what is behind it as passes."""
+    passes = _names(options.passes, "pass")
+    _known(passes, PASSES, "pass")
+    output = checked_file(options.output, (".png", ".exr"))
+    arrays, view = _read_scene(options)
+
+    from .renderer.frame import Renderer, Settings
+    from .report.images import save_exr, save_png
+
+    renderer = Renderer(arrays, Settings(method=options.method, samples=options.samples))
+    try:
+        frame = renderer.render(view)
+        _warn(frame.warnings)
+        if not frame.mask().any():
+            _warn(["No reflector is in view: the picture has no reflections."])
+        with folder_to_publish(output.parent) as folder:
+            if "color" in passes:
+                save = save_png if output.suffix.lower() == ".png" else save_exr
+                save(folder / output.name, frame.color())
+            arrays_of = {
+                "position": frame.reflected_position,
+                "object": lambda: frame.reflected_object().astype("float32"),
+                "iterations": frame.iterations,
+            }
+            for name in passes:
+                if name != "color":
+                    save_exr(folder / f"{output.stem}_{name}.exr", arrays_of[name]())
+    finally:
+        renderer.free()
+    if "object" in passes:
+        names = {instance.object_id: instance.object_name for instance in arrays.instances}
+        print("\n".join(f"object {number}: {name}" for number, name in sorted(names.items())))
+    return 0
+
+
+def compare(options: argparse.Namespace) -> int:
+    """Compare methods with Cycles and peers; see `report.compare`."""
+    output = checked_folder(options.output)
+    _start_gpu()
+
+    from .optics.catalogue import METHODS
+    from .report.compare import compare_blend
+    from .report.table import format_table
+
+    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
+    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
+    width, height = options.resolution
+    report = compare_blend(
+        options.file,
+        _names(options.reflector, "reflector"),
+        methods,
+        width,
+        height,
+        options.samples,
+        options.light,
+        peers,
+        output,
+        camera=options.camera,
+        frame=options.frame,
+        progress=say,
+    )
+    print(format_table(report))
+    print(f"Report: {output / 'report.html'}")
+    return 0
+
+
+def bake(options: argparse.Namespace) -> int:
+    """Bake one reflector, save its maps, and print how well they fit."""
+    output = checked_folder(options.output)
+    arrays, view = _read_scene(options)
+
+    from .renderer.reflector_bake import bake_reflector
+    from .renderer.reflector_files import save
+    from .renderer.reflector_map import pixel_error
+
+    baked = bake_reflector(arrays, arrays.reflectors[0], options.texels)
+    _warn(baked.warnings)
+    with folder_to_publish(output) as folder:
+        save(baked, folder)
+    error = pixel_error(baked, view)
+    center = ", ".join(f"{value:.6g}" for value in baked.center)
+    print(f"{baked.object_name}: star centre ({center}), {baked.center_name}")
+    print(f"radius {baked.r_min:.6g} to {baked.r_max:.6g} m")
+    print(f"directions with more than one hit: {100.0 * baked.multiple_hits:.3g} %, with none: {100.0 * baked.holes:.3g} %")
+    print(f"error in pixels of {view.width}x{view.height}: median {error.median:.3g}, p95 {error.p95:.3g}, max {error.max:.3g}")
+    return 0
+
+
+def demo(options: argparse.Namespace) -> int:
+    """Build the demo scene, save it, and compare its picture."""
+    output = checked_folder(options.output)
+    _start_gpu()
+
+    from .demo.scene import KETTLE, build_demo
+    from .report.compare import DEFAULT_METHODS, compare_blend
+    from .report.cycles_reference import PEERS
+    from .report.table import format_table
+
+    say("Building the demo scene")
+    with folder_to_publish(output) as folder:
+        build_demo(folder / "demo.blend")
+    report = compare_blend(
+        output / "demo.blend", [KETTLE], DEFAULT_METHODS, 640, 480, 256, "direct", PEERS, output, progress=say
+    )
+    print(format_table(report))
+    print(f"Scene: {output / 'demo.blend'}")
+    print(f"Report: {output / 'report.html'}")
+    return 0
+
+
+def test(options: argparse.Namespace) -> int:
+    """Run the checks of the source; see tools/run_tests.py."""
+    _known(options.layers, LAYERS, "layer of tests")
+    return int(_repository_tool("run_tests", "test").run(options.layers or LAYERS))
+
+
+def build(options: argparse.Namespace) -> int:
+    """Pack the extension; see tools/build_extension.py."""
+    output = checked_folder(options.output)
+    tool = _repository_tool("build_extension", "build")
+    with folder_to_publish(output) as folder:
+        name = tool.build(folder).name
+    print(output / name)
+    return 0
+
+
+def _read_scene(options: argparse.Namespace) -> tuple[SceneArrays, View]:
+    """Open the file and read what the options choose of it; the GPU is there then."""
+    names = _names(options.reflector, "reflector")
+    _start_gpu()
+
+    import bpy
+
+    from .scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+    from .scene.extract import extract_scene
+
+    open_blend(Path(options.file))
+    scene = bpy.context.scene
+    if options.frame is not None:
+        scene.frame_set(options.frame)
+    camera = find_camera(scene, options.camera)
+    percentage = scene.render.resolution_percentage / 100.0
+    width, height = options.resolution or (
+        max(int(scene.render.resolution_x * percentage), 1),
+        max(int(scene.render.resolution_y * percentage), 1),
+    )
+    view = view_of_camera(scene, camera, width, height)
+    reflectors = find_reflectors(scene, names)
+    arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors, for_render=True)
+    return arrays, view
+
+
+def _names(text: str, what: str) -> list[str]:
+    """The parts of a list with commas, once each. Raises InputError when there are none."""
+    names = list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    if not names:
+        raise InputError(f"Name at least one {what}.")
+    return names
+
+
+def _known(names: Sequence[str], known: Sequence[str], what: str) -> None:
+    for name in names:
+        if name not in known:
+            raise InputError(f'There is no {what} "{name}": choose from {", ".join(known)}.')
+
+
+def _warn(warnings: Sequence[str]) -> None:
+    for warning in dict.fromkeys(warnings):
+        say(f"Warning: {warning}")
+
+
+@contextlib.contextmanager
+def _standard_error_dropped() -> Iterator[None]:
+    """What C libraries write to file descriptor 2 meanwhile goes nowhere."""
+    sys.stderr.flush()
+    kept = os.dup(2)
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 2)
+        os.close(nowhere)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+
+
+def _start_gpu() -> None:
+    """Make the GPU context. Raises InputError, with how to get one, where there is none."""
+    import bpy  # noqa: F401  (with the wheel, before gpu)
+
+    from .renderer.gpu_objects import GpuUnavailableError, require_gpu
+
+    try:
+        # EGL tries configurations that do not match and says so, at length, though all is well.
+        with _standard_error_dropped():
+            require_gpu()
+    except GpuUnavailableError as error:
+        message = str(error).rstrip(".")
+        raise InputError(f"{message[:1].upper()}{message[1:]}.") from error
+
+
+def _repository_tool(name: str, verb: str) -> ModuleType:
+    """`tools/<name>.py`, which is there in a copy of the source and not in the installed extension."""
+    path = ROOT / "tools" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"curvrefl_tools_{name}", path) if path.is_file() else None
+    if spec is None or spec.loader is None:
+        raise InputError(f"The verb {verb} needs a copy of Curvrefl's source: call ./curvrefl {verb} there.")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

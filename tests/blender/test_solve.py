@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The solver's shader is held to its float64 reference on the same radial map."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.optics import secant_star, status
+from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.solve import solve_vertices, statistics
+
+from scenes.views import look_at
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+SURFACES = {"sphere": Ellipsoid(), "ellipsoid": Ellipsoid(1.0, 0.5, 0.25), "bumpy": Bumpy(0.15)}
+
+
+def radial_map(surface: RadialSurface, resolution: int = 128) -> np.ndarray:
+    u = texel_directions(resolution).reshape(-1, 3)
+    r, gradient = surface.radius(u)
+    return np.column_stack([r, gradient]).reshape(6, resolution, resolution, 4).astype(np.float32)
+
+
+def vertices_around(surface: RadialSurface, count: int) -> np.ndarray:
+    rng = np.random.default_rng(7)
+    u = unit(rng.normal(size=(count, 3)))
+    vertices = u * (surface.radius(u)[0] + 10 ** rng.uniform(-2, 1, count))[:, None]
+    return vertices.astype(np.float32).astype(np.float64)
+
+
+@pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])
+@pytest.mark.parametrize("name", SURFACES)
+def test_shader_follows_the_reference(name: str, orthographic: bool) -> None:
+    faces = radial_map(SURFACES[name])
+    surface = CubeMapSurface(faces)
+    vertices = vertices_around(SURFACES[name], 8000)
+    # The reflector stands turned and away from the origin: the map's frame is not the world's.
+    turn, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    place = np.array([3.0, -2.0, 5.0])
+    view = look_at(place + np.array([2.3, -2.9, 1.8]), place, 640, 480, np.radians(40), orthographic=orthographic)
+    world_to_map = np.eye(4)
+    world_to_map[:3, :3], world_to_map[:3, 3] = turn, -turn @ place
+    world = (vertices @ turn + place).astype(np.float32)
+
+    positions = record_texture(np.column_stack([world, np.ones(len(world))]))
+    solution = solve_vertices(
+        "secant_star", view, world_to_map, cube_texture(faces), surface.bound, positions, len(world)
+    )
+    points, code, iterations, virtual = solution.read()
+
+    eye = world_to_map @ view.eye
+    reference = secant_star.solve(surface, secant_star.Screen(eye, view.focal_pixels), vertices)
+    assert (code == reference.status).mean() > 0.998
+    both = (code == status.REFLECTED) & (reference.status == status.REFLECTED)
+    assert both.mean() > 0.5
+    expected = reference.at.position @ turn + place
+    error = np.linalg.norm(view.project(points) - view.project(expected), axis=1)[both]
+    assert np.median(error) < 0.02
+    assert np.percentile(error, 99) < 0.25
+    assert abs(iterations[both].mean() - reference.iterations[both].mean()) < 0.5
+
+    # A reflected vertex seems to be behind its reflection point, on the same line of sight.
+    same_pixel = np.linalg.norm(view.project(virtual[:, :3]) - view.project(points), axis=1)[both]
+    assert same_pixel.max() < 0.05
+    np.testing.assert_allclose(virtual[both, 3], np.linalg.norm(world - points, axis=1)[both], rtol=1e-4, atol=1e-5)
+    counts = statistics([solution])
+    assert counts["reflected"] + counts["hidden"] + counts["unconverged"] == counts["vertices"] == len(world)
+
+
+def test_broken_vertices_are_marked() -> None:
+    faces = radial_map(Ellipsoid())
+    places = np.array([[np.nan, 0, 0], [np.inf, 0, 0], [0, 0, 2], [0, 0, 0]], np.float32)
+    view = look_at(np.array([0.0, -4.0, 1.0]), np.zeros(3), 320, 240, np.radians(40))
+    solution = solve_vertices(
+        "secant_star",
+        view,
+        np.eye(4),
+        cube_texture(faces),
+        1.0,
+        record_texture(np.column_stack([places, np.ones(4)])),
+        4,
+    )
+    points, code, _, virtual = solution.read()
+    assert code.tolist() == [status.INVALID, status.INVALID, status.REFLECTED, status.HIDDEN]
+    assert np.isfinite(points).all() and np.isfinite(virtual).all()
+
+
+def test_same_input_same_bits() -> None:
+    faces = cube_texture(radial_map(Bumpy(0.15)))
+    vertices = vertices_around(Bumpy(0.15), 3000)
+    positions = record_texture(np.column_stack([vertices, np.ones(len(vertices))]))
+    view = look_at(np.array([0.0, -4.0, 1.0]), np.zeros(3), 320, 240, np.radians(40))
+    first, second = (
+        solve_vertices("secant_star", view, np.eye(4), faces, 1.15, positions, len(vertices)).read() for _ in range(2)
+    )
+    for one, other in zip(first, second, strict=True):
+        assert np.array_equal(one, other)
