@@ -76,17 +76,23 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--output", default="output/demo", metavar="DIR", help="folder to write to (%(default)s)")
 
     test = verb("test", verbs.test, "Check the source: lint, types and all tests, or one layer of tests.")
-    test.add_argument("layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named")
+    test.add_argument(
+        "layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named"
+    )
 
-    render = verb("render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors.")
+    render = verb(
+        "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
+    )
     _add_scene_options(render)
     render.add_argument("--method", default="secant_star", metavar="M", help="how to reflect (%(default)s)")
-    render.add_argument("--samples", type=int, default=16, metavar="N", help="for anti-aliasing (%(default)s)")
+    render.add_argument(
+        "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
+    )
     render.add_argument(
         "--passes",
         default="color",
         metavar="P[,P..]",
-        help=f"of {', '.join(verbs.PASSES)}; others than color go to NAME_PASS.exr beside the output (%(default)s)",
+        help=f"of {', '.join(verbs.PASSES)}; all but color go to NAME_PASS.exr beside the output (%(default)s)",
     )
     render.add_argument("--output", required=True, metavar="FILE", help=".png (as shown) or .exr (scene-linear)")
 
@@ -95,7 +101,9 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument(
         "--method", default="secant_star,environment_cube", metavar="M[,M..]", help="or all (%(default)s)"
     )
-    compare.add_argument("--samples", type=int, default=256, metavar="N", help="of the reference (%(default)s)")
+    compare.add_argument(
+        "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"
+    )
     compare.add_argument(
         "--light",
         default="direct",
@@ -110,7 +118,14 @@ def _parser() -> argparse.ArgumentParser:
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.add_argument("file", metavar="FILE.blend")
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
-    bake.add_argument("--resolution", type=int, default=128, metavar="N", help="texels along an edge (%(default)s)")
+    bake.add_argument(
+        "--resolution",
+        dest="texels",
+        type=_between(8, 2048),
+        default=128,
+        metavar="N",
+        help="texels along an edge of a map (%(default)s)",
+    )
     bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
@@ -122,15 +137,22 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE.blend")
     parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
     parser.add_argument("--camera", metavar="C", help="name of a camera object (the scene's)")
-    parser.add_argument("--frame", type=_frame, metavar="N", help="frame of the animation (the file's)")
+    parser.add_argument(
+        "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
+    )
     parser.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
 
 
-def _frame(text: str) -> int:
-    """A frame number that Blender can go to."""
-    if not re.fullmatch(r"[+-]?\d{1,9}", text) or abs(int(text)) > MAX_FRAME:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a frame number between -{MAX_FRAME} and {MAX_FRAME}")
-    return int(text)
+def _between(least: int, most: int) -> Callable[[str], int]:
+    """An argument type: a whole number in this range."""
+
+    def number(text: str) -> int:
+        # (a dozen digits are out of any range)
+        if not re.fullmatch(r"[+-]?\d{1,12}", text) or not least <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from {least} to {most}")
+        return int(text)
+
+    return number
 
 
 def _resolution(text: str) -> tuple[int, int]:

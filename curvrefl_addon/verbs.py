@@ -14,14 +14,18 @@ import importlib.util
 import os
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 from .errors import InputError
+from .optics.catalogue import METHODS
 from .output import checked_file, checked_folder, folder_to_publish
 
 if TYPE_CHECKING:
+    import bpy
+
     from .scene.arrays import SceneArrays
     from .scene.view import View
 
@@ -39,6 +43,7 @@ def render(options: argparse.Namespace) -> int:
     """Render the file's picture, and what is behind it as passes."""
     passes = _names(options.passes, "pass")
     _known(passes, PASSES, "pass")
+    _known([options.method], list(METHODS), "method")
     output = checked_file(options.output, (".png", ".exr"))
     arrays, view = _read_scene(options)
 
@@ -73,28 +78,27 @@ def render(options: argparse.Namespace) -> int:
 
 def compare(options: argparse.Namespace) -> int:
     """Compare methods with Cycles and peers; see `report.compare`."""
+    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
+    _known(methods, list(METHODS), "method")
+    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
+    reflectors = _names(options.reflector, "reflector")
     output = checked_folder(options.output)
     _start_gpu()
 
-    from .optics.catalogue import METHODS
-    from .report.compare import compare_blend
+    from .report.compare import Comparison, compare_open_scene
     from .report.table import format_table
 
-    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
-    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
-    width, height = options.resolution
-    report = compare_blend(
-        options.file,
-        _names(options.reflector, "reflector"),
-        methods,
-        width,
-        height,
-        options.samples,
-        options.light,
-        peers,
+    comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
+    scene = _open_scene(options)
+    width, height = _resolution(options, scene)
+    report = compare_open_scene(
+        scene,
+        scene.view_layers[0],
+        reflectors,
+        replace(comparison, width=width, height=height),
         output,
+        scene_name=Path(options.file).name,
         camera=options.camera,
-        frame=options.frame,
         progress=say,
     )
     print(format_table(report))
@@ -104,6 +108,8 @@ def compare(options: argparse.Namespace) -> int:
 
 def bake(options: argparse.Namespace) -> int:
     """Bake one reflector, save its maps, and print how well they fit."""
+    if len(_names(options.reflector, "reflector")) > 1:
+        raise InputError("Name one reflector: the maps of each go to a folder of its own.")
     output = checked_folder(options.output)
     arrays, view = _read_scene(options)
 
@@ -119,8 +125,12 @@ def bake(options: argparse.Namespace) -> int:
     center = ", ".join(f"{value:.6g}" for value in baked.center)
     print(f"{baked.object_name}: star centre ({center}), {baked.center_name}")
     print(f"radius {baked.r_min:.6g} to {baked.r_max:.6g} m")
-    print(f"directions with more than one hit: {100.0 * baked.multiple_hits:.3g} %, with none: {100.0 * baked.holes:.3g} %")
-    print(f"error in pixels of {view.width}x{view.height}: median {error.median:.3g}, p95 {error.p95:.3g}, max {error.max:.3g}")
+    print(
+        f"directions with more than one hit: {100.0 * baked.multiple_hits:.3g} %, with none: {100.0 * baked.holes:.3g} %"
+    )
+    print(
+        f"error in pixels of {view.width}x{view.height}: median {error.median:.3g}, p95 {error.p95:.3g}, max {error.max:.3g}"
+    )
     return 0
 
 
@@ -162,6 +172,27 @@ def build(options: argparse.Namespace) -> int:
     return 0
 
 
+def _open_scene(options: argparse.Namespace) -> bpy.types.Scene:
+    """Open the file and go to the chosen frame."""
+    import bpy
+
+    from .scene.blend_file import open_blend
+
+    open_blend(Path(options.file))
+    scene = bpy.context.scene
+    if options.frame is not None:
+        scene.frame_set(options.frame)
+    return scene
+
+
+def _resolution(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:
+    """The chosen width and height, or those that the scene renders with."""
+    if options.resolution:
+        return options.resolution
+    scale = scene.render.resolution_percentage / 100.0
+    return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
+
+
 def _read_scene(options: argparse.Namespace) -> tuple[SceneArrays, View]:
     """Open the file and read what the options choose of it; the GPU is there then."""
     names = _names(options.reflector, "reflector")
@@ -169,20 +200,12 @@ def _read_scene(options: argparse.Namespace) -> tuple[SceneArrays, View]:
 
     import bpy
 
-    from .scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+    from .scene.blend_file import find_camera, find_reflectors, view_of_camera
     from .scene.extract import extract_scene
 
-    open_blend(Path(options.file))
-    scene = bpy.context.scene
-    if options.frame is not None:
-        scene.frame_set(options.frame)
+    scene = _open_scene(options)
     camera = find_camera(scene, options.camera)
-    percentage = scene.render.resolution_percentage / 100.0
-    width, height = options.resolution or (
-        max(int(scene.render.resolution_x * percentage), 1),
-        max(int(scene.render.resolution_y * percentage), 1),
-    )
-    view = view_of_camera(scene, camera, width, height)
+    view = view_of_camera(scene, camera, *_resolution(options, scene))
     reflectors = find_reflectors(scene, names)
     arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors, for_render=True)
     return arrays, view

@@ -59,24 +59,13 @@ vec3 schlick(vec3 f0, float edge, float cosine)
   return mix(f0, vec3(1.0), edge * s2 * s2 * s);
 }
 
-// Slice 0: albedo of the lobe with Fresnel 1, its average over angles, 0, mean of Schlick's (1 - cos)^5.
-// Slices 1..: z = mean share of a dielectric's Fresnel term between F0 and 1.
+// x: albedo of the lobe with Fresnel 1, y: its average over angles; z, w: mean share of a dielectric's Fresnel term
+// between F0 and 1, of this slice's IOR and the next's; in the last slice w is the mean of Schlick's (1 - cos)^5.
 vec4 ggx_table(float roughness, float cosine, float slice)
 {
   vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;
-  vec2 size = vec2(float(GGX_TABLE_SIZE * (GGX_IOR_SLICES + 1)), float(GGX_TABLE_SIZE));
+  vec2 size = vec2(float(GGX_TABLE_SIZE * GGX_IOR_SLICES), float(GGX_TABLE_SIZE));
   return textureLod(lighting_ggx, (place + vec2(slice * float(GGX_TABLE_SIZE), 0.0)) / size, 0.0);
-}
-
-// Average over the lobe of the dielectric's Fresnel term.
-float dielectric_albedo(float roughness, float cosine, float eta)
-{
-  float root = (eta - 1.0) / (eta + 1.0);
-  float slice = sqrt(abs(root)) * float(GGX_IOR_SLICES - 1);
-  float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
-  float share = mix(ggx_table(roughness, cosine, below + 1.0).z, ggx_table(roughness, cosine, below + 2.0).z,
-                    slice - below);
-  return mix(root * root, 1.0, share);
 }
 
 // 1 + what scatters more than once, in parts of the single scattering; `average`: mean Fresnel over angles.
@@ -91,10 +80,13 @@ Lobes lobes_of(Surface s, float cos_viewer)
   Lobes lobes;
   float cosine = clamp(cos_viewer, 1e-4, 1.0);
   float roughness = clamp(s.roughness, 0.0, 1.0);
-  vec4 table = ggx_table(roughness, cosine, 0.0);
+  lobes.eta = leveled_ior(s.ior, s.specular_level);
+  float root = (lobes.eta - 1.0) / (lobes.eta + 1.0);
+  float slice = sqrt(abs(root)) * float(GGX_IOR_SLICES - 1);
+  float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
+  vec4 table = ggx_table(roughness, cosine, below);
   lobes.cos_viewer = cosine;
   lobes.alpha = roughness * roughness;
-  lobes.eta = leveled_ior(s.ior, s.specular_level);
   lobes.metal_f0 = s.base_color;
   if (s.glossy_only) {
     lobes.metal_edge = 0.0;
@@ -109,7 +101,8 @@ Lobes lobes_of(Surface s, float cos_viewer)
   lobes.metal_weight = metallic * multiple_scattering(mix(s.base_color, vec3(1.0), 1.0 / 21.0), table);
   lobes.specular_albedo = vec3(0.0);
   if (metallic > 0.0) {
-    lobes.specular_albedo += table.x * lobes.metal_weight * mix(s.base_color, vec3(1.0), table.w);
+    float edge = ggx_table(roughness, cosine, float(GGX_IOR_SLICES - 1)).w;
+    lobes.specular_albedo += table.x * lobes.metal_weight * mix(s.base_color, vec3(1.0), edge);
   }
   lobes.dielectric_weight = 0.0;
   lobes.diffuse = (1.0 - metallic) * s.base_color;
@@ -118,7 +111,7 @@ Lobes lobes_of(Surface s, float cos_viewer)
       0.997118 + lobes.eta * (0.1014 - lobes.eta * (0.965241 + lobes.eta * 0.130607)) :
       (lobes.eta - 1.0) / (4.08567 + 1.00071 * lobes.eta);
     float scattering = multiple_scattering(vec3(average), table).x;
-    float albedo = table.x * scattering * dielectric_albedo(roughness, cosine, lobes.eta);
+    float albedo = table.x * scattering * mix(root * root, 1.0, mix(table.z, table.w, slice - below));
     lobes.dielectric_weight = (1.0 - metallic) * scattering;
     lobes.specular_albedo += vec3((1.0 - metallic) * albedo);
     lobes.diffuse *= clamp(1.0 - albedo, 0.0, 1.0);

@@ -24,45 +24,34 @@ float spot_share(int base, vec3 from_lamp)
 float lamp_shadow(int base, vec3 position)
 {
   int kind = int(lighting_data[base + 6].w);
-  if (kind == 0) {
-    return 1.0;
-  }
-  if (kind == 1) {
+  vec3 window = vec3(0.0);
+  float layer = -1.0;
+  SKIPPABLE(kind == 1) {
     vec4 p = vec4(position, 1.0);
     float w = dot(lighting_data[base + 10], p);
-    if (w <= 0.0) {
-      return 1.0;
-    }
-    vec3 window = vec3(dot(lighting_data[base + 7], p), dot(lighting_data[base + 8], p),
-                       dot(lighting_data[base + 9], p)) / w;
-    return lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(lighting_data[base + 11].x));
+    window = vec3(dot(lighting_data[base + 7], p), dot(lighting_data[base + 8], p),
+                  dot(lighting_data[base + 9], p)) / w;
+    layer = w > 0.0 ? lighting_data[base + 11].x : -1.0;
   }
-  vec3 ray = position - lighting_data[base].xyz;
-  vec3 size = abs(ray);
-  vec2 across;
-  float depth;
-  float layer;
-  if (size.x >= size.y && size.x >= size.z) {
-    depth = size.x;
-    across = ray.yz;
-    layer = ray.x > 0.0 ? lighting_data[base + 7].x : lighting_data[base + 7].y;
+  SKIPPABLE(kind == 2) {
+    vec3 ray = position - lighting_data[base].xyz;
+    vec3 size = abs(ray);
+    vec4 sides = lighting_data[base + 7];
+    bool x_face = size.x >= size.y && size.x >= size.z;
+    bool y_face = !x_face && size.y >= size.z;
+    float depth = max(size.x, max(size.y, size.z));
+    vec2 across = x_face ? ray.yz : (y_face ? ray.xz : ray.xy);
+    vec2 layers = x_face ? sides.xy : (y_face ? sides.zw : lighting_data[base + 8].xy);
+    float towards = x_face ? ray.x : (y_face ? ray.y : ray.z);
+    layer = towards > 0.0 ? layers.x : layers.y;
+    window = vec3(across / depth * lighting_data[base + 9].y + lighting_data[base + 9].x,
+                  lighting_data[base + 8].z + lighting_data[base + 8].w / depth);
   }
-  else if (size.y >= size.z) {
-    depth = size.y;
-    across = ray.xz;
-    layer = ray.y > 0.0 ? lighting_data[base + 7].z : lighting_data[base + 7].w;
+  float lit = 1.0;
+  SKIPPABLE(layer >= 0.0) {
+    lit = lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(layer + 0.5));
   }
-  else {
-    depth = size.z;
-    across = ray.xy;
-    layer = ray.z > 0.0 ? lighting_data[base + 8].x : lighting_data[base + 8].y;
-  }
-  if (layer < -0.5) {
-    return 1.0;
-  }
-  vec2 texel = across / depth * lighting_data[base + 9].y + lighting_data[base + 9].x;
-  float window_depth = lighting_data[base + 8].z + lighting_data[base + 8].w / depth;
-  return lit_smooth(vec3(texel, window_depth - 1e-6), int(layer + 0.5));
+  return lit;
 }
 
 // Radiance towards the viewer from all lamps.
@@ -79,36 +68,38 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     float width = lighting_data[base + 1].w;
     if (kind != LAMP_SUN) {
       to_light = place.xyz - s.position;
+      float facing = 1.0;
+      if (kind != LAMP_AREA) {
+        // a ball shines as a disk that faces the surface: the sample moved into that disk
+        vec3 middle = lighting_data[base + 2].xyz - s.position;
+        float away2 = max(dot(middle, middle), 1e-12);
+        to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
+        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-12));
+      }
       float distance2 = max(dot(to_light, to_light), 1e-12);
       to_light *= inversesqrt(distance2);
       width *= inversesqrt(distance2);
       if (kind == LAMP_AREA) {
+        facing = max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
         // no closer than a share of its own size: a point stands for its surroundings
-        irradiance *= max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
-        distance2 = max(distance2, 0.25 * lighting_data[base + 1].w * lighting_data[base + 1].w);
+        distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
       }
-      else {
-        // as from a disk that faces the surface
-        vec3 to_middle = lighting_data[base + 2].xyz - s.position;
-        distance2 = dot(to_middle, to_middle) + lighting_data[base + 2].w * lighting_data[base + 2].w;
-        if (kind == LAMP_SPOT) {
-          irradiance *= spot_share(base, -to_light);
-        }
+      else if (kind == LAMP_SPOT) {
+        irradiance *= spot_share(base, -to_light);
       }
-      irradiance /= max(distance2, 1e-12);
+      irradiance *= facing / distance2;
     }
     float cos_light = dot(s.normal, to_light);
-    if (cos_light <= 0.0 || irradiance.r + irradiance.g + irradiance.b <= 0.0) {
-      continue;
+    SKIPPABLE(cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
+      irradiance *= lamp_shadow(base, s.position);
+      vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
+      // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
+      float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
+      SKIPPABLE(alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
+        scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
+      }
+      sum += scattered * irradiance;
     }
-    irradiance *= lamp_shadow(base, s.position);
-    vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
-    // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
-    float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
-    if (alpha > GGX_SINGULAR_ALPHA) {
-      scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
-    }
-    sum += scattered * irradiance;
   }
   return sum;
 }

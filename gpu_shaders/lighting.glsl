@@ -3,11 +3,16 @@
 // Light on a surface point towards a viewer: lamps with shadows, the world with its shadows, emission.
 // Needs the samplers and the uniform block of renderer/lighting.py (Lighting.declare).
 //
-// lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp.
-//   0: number of lamps, world directions per pixel here, 1 for a world image, world directions in all;
-//   1: world colour, how many directions earlier sub-frames took; 2..4: rows of the rotation from world to image.
+// lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
+//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour; 2..4: rows of the rotation
+//   from world to image directions.
 #define HEADER_RECORDS 8
 #define LAMP_RECORDS 12
+#define MAX_LAMPS 32
+#define DIRECTION_RECORDS 5
+
+// An if that software renderers jump over when no pixel of a group wants it; they run through the body of a plain one.
+#define SKIPPABLE(condition) for (int once_ = (condition) ? 1 : 0; once_ > 0; once_--)
 
 struct Surface {
   vec3 position;   // world space
@@ -47,11 +52,12 @@ vec3 shade_under_mirror(Surface s, vec3 to_viewer)
     cos_viewer = -cos_viewer;
   }
   Lobes lobes = lobes_of(s, cos_viewer);
-  if (max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) <= 0.0) {
-    return s.emission;
+  vec3 sum = s.emission;
+  SKIPPABLE(max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) > 0.0) {
+    lobes.metal_weight = vec3(0.0);
+    lobes.dielectric_weight = 0.0;
+    lobes.specular_albedo = vec3(0.0);
+    sum += lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
   }
-  lobes.metal_weight = vec3(0.0);
-  lobes.dielectric_weight = 0.0;
-  lobes.specular_albedo = vec3(0.0);
-  return s.emission + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+  return sum;
 }

@@ -2,27 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: seen, as diffuse light with the shadows of a few directions, and in glossy lobes.
 // Needs the samplers `lighting_world_image` (FLOAT_2D, equirectangular) and `lighting_world_maps` (FLOAT_2D_ARRAY,
-// octahedral: irradiance; per class of pixels irradiance over that of its directions; one radiance map per roughness
-// level; last, five texels per direction: itself and its layer of the depth maps, weight, rows to the window).
+// octahedral: irradiance, irradiance over that of the directions, one radiance map per roughness level).
+// Records of a direction: itself and its layer of the depth maps; weight; rows to texel x, texel y and depth.
 #define WORLD_MAP_SIZE 64.0
-#define PIXEL_CLASSES 16
-#define WORLD_MAP_LOBES 17
-#define WORLD_MAP_DRAWS 23
-#define DIRECTION_RECORDS 5
-
-vec4 world_draw(int record)
-{
-  return texelFetch(lighting_world_maps, ivec3(record & 63, record >> 6, WORLD_MAP_DRAWS), 0);
-}
-
-// 0..15 over a block of 4 x 4 pixels, neighbours far apart (Bayer's matrix).
-int pixel_class()
-{
-  ivec2 p = ivec2(gl_FragCoord.xy);
-  int fine = 2 * ((p.x ^ p.y) & 1) + (p.y & 1);
-  int coarse = 2 * (((p.x ^ p.y) >> 1) & 1) + ((p.y >> 1) & 1);
-  return 4 * fine + coarse;
-}
+#define WORLD_MAP_LOBES 2
 
 vec3 world_color()
 {
@@ -61,54 +44,45 @@ vec3 world_map(vec2 place, int layer)
 // Mean radiance that a lobe of this roughness about `direction` sees, without shadows.
 vec3 world_lobe(vec3 direction, float roughness)
 {
-  if (lighting_data[0].z < 0.5) {
-    return world_color();
-  }
-  vec2 place = octahedral_place(direction);
-  if (roughness < 0.2) {
-    vec3 sharp = world_radiance(direction);
-    return roughness <= 0.0 ? sharp : mix(sharp, world_map(place, WORLD_MAP_LOBES), roughness / 0.2);
-  }
-  // levels 0.2, 0.35, 0.5, 0.65, 0.8, 1.0
-  float level = roughness < 0.8 ? (roughness - 0.2) / 0.15 : 4.0 + min((roughness - 0.8) / 0.2, 1.0);
+  // levels 0.2, 0.35, 0.5, 0.65, 0.8, 1.0; below the first the image itself takes over
+  float level = roughness < 0.8 ? max((roughness - 0.2) / 0.15, 0.0) : 4.0 + min((roughness - 0.8) / 0.2, 1.0);
   float below = min(floor(level), 4.0);
-  return mix(world_map(place, WORLD_MAP_LOBES + int(below)), world_map(place, WORLD_MAP_LOBES + int(below) + 1),
-             level - below);
+  vec2 place = octahedral_place(direction);
+  int layer = WORLD_MAP_LOBES + int(below);
+  vec3 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
+  SKIPPABLE(roughness < 0.2) {
+    radiance = mix(world_radiance(direction), radiance, roughness / 0.2);
+  }
+  return radiance;
 }
 
 // Radiance towards the viewer from the world. The directions' shadows are taken off the exact irradiance, scaled so
 // that a point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
-  if (max(world_color().r, max(world_color().g, world_color().b)) <= 0.0) {
-    return vec3(0.0);
-  }
-  vec2 place = octahedral_place(s.normal);
-  vec3 irradiance = world_map(place, 0);
-  vec3 lost = vec3(0.0);
-  int count = int(lighting_data[0].y);
-  int total = int(lighting_data[0].w);
-  int group = pixel_class();
-  int draw = (group * total / PIXEL_CLASSES + int(lighting_data[1].w)) % total;
-  for (int i = 0; i < count; i++) {
-    int record = DIRECTION_RECORDS * draw;
-    vec4 light = world_draw(record);
-    float cos_light = dot(s.normal, light.xyz);
-    if (cos_light > 0.0 && light.w >= 0.0) {
-      vec4 p = vec4(s.position, 1.0);
-      vec3 window = vec3(dot(world_draw(record + 2), p),
-                         dot(world_draw(record + 3), p),
-                         dot(world_draw(record + 4), p) - 2e-6);
-      lost += world_draw(record + 1).rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
+  vec3 sum = vec3(0.0);
+  SKIPPABLE(max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
+    vec2 place = octahedral_place(s.normal);
+    vec3 irradiance = world_map(place, 0);
+    vec3 lost = vec3(0.0);
+    int count = int(lighting_data[0].y);
+    vec4 p = vec4(s.position, 1.0);
+    for (int i = 0; i < count; i++) {
+      int record = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + DIRECTION_RECORDS * i;
+      vec4 light = lighting_data[record];
+      float cos_light = max(dot(s.normal, light.xyz), 0.0);
+      vec3 window = vec3(dot(lighting_data[record + 2], p),
+                         dot(lighting_data[record + 3], p),
+                         dot(lighting_data[record + 4], p) - 2e-6);
+      lost += lighting_data[record + 1].rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
     }
-    draw = draw + 1 == total ? 0 : draw + 1;
+    vec3 seen = irradiance - world_map(place, 1) * lost;
+    sum = lobes.diffuse * seen / LIGHTING_PI;
+    SKIPPABLE(max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
+      vec3 share = seen / max(irradiance, vec3(1e-9));
+      vec3 reflected = reflect(-to_viewer, s.normal);
+      sum += lobes.specular_albedo * world_lobe(reflected, clamp(s.roughness, 0.0, 1.0)) * share;
+    }
   }
-  vec3 seen = irradiance - world_map(place, 1 + group) * lost;
-  vec3 light = lobes.diffuse * seen / LIGHTING_PI;
-  if (max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
-    vec3 reflected = reflect(-to_viewer, s.normal);
-    vec3 share = seen / max(irradiance, vec3(1e-9));
-    light += lobes.specular_albedo * world_lobe(reflected, clamp(s.roughness, 0.0, 1.0)) * share;
-  }
-  return light;
+  return sum;
 }

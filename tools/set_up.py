@@ -58,10 +58,7 @@ def main() -> int:
             _write_stamp(wanted)
             return 0
         if state == _OTHER_PYTHON:
-            print(
-                f"curvrefl: {VENV} is not a CPython 3.13 environment: move it away so that one can be made.",
-                file=sys.stderr,
-            )
+            _say(f"curvrefl: {VENV} is not a CPython 3.13 environment: move it away so that one can be made.")
             return 2
     return _install(wanted)
 
@@ -80,27 +77,32 @@ def _pins() -> list[str]:
 
 
 def _install(wanted: bytes) -> int:
-    print("curvrefl: setting up once: Blender 5.2 as a Python module and tools, about 400 MB ...", end=" ", flush=True)
+    _say("curvrefl: setting up once: Blender 5.2 as a Python module and tools (about 1.4 GB in .venv) ... ", end="")
     start = time.monotonic()
+    fresh = not VENV.exists()
+    VENV.mkdir(exist_ok=True)
+    UNDER_WAY.touch()
+    STAMP.unlink(missing_ok=True)
     try:
-        if not VENV.exists():
+        if fresh:
             venv.create(VENV, with_pip=True)
-        UNDER_WAY.touch()
-        STAMP.unlink(missing_ok=True)
         command = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input"]
         for path in REQUIREMENTS:
             command += ["-r", str(path)]
-        subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        subprocess.run(command, check=True, capture_output=True, text=True)
     except subprocess.CalledProcessError as error:
-        print("failed", flush=True)
         output = error.stderr or error.stdout or ""
-        print(output if isinstance(output, str) else output.decode(errors="replace"), file=sys.stderr)
-        print("curvrefl: the installation failed (see above); the next start tries again.", file=sys.stderr)
+        _say(f"failed\n{output if isinstance(output, str) else output.decode(errors='replace')}")
+        _say("curvrefl: the installation failed (see above); the next start tries again.")
         return 1
     _write_stamp(wanted)
     UNDER_WAY.unlink()
-    print(f"done in {time.monotonic() - start:.0f} s", flush=True)
+    _say(f"done in {time.monotonic() - start:.0f} s")
     return 0
+
+
+def _say(text: str, end: str = "\n") -> None:
+    print(text, end=end, file=sys.stderr, flush=True)
 
 
 def _write_stamp(wanted: bytes) -> None:

@@ -108,11 +108,11 @@ def emitter(name: str, color: Color) -> bpy.types.Material:
     return material
 
 
-def looking(eye: Sequence[float], target: Sequence[float], roll_up: Sequence[float] = (0.0, 0.0, 1.0)) -> Float64Array:
-    """(4, 4) world matrix of a camera or lamp at `eye` whose -Z points at `target`."""
+def looking(eye: Sequence[float], target: Sequence[float]) -> Float64Array:
+    """(4, 4) world matrix of a camera or lamp at `eye` whose -Z points at `target`, Z up where that can be."""
     back = np.asarray(eye, float) - np.asarray(target, float)
     back /= np.linalg.norm(back)
-    right = np.cross(np.asarray(roll_up, float), back)
+    right = np.cross((0.0, 1.0, 0.0) if abs(back[2]) > 0.9999 else (0.0, 0.0, 1.0), back)
     right /= np.linalg.norm(right)
     matrix = np.eye(4)
     matrix[:3, 0], matrix[:3, 1], matrix[:3, 2] = right, np.cross(back, right), back

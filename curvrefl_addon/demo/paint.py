@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array
@@ -34,7 +36,7 @@ def planks(width: int, height: int, rows: int, seed: int = 3) -> Float32Array:
     light, dark = np.array([0.78, 0.57, 0.37]), np.array([0.47, 0.28, 0.15])
     edges = np.linspace(0, height, rows + 1).astype(int)
     x = np.arange(width)
-    for lower, upper in zip(edges, edges[1:], strict=False):
+    for lower, upper in pairwise(edges):
         size = (upper - lower, width)
         cut = int(rng.integers(width))
         side = ((x - cut) % width < width // 2).astype(float)
@@ -53,7 +55,9 @@ def planks(width: int, height: int, rows: int, seed: int = 3) -> Float32Array:
     return image.astype(np.float32)
 
 
-def chequer(size: int, cells: int, first: tuple[float, float, float], second: tuple[float, float, float]) -> Float32Array:
+def chequer(
+    size: int, cells: int, first: tuple[float, float, float], second: tuple[float, float, float]
+) -> Float32Array:
     """(size, size, 4): `cells` x `cells` squares of two colours with thin joints and a little variation."""
     rng = np.random.default_rng(7)
     row, column = np.indices((size, size)) * cells // size

@@ -58,15 +58,15 @@ GAP = 2e-4
 def body_radius(directions: Float64Array) -> Float64Array:
     """Distance (n,) of the kettle's body from `BODY_CENTER` along unit directions (n, 3).
 
-    A squarish ellipsoid (u^4 + v^4 + u^2 v^2 = 1), a little wider below than above, with eight soft flutes
-    (the real part of (x + iy)^8, which is smooth at the poles) and a flattened foot at the table's height.
+    A squarish ellipsoid (u^4 + v^4 + u^2 v^2 = 1), a little wider below than above, with eight flutes so soft that
+    it stays convex (the real part of (x + iy)^8, which is smooth at the poles). Its lowest point is on the table.
     """
     x, y, z = directions.T
     u2 = (x * x + y * y) / (0.5 * BODY_WIDTH) ** 2
     v2 = (z / 0.092) ** 2
     outline = (u2 * u2 + v2 * v2 + u2 * v2) ** -0.25
     flutes = ((x + 1j * y) ** 8).real
-    return outline * (1.0 - 0.09 * z + 0.09 * z**2 * z + 0.0055 * flutes)
+    return outline * (1.0 - 0.09 * z + 0.09 * z**3 + 0.0055 * flutes)
 
 
 def build_demo(path: Path) -> None:
@@ -188,7 +188,9 @@ def add_toys(body: bpy.types.Object) -> None:
 
     stripes = [(0.82, 0.12, 0.10), (0.95, 0.93, 0.88), (0.12, 0.33, 0.72), (0.95, 0.93, 0.88), (0.96, 0.75, 0.12)]
     stripes += [(0.95, 0.93, 0.88)]
-    rubber = principled("Striped rubber", roughness=0.35, image=packed_image("Stripes", paint.segments(384, 64, stripes)))
+    rubber = principled(
+        "Striped rubber", roughness=0.35, image=packed_image("Stripes", paint.segments(384, 64, stripes))
+    )
     sphere = ball(0.034, 24).turned(0.5, 0).turned(0.9, 1).moved((0.09, -0.3, 0.034))
     sphere = slide_to_contact(sphere, (-0.33, 1.0, 0.0), body_radius, center, GAP)
     _add_world_shape("Ball", sphere, rubber, smooth=True)
@@ -202,7 +204,7 @@ def add_toys(body: bpy.types.Object) -> None:
 
 
 def add_unseen_things() -> None:
-    """What only the mirror shows, in front of, beside and behind the camera: a pencil, a mug, a lemon, a tower of blocks."""
+    """What only the mirror shows: a pencil, a mug, a lemon and a tower of blocks, out of the picture all round."""
     mug = principled("Turquoise mug", (0.02, 0.36, 0.38), roughness=0.25)
     add_object("Mug", _mug(), mug, smooth=True, location=(0.33, -0.42, 0.0), rotation=(0.0, 0.0, 0.6))
     colors = [(0.6, 0.05, 0.04), (0.82, 0.55, 0.04), (0.05, 0.32, 0.1), (0.04, 0.12, 0.5)]
@@ -220,7 +222,7 @@ def add_unseen_things() -> None:
     tip = principled("Pencil tip", (0.76, 0.55, 0.34), roughness=0.6)
     shaft, point = _pencil()
     for name, part, material in (("Pencil", shaft, wood), ("Pencil tip", point, tip)):
-        add_object(name, part, material, location=(-0.028, -0.195, 0.0035), rotation=(0.0, 0.0, np.radians(-14.0)))
+        add_object(name, part, material, location=(-0.028, -0.195, 0.003465), rotation=(0.0, 0.0, np.radians(-14.0)))
 
 
 def add_suzanne(location: tuple[float, float, float], size: float, toward: Float64Array) -> bpy.types.Object:
@@ -268,7 +270,8 @@ def _pencil() -> tuple[Shape, Shape]:
     """(shaft, sharpened end) of a six-sided pencil along X, its axis through the origin."""
     shaft = turned_profile([(0.0, -0.07), (0.004, -0.07), (0.004, 0.052)], 6)
     point = turned_profile([(0.004, 0.052), (0.0, 0.07)], 6)
-    return shaft.turned(np.pi / 2, 1), point.turned(np.pi / 2, 1)
+    shaft, point = (part.turned(np.pi / 2, 1).turned(np.pi / 6, 0) for part in (shaft, point))  # a flat side down
+    return shaft, point
 
 
 def _mug() -> Shape:

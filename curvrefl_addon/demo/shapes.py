@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -116,14 +117,16 @@ def turned_profile(profile: Sequence[tuple[float, float]], segments: int) -> Sha
     rings: list[list[int]] = []
     count = 0
     for radius, height in profile:
-        points = np.array([[0.0, 0.0, height]]) if radius == 0.0 else np.column_stack(
-            [circle * radius, np.full(segments, height)]
+        points = (
+            np.array([[0.0, 0.0, height]])
+            if radius == 0.0
+            else np.column_stack([circle * radius, np.full(segments, height)])
         )
         positions.append(points)
         rings.append([count] * segments if radius == 0.0 else list(range(count, count + segments)))
         count += len(points)
     polygons: list[tuple[int, ...]] = []
-    for lower, upper in zip(rings, rings[1:], strict=False):
+    for lower, upper in pairwise(rings):
         for i in range(segments):
             j = (i + 1) % segments
             loop = (lower[i], lower[j], upper[j], upper[i])
@@ -257,7 +260,7 @@ def surface_samples(shape: Shape, spacing: float) -> Float64Array:
 def slide_to_contact(
     shape: Shape, direction: Sequence[float], radius: RadiusFunction, center: Sequence[float], gap: float
 ) -> Shape:
-    """Push a shape that stands clear of a star-shaped body along `direction` until `gap` metres short of touching it."""
+    """Push a shape that stands clear of a star-shaped body along `direction`, to `gap` metres short of touching it."""
     way = np.asarray(direction, float)
     way = way / np.linalg.norm(way)
     extent = float(np.ptp(shape.positions, axis=0).max())

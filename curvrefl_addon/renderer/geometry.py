@@ -73,6 +73,8 @@ class WorldGeometry:
     @cached_property
     def batches(self) -> tuple[tuple[int, Any], ...]:
         """(material index, attribute-less GPUBatch) for every material that has triangles."""
+        if len(self.triangles) == 0:
+            return ()
         order = np.argsort(self.triangle_material, kind="stable")
         materials, starts = np.unique(self.triangle_material[order], return_index=True)
         groups = np.split(order, starts[1:])
@@ -133,7 +135,12 @@ def flatten(
         if any_color
         else None,
         triangles=joined(
-            [mesh.triangles + start for mesh, start in zip(meshes, corner_starts, strict=False)], (0, 3), np.int32
+            [
+                _outward(mesh, instance) + start
+                for mesh, instance, start in zip(meshes, chosen, corner_starts, strict=False)
+            ],
+            (0, 3),
+            np.int32,
         ),
         triangle_material=joined(
             [
@@ -161,6 +168,12 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> tuple[Float32Array, Fl
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals /= np.where(lengths > 0, lengths, 1)
     return positions.astype(np.float32), normals.astype(np.float32)
+
+
+def _outward(mesh: MeshArrays, instance: InstanceArrays) -> Int32Array:
+    """Triangles of an instance, counter-clockwise from outside also where a negative scale mirrors the mesh."""
+    mirrors = np.linalg.det(instance.matrix[:3, :3]) < 0.0
+    return mesh.triangles[:, ::-1] if mirrors else mesh.triangles
 
 
 def _pack_color(color: Float32Array) -> Float32Array:

@@ -21,22 +21,19 @@ from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .lighting_shadow_maps import ShadowCasters, ShadowMaps
 from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
-from .lighting_world import MAP_SIZE, world_light
+from .lighting_world import world_light
 
 HEADER_RECORDS = 8
-DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS
-"""vec4 records of the uniform block; as in lighting.glsl"""
 DIRECTION_RECORDS = 5
-"""Texels per world direction"""
+MAX_DIRECTIONS = 32
+"""World directions of one sub-frame"""
+DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
+"""vec4 records of the uniform block; as in lighting.glsl"""
 SAMPLER_COUNT = 5
 MAX_LAMP_SAMPLES = 16
-WORLD_DRAWS = 256
-"""World directions of all pixels together"""
-WORLD_DRAWS_PER_PIXEL = 96
-"""World directions of one pixel over all sub-frames"""
-MOST_DRAWS_AT_ONCE = 32
-"""World directions of one pixel in one sub-frame"""
-WORLD_MAP_RESOLUTION = 256
+WORLD_DIRECTIONS = 128
+"""World directions of a whole picture"""
+WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 LAMP_MAP_BYTES = 80 << 20
 """The finest resolution that fits is taken"""
@@ -86,9 +83,9 @@ class Lighting:
         """
         index = sub_frame % self.sub_frames
         if index not in self._blocks:
-            lamp_layers, records = self._records(index)
+            lamp_layers, world_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers)
-            self._world_maps.draw(range(len(self._world_maps.views)))
+            self._world_maps.draw(world_layers)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
@@ -148,39 +145,22 @@ class Lighting:
         return lamps, views
 
     def _plan_world(self, scene: SceneArrays) -> None:
-        """Choose the world's directions and their shadow views; fill its textures.
-
-        Layers of the maps: irradiance, ratios per pixel class, lobes, and the draws as records.
-        """
+        """Choose the world's directions and their shadow views; fill its textures."""
         world = self._world = scene.world
         lit = max(world.color) > 0.0
-        light = world_light(world, WORLD_DRAWS)
-        self._draws_at_once = min(-(-WORLD_DRAWS_PER_PIXEL // self.sub_frames), MOST_DRAWS_AT_ONCE) if lit else 0
+        self._directions_at_once = min(-(-WORLD_DIRECTIONS // self.sub_frames), MAX_DIRECTIONS) if lit else 0
+        self._world_light = light = world_light(world, max(self._directions_at_once * self.sub_frames, 1))
         views: list[ShadowView] = []
-        layers = np.full(len(light.directions), -1)
+        self._world_layers = np.full(len(light.directions), -1)
         for index, direction in enumerate(light.directions if lit else ()):
             view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
             if view is not None:
-                layers[index] = len(views)
+                self._world_layers[index] = len(views)
                 views.append(view)
         self._world_maps = ShadowMaps(self._casters, WORLD_MAP_RESOLUTION, views, bias_texels=0.5)
-        rows = [_window_rows(view, WORLD_MAP_RESOLUTION)[:3] for view in views]
-        self._draw_count = len(light.draws)
-        draws = np.zeros((MAP_SIZE * MAP_SIZE, 4), np.float32)
-        records = draws[: self._draw_count * DIRECTION_RECORDS].reshape(-1, DIRECTION_RECORDS, 4)
-        records[:, 0, :3] = light.directions[light.draws]
-        records[:, 0, 3] = layers[light.draws]
-        records[:, 1, :3] = light.weights * (self._draw_count / max(self._draws_at_once, 1))
-        for record, layer in zip(records, layers[light.draws], strict=True):
-            if layer >= 0:
-                record[2:5] = rows[layer]
-        run = min(self._draws_at_once * self.sub_frames, self._draw_count)
-        colors = np.concatenate([light.irradiance[None], light.ratios(max(run, 1)), light.lobes])
-        maps = np.ones((len(colors) + 1, MAP_SIZE, MAP_SIZE, 4), np.float32)
-        maps[:-1, ..., :3] = colors
-        maps[-1] = draws.reshape(MAP_SIZE, MAP_SIZE, 4)
+        maps = light.maps
         self._world_textures = gpu.types.GPUTexture(
-            (MAP_SIZE, MAP_SIZE), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
+            (maps.shape[2], maps.shape[1]), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
         )
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
@@ -189,22 +169,34 @@ class Lighting:
             image[..., :3] = world.image
             self._world_image = texture_2d(image, linear=True, repeat=True)
 
-    def _records(self, index: int) -> tuple[list[int], Float64Array]:
-        """Lamp layers that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+    def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
+        """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
         records = np.zeros((DATA_RECORDS, 4))
-        needed: list[int] = []
+        lamp_layers: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):
             place, layers = planned[index % len(planned)]
             start = HEADER_RECORDS + row * LAMP_RECORDS
             block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
             self._shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
-            needed += [layer for layer in layers if layer >= 0]
-        records[0] = [len(self._lights), self._draws_at_once, float(self._world.image is not None), self._draw_count]
+            lamp_layers += [layer for layer in layers if layer >= 0]
+        world_layers: list[int] = []
+        at_once = self._directions_at_once
+        for draw in range(index * at_once, (index + 1) * at_once):
+            direction = self._world_light.draws[draw]
+            layer = int(self._world_layers[direction])
+            if layer < 0:
+                continue
+            start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
+            records[start] = [*self._world_light.directions[direction], layer]
+            records[start + 1, :3] = self._world_light.weights[draw] * self.sub_frames
+            view = self._world_maps.views[layer]
+            records[start + 2 : start + 5] = _window_rows(view, self._world_maps.resolution)[:3]
+            world_layers.append(layer)
+        records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1, :3] = self._world.color
-        records[1, 3] = index * self._draws_at_once
         records[2:5, :3] = self._world.rotation
-        return needed, records
+        return lamp_layers, world_layers, records
 
     def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
         """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""

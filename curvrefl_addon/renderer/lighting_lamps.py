@@ -45,20 +45,21 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
     if count == 1 or not is_soft(light):
         middle = back if light.kind == "SUN" else centre
         return np.tile(np.append(middle, weight), (1, 1))
-    u, v = _square_points(count, seed)
+    u, v = _square_points((count + 1) // 2, seed)
     if light.kind == "AREA":
-        if light.ellipse:
-            u, v = _disk(u, v)
-            places = centre + 0.5 * light.size[0] * np.outer(u, x) + 0.5 * light.size[1] * np.outer(v, y)
-        else:
-            places = centre + light.size[0] * np.outer(u - 0.5, x) + light.size[1] * np.outer(v - 0.5, y)
+        across = _disk(u, v) if light.ellipse else np.column_stack([2.0 * u - 1.0, 2.0 * v - 1.0])
+        offsets = 0.5 * across * light.size @ np.stack([x, y])
     elif light.kind == "SUN":
-        cosine = 1.0 - u * (1.0 - np.cos(0.5 * light.angle))
-        sine, turn = np.sqrt(np.maximum(1.0 - cosine**2, 0.0)), 2.0 * np.pi * v
-        places = np.outer(cosine, back) + np.outer(sine * np.cos(turn), x) + np.outer(sine * np.sin(turn), y)
+        offsets = np.tan(0.5 * min(light.angle, 3.1)) * _disk(u, v) @ np.stack([x, y])
+        centre = back
     else:
-        places = centre + light.radius * _ball(u, v)
-    return np.column_stack([places, np.full(len(places), weight)])
+        offsets = light.radius * _ball(u, v)
+    # in opposite pairs, so that their middle is the lamp's
+    offsets = np.stack([offsets, -offsets], axis=1).reshape(-1, 3)[:count]
+    places = centre + offsets
+    if light.kind == "SUN":
+        places /= np.linalg.norm(places, axis=1, keepdims=True)
+    return np.column_stack([places, np.full(count, weight)])
 
 
 def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Float64Array:
@@ -120,9 +121,10 @@ def _square_points(count: int, seed: int) -> tuple[Float64Array, Float64Array]:
     return ((index + 0.5) / count + shift[0]) % 1.0, (bits + 0.5 / count + shift[1]) % 1.0
 
 
-def _disk(u: Float64Array, v: Float64Array) -> tuple[Float64Array, Float64Array]:
+def _disk(u: Float64Array, v: Float64Array) -> Float64Array:
+    """(n, 2) points of the unit disk."""
     radius, turn = np.sqrt(u), 2.0 * np.pi * v
-    return radius * np.cos(turn), radius * np.sin(turn)
+    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
 
 
 def _ball(u: Float64Array, v: Float64Array) -> Float64Array:
@@ -131,6 +133,7 @@ def _ball(u: Float64Array, v: Float64Array) -> Float64Array:
     share = (np.arcsin(radii) - radii * np.sqrt(1.0 - radii**2)) * 2.0 / np.pi
     height, turn = 1.0 - 2.0 * u, 2.0 * np.pi * v
     sine = np.sqrt(np.maximum(1.0 - height**2, 0.0))
-    # the third coordinate only has to be spread independently of the direction
-    radius = np.interp((u * 7.0 + v * 3.0) % 1.0, share, radii)
+    # the radii, one from each of as many equal shares, in an order unlike that of the directions
+    count = len(u)
+    radius = np.interp(((np.arange(count) * 5) % count + 0.5) / count, share, radii)
     return np.column_stack([sine * np.cos(turn), sine * np.sin(turn), height]) * radius[:, None]

@@ -21,8 +21,6 @@ MAP_SIZE = 64
 """Texels along an octahedral map, as WORLD_MAP_SIZE in world_light.glsl"""
 ROUGHNESS_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8, 1.0)
 """Of the maps of the glossy lobe, as in world_light.glsl"""
-PIXEL_CLASSES = 16
-"""Pixels of a 4 x 4 block see different directions; as in world_light.glsl"""
 SMALLEST_PATCH = np.radians(1.5)
 
 
@@ -36,37 +34,16 @@ class WorldLight:
     """(k,) indices into `directions`, the bright ones several times; any few in a row stand for the whole sky"""
     weights: Float64Array
     """(k, 3) radiance times solid angle of each draw; sums to the integral over the sphere"""
-    irradiance: Float64Array
-    """(MAP_SIZE, MAP_SIZE, 3) by normal, octahedral"""
-    lobes: Float64Array
-    """(levels, MAP_SIZE, MAP_SIZE, 3) radiance that the lobe about a reflected direction sees, per roughness level"""
-
-    def ratios(self, run: int) -> Float64Array:
-        """(PIXEL_CLASSES, MAP_SIZE, MAP_SIZE, 3): irradiance over that of the `run` draws that a pixel class sees.
-
-        Class c sees the draws from `class_start(c)` on; their weights stand for all.
-        """
-        normals = octahedral_directions(MAP_SIZE).reshape(-1, 3)
-        cosines = np.maximum(normals @ self.directions.T, 0.0)
-        count = len(self.draws)
-        result = np.ones((PIXEL_CLASSES, len(normals), 3))
-        for pixel_class in range(PIXEL_CLASSES):
-            seen = (class_start(pixel_class, count) + np.arange(run)) % count
-            by_draws = cosines[:, self.draws[seen]] @ self.weights[seen] * (count / run)
-            np.divide(self.irradiance.reshape(-1, 3), by_draws, out=result[pixel_class], where=by_draws > 0.0)
-        return np.clip(result, 0.0, 4.0).reshape(PIXEL_CLASSES, MAP_SIZE, MAP_SIZE, 3)
-
-
-def class_start(pixel_class: int, count: int) -> int:
-    """First draw of a pixel class."""
-    return pixel_class * count // PIXEL_CLASSES
+    maps: Float32Array
+    """(2 + levels, MAP_SIZE, MAP_SIZE, 4), octahedral: irradiance by normal; that over the irradiance from the draws;
+    per roughness level the radiance that the lobe about a reflected direction sees"""
 
 
 _last: list[tuple[WorldArrays, int, WorldLight]] = []
 
 
 def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """About `count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
+    """`count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
     for known, known_count, light in _last:
         same = known.image is world.image and known.color == world.color
         if same and known_count == count and np.array_equal(known.rotation, world.rotation):
@@ -76,20 +53,18 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     normals = octahedral_directions(MAP_SIZE).reshape(-1, 3).astype(np.float32)
     directions, draws, weights = _uniform(world, count) if world.image is None else _by_power(sky, count)
     if world.image is None:
-        irradiance = np.tile(np.pi * np.asarray(world.color), (len(normals), 1))
-        lobes = np.tile(np.asarray(world.color, np.float64), (len(ROUGHNESS_LEVELS), len(normals), 1))
+        irradiance = np.tile(np.pi * np.asarray(world.color, np.float64), (len(normals), 1))
+        lobes = [np.tile(np.asarray(world.color, np.float64), (len(normals), 1))] * len(ROUGHNESS_LEVELS)
     else:
         irradiance = np.maximum(normals @ coarse.directions.T.astype(np.float32), 0.0) @ coarse.power
-        lobes = np.stack(
-            [_lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS]
-        )
-    light = WorldLight(
-        directions,
-        draws,
-        weights,
-        np.asarray(irradiance, np.float64).reshape(MAP_SIZE, MAP_SIZE, 3),
-        lobes.reshape(len(ROUGHNESS_LEVELS), MAP_SIZE, MAP_SIZE, 3),
-    )
+        lobes = [_lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS]
+    by_draws = np.maximum(normals @ directions[draws].T.astype(np.float32), 0.0) @ weights
+    ratio = np.ones_like(by_draws)
+    np.divide(irradiance, by_draws, out=ratio, where=by_draws > 0.0)
+    layers = np.stack([irradiance, np.clip(ratio, 0.0, 4.0), *lobes])
+    maps = np.ones((len(layers), MAP_SIZE, MAP_SIZE, 4), np.float32)
+    maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
+    light = WorldLight(directions, draws, weights, maps)
     _last[:] = [(world, count, light)]
     return light
 
@@ -175,7 +150,7 @@ def _by_power(sky: _Sky, count: int) -> tuple[Float64Array, np.ndarray, Float64A
         weights[row] = sky.power[members].sum(axis=0)
     times = _shares(weights.sum(axis=1), count)
     draws = np.repeat(np.arange(len(groups)), times)
-    order = np.rint(_sobol(count)[0] * count).astype(np.int64)
+    order = np.argsort(np.argsort(_sobol(count)[0]))
     return directions, draws[order], (weights / times[:, None])[draws[order]]
 
 

@@ -4,17 +4,14 @@
 """Methods against Cycles and against Blender's fast engines, on one view of one scene.
 
 Writes `report.json`, `report.html`, `reference.png`, METHOD.png, METHOD_error.png and PEER.png into a folder.
-They are made in a temporary folder beside and moved at the end: a comparison that fails leaves nothing.
+They are moved there at the end: a comparison that fails leaves nothing.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import os
-import shutil
 import statistics
-import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -27,10 +24,13 @@ import gpu
 
 from ..errors import InputError
 from ..optics.catalogue import METHODS
+from ..output import checked_folder, folder_to_publish
 from ..renderer.frame import Renderer, Settings
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
+from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+from ..scene.extract import extract_scene
 from ..scene.view import View
-from .cycles_reference import LIGHTS, PEERS, Light, render_peer, render_reference
+from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .display import inverse_display_transform
 from .geometry_reference import GeometryReference, render_geometry
 from .html import report_page
@@ -66,6 +66,10 @@ class RendererLike(Protocol):
     def free(self) -> None: ...
 
 
+type MakeRenderer = Callable[[SceneArrays, str], RendererLike]
+"""From a scene and the name of a method"""
+
+
 @dataclass(frozen=True, slots=True)
 class Comparison:
     """What to compare, checked: raises InputError for values out of range and unknown names."""
@@ -74,7 +78,7 @@ class Comparison:
     width: int = 640
     height: int = 480
     samples: int = 256
-    light: Light = "direct"
+    light: str = "direct"
     peers: tuple[str, ...] = PEERS
 
     def __post_init__(self) -> None:
@@ -112,18 +116,19 @@ def compare_blend(
     camera: str | None = None,
     frame: int | None = None,
     progress: Progress | None = None,
-    make_renderer: Callable[[SceneArrays, str], RendererLike] = new_renderer,
+    make_renderer: MakeRenderer | None = None,
 ) -> dict[str, Any]:
     """Open the .blend file at `path` and compare its picture; see `compare_open_scene`."""
-    comparison = _comparison(methods, width, height, samples, light, peers)
-    output = _checked_output(Path(output))
+    comparison = Comparison(tuple(dict.fromkeys(methods)), width, height, samples, light, tuple(dict.fromkeys(peers)))
+    output = checked_folder(output)
     open_blend(Path(path))
-    scene = bpy.context.scene
+    scene, view_layer = bpy.context.scene, bpy.context.view_layer
+    assert scene is not None and view_layer is not None
     if frame is not None:
         scene.frame_set(frame)
     return compare_open_scene(
         scene,
-        bpy.context.view_layer,
+        view_layer,
         reflector_names,
         comparison,
         output,
@@ -143,7 +148,7 @@ def compare_open_scene(
     scene_name: str | None = None,
     camera: str | None = None,
     progress: Progress | None = None,
-    make_renderer: Callable[[SceneArrays, str], RendererLike] = new_renderer,
+    make_renderer: MakeRenderer | None = None,
 ) -> dict[str, Any]:
     """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
 
@@ -154,16 +159,18 @@ def compare_open_scene(
     reflectors), an output folder that cannot be written.
     """
     say = progress or _silent
-    output = _checked_output(Path(output))
+    output = checked_folder(output)
     with _camera_in_use(scene, camera):
         say("Reading the scene")
+        view = view_of_camera(scene, scene.camera, comparison.width, comparison.height)
+        with bpy.context.temp_override(scene=scene, view_layer=view_layer):
+            depsgraph = bpy.context.evaluated_depsgraph_get()
         start = time.perf_counter()
-        arrays = extract_scene(scene, view_layer, reflector_names)
+        arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
         extract_ms = 1e3 * (time.perf_counter() - start)
-        view = camera_view(scene, comparison.width, comparison.height)
-        with _folder_to_publish(output) as folder:
+        with folder_to_publish(output) as folder:
             report, mismatch = _run(
-                scene, view_layer, arrays, view, comparison, extract_ms, folder, say, make_renderer
+                scene, view_layer, arrays, view, comparison, extract_ms, folder, say, make_renderer or new_renderer
             )
             report = {
                 "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
@@ -186,7 +193,7 @@ def _run(
     extract_ms: float,
     folder: Path,
     say: Progress,
-    make_renderer: Callable[[SceneArrays, str], RendererLike],
+    make_renderer: MakeRenderer,
 ) -> tuple[dict[str, Any], dict[str, float | None]]:
     """All numbers of the report but its names, and per method the mismatch of masks; pictures go into `folder`."""
     width, height = comparison.width, comparison.height
@@ -267,7 +274,7 @@ def _measure(
     view: View,
     method: str,
     extract_ms: float,
-    make_renderer: Callable[[SceneArrays, str], RendererLike],
+    make_renderer: MakeRenderer,
 ) -> _MeasuredFrame:
     """One warming frame (shaders compile, resources load), then the median times of `TIMED_FRAMES` more."""
     renderer = make_renderer(arrays, method)
@@ -315,15 +322,6 @@ def _opaque(pixels: Float32Array) -> Float32Array:
     return pixels[..., :3]
 
 
-def _comparison(
-    methods: Sequence[str], width: int, height: int, samples: int, light: str, peers: Sequence[str]
-) -> Comparison:
-    """Names once each, in the order given."""
-    return Comparison(
-        tuple(dict.fromkeys(methods)), width, height, samples, light, tuple(dict.fromkeys(peers))  # type: ignore[arg-type]
-    )
-
-
 def _silent(_message: str) -> None:
     """Says nothing."""
 
@@ -337,33 +335,3 @@ def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
         yield
     finally:
         scene.camera = before
-
-
-def _checked_output(output: Path) -> Path:
-    """The absolute folder to write to. Raises InputError when it cannot be one."""
-    output = output.absolute()
-    if output.exists() and not output.is_dir():
-        raise InputError(f"Cannot write the report to '{output}', which is a file: choose a folder.")
-    base = _existing_base(output)
-    if not base.is_dir() or not os.access(base, os.W_OK | os.X_OK):
-        raise InputError(f"Cannot write to '{base}': choose another folder for the report.")
-    return output
-
-
-def _existing_base(output: Path) -> Path:
-    """`output` itself or the nearest folder above it that exists."""
-    return next(folder for folder in (output, *output.parents) if folder.exists())
-
-
-@contextmanager
-def _folder_to_publish(output: Path) -> Iterator[Path]:
-    """A temporary folder whose files are moved to `output` at the end, and dropped if something fails before."""
-    folder = Path(tempfile.mkdtemp(prefix=".curvrefl-", dir=_existing_base(output)))
-    try:
-        yield folder
-        output.mkdir(parents=True, exist_ok=True)
-        # The report last: where it is, all that it names is.
-        for path in sorted(folder.iterdir(), key=lambda path: path.name.startswith("report")):
-            os.replace(path, output / path.name)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)

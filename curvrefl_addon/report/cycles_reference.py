@@ -17,7 +17,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any
 
 import bpy
 
@@ -26,9 +26,7 @@ from ..scene.arrays import Float32Array
 from .images import load_exr
 from .temporary_settings import TemporarySettings, temporary_settings
 
-type Light = Literal["direct", "full"]
-
-LIGHTS: tuple[Light, ...] = ("direct", "full")
+LIGHTS = ("direct", "full")
 PEERS = ("eevee", "cycles1", "cycles8")
 EEVEE_SAMPLES = 16
 
@@ -49,7 +47,7 @@ def render_reference(
     width: int,
     height: int,
     samples: int,
-    light: Light = "direct",
+    light: str = "direct",
 ) -> Still:
     """The scene in Cycles on the CPU.
 
@@ -69,7 +67,7 @@ def render_peer(
     peer: str,
     width: int,
     height: int,
-    light: Light = "direct",
+    light: str = "direct",
 ) -> Still:
     """The scene in one of `PEERS`. It is rendered twice; the second is kept and timed, the first compiles and loads.
 
@@ -120,9 +118,10 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         color_depth="32",
         exr_codec="NONE",
     )
-    if scene.camera is not None and scene.camera.type == "CAMERA":
+    camera = scene.camera.data if scene.camera is not None else None
+    if isinstance(camera, bpy.types.Camera):
         # The renderer under test has a pinhole.
-        changes.set(scene.camera.data.dof, use_dof=False)
+        changes.set(camera.dof, use_dof=False)
     for marker in scene.timeline_markers:
         # A marker with a camera would replace the chosen one as the render starts.
         changes.set(marker, camera=None)
@@ -130,9 +129,7 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
     changes.set(scene, camera=scene.camera)
 
 
-def use_viewport_geometry(
-    changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer
-) -> None:
+def use_viewport_geometry(changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
     """Render what the viewport's dependency graph shows: its detail and its hidden objects."""
     changes.set(scene.render, simplify_subdivision_render=scene.render.simplify_subdivision)
     in_view_layer = set(view_layer.objects)
@@ -140,6 +137,8 @@ def use_viewport_geometry(
         hidden = obj.hide_viewport or (obj in in_view_layer and not obj.visible_get(view_layer=view_layer))
         if hidden:
             changes.set(obj, hide_render=True)
+        changes.set(obj, show_instancer_for_render=obj.show_instancer_for_viewport)
+        modifier: Any
         for modifier in obj.modifiers:
             changes.set(modifier, show_render=modifier.show_viewport)
             if modifier.type in ("SUBSURF", "MULTIRES"):
@@ -159,14 +158,13 @@ def use_cycles(
     scene: bpy.types.Scene,
     view_layer: bpy.types.ViewLayer,
     samples: int,
-    light: Light,
+    light: str,
 ) -> None:
     """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for `light`."""
-    if not hasattr(scene, "cycles"):
-        raise InputError("Cycles is not available: enable the add-on 'Cycles Render Engine' in the preferences.")
+    cycles = cycles_settings(scene)
     changes.set(scene.render, engine="CYCLES")
     changes.set(
-        scene.cycles,
+        cycles,
         device="CPU",
         samples=samples,
         use_adaptive_sampling=False,
@@ -179,7 +177,7 @@ def use_cycles(
         # One bounce off the mirror; what it shows is lit, then the path ends. Cycles still follows the last
         # bounce to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
         changes.set(
-            scene.cycles,
+            cycles,
             max_bounces=1,
             diffuse_bounces=0,
             glossy_bounces=1,
@@ -197,7 +195,15 @@ def use_cycles(
         )
 
 
-def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: Light) -> None:
+def cycles_settings(scene: bpy.types.Scene) -> Any:
+    """`scene.cycles`. Raises InputError when Cycles, an add-on, is not enabled."""
+    settings = getattr(scene, "cycles", None)
+    if settings is None:
+        raise InputError("Cycles is not available: enable the add-on 'Cycles Render Engine' in the preferences.")
+    return settings
+
+
+def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: str) -> None:
     changes.set(scene.render, engine="BLENDER_EEVEE")
     changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES, use_raytracing=True)
     if light == "direct":

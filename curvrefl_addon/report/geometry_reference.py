@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Int32Array
-from .cycles_reference import render_still, use_cycles, use_still_output, use_viewport_geometry
+from .cycles_reference import cycles_settings, render_still, use_cycles, use_still_output, use_viewport_geometry
 from .temporary_settings import TemporarySettings, temporary_settings
 
 UNLISTED_OBJECT = -1
@@ -84,7 +84,7 @@ def render_geometry(
         use_still_output(changes, scene, width, height)
         use_viewport_geometry(changes, scene, view_layer)
         use_cycles(changes, scene, view_layer, 1, "direct")
-        changes.set(scene.cycles, pixel_filter_type="BLACKMAN_HARRIS", filter_width=_PIXEL_FILTER_WIDTH)
+        changes.set(cycles_settings(scene), pixel_filter_type="BLACKMAN_HARRIS", filter_width=_PIXEL_FILTER_WIDTH)
         for obj in bpy.data.objects:
             changes.set(obj, pass_index=index_of_id[object_ids.get(obj.name, UNLISTED_OBJECT)])
             if obj.type in _UNSEEN_TYPES:

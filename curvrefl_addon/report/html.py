@@ -142,7 +142,9 @@ def _other_peers(report: dict[str, Any]) -> str:
 def _peer_figure(report: dict[str, Any], name: str) -> str:
     peer = report["peers"][name]
     return _figure(
-        f"{name}.png", peer_title(name), {**_image_numbers(peer["image"]), "frame": f"{milliseconds(peer['time_ms'])} ms"}
+        f"{name}.png",
+        peer_title(name),
+        {**_image_numbers(peer["image"]), "frame": f"{milliseconds(peer['time_ms'])} ms"},
     )
 
 

@@ -11,6 +11,7 @@ an EXR must be read and written as "Non-Color" or it may be converted, its alpha
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -34,7 +35,7 @@ def as_rgba(array: Float32Array) -> Float32Array:
 def to_image_datablock(name: str, array: Float32Array) -> bpy.types.Image:
     """A new packed float image in the open file, scene-linear, that shows `array` (see `as_rgba`) as it is."""
     rgba = as_rgba(array)
-    image = bpy.data.images.new(name, rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=True)
+    image: Any = bpy.data.images.new(name, rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=True)
     image.alpha_mode = "PREMUL"
     image.pixels.foreach_set(rgba.ravel())
     image.update()
@@ -48,7 +49,7 @@ def save_exr(path: Path | str, array: Float32Array) -> None:
     Raises OSError when the file cannot be written.
     """
     rgba = as_rgba(array)
-    image = bpy.data.images.new("curvrefl exr", rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=True)
+    image: Any = bpy.data.images.new("curvrefl exr", rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=True)
     try:
         image.colorspace_settings.name = "Non-Color"
         image.alpha_mode = "PREMUL"
@@ -59,11 +60,14 @@ def save_exr(path: Path | str, array: Float32Array) -> None:
 
 
 def load_exr(path: Path | str) -> Float32Array:
-    """(h, w, 4) as stored in a single-layer file, bit for bit for 32-bit files. Raises OSError when it cannot be read."""
+    """(h, w, 4) as stored in a single-layer file, bit for bit for 32-bit files.
+
+    Raises OSError when it cannot be read.
+    """
     path = Path(path).absolute()
     if not path.is_file():
         raise FileNotFoundError(f"{path} does not exist")
-    image = bpy.data.images.load(str(path), check_existing=False)
+    image: Any = bpy.data.images.load(str(path), check_existing=False)
     try:
         image.colorspace_settings.name = "Non-Color"
         width, height = image.size
@@ -85,7 +89,7 @@ def save_png(path: Path | str, linear_rgba: Float32Array) -> None:
     alpha = np.clip(rgba[..., 3:], 0.0, 1.0)
     straight = np.divide(rgba[..., :3], alpha, out=np.zeros_like(rgba[..., :3]), where=alpha > 0.0)
     encoded = np.concatenate((display_transform(straight), alpha), axis=2)
-    image = bpy.data.images.new("curvrefl png", rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=False)
+    image: Any = bpy.data.images.new("curvrefl png", rgba.shape[1], rgba.shape[0], alpha=True, float_buffer=False)
     try:
         # A byte image stores what it is given; rounding here keeps the choice ours.
         image.pixels.foreach_set((np.round(encoded * 255.0) / 255.0).astype(np.float32).ravel())
@@ -94,8 +98,8 @@ def save_png(path: Path | str, linear_rgba: Float32Array) -> None:
         bpy.data.images.remove(image)
 
 
-def _save(image: bpy.types.Image, file_format: str, path: Path) -> None:
-    image.file_format = file_format  # type: ignore[assignment]
+def _save(image: Any, file_format: str, path: Path) -> None:
+    image.file_format = file_format
     image.filepath_raw = str(path.absolute())
     try:
         image.save()

@@ -73,7 +73,7 @@ def flip_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -
 
 
 def psnr_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -> float | None:
-    """Peak signal-to-noise ratio in dB over the colours in `mask`; infinite where they are equal, None if it is empty."""
+    """Peak signal-to-noise ratio in dB over the colours in `mask`: infinite if they are equal, None if it is empty."""
     if not mask.any():
         return None
     difference = display_transform(test[..., :3])[mask] - display_transform(reference[..., :3])[mask]
@@ -87,9 +87,7 @@ def error_map(test: Float32Array, reference: Float32Array) -> Float32Array:
     return np.minimum(difference * ERROR_MAP_GAIN, 1.0).astype(np.float32)
 
 
-def direction_angle_deg(
-    origins: Float64Array, first: Float64Array, second: Float64Array
-) -> Float64Array:
+def direction_angle_deg(origins: Float64Array, first: Float64Array, second: Float64Array) -> Float64Array:
     """(n,) angle in degrees between two targets as seen from `origins` (n, 3).
 
     Targets are homogeneous (n, 4): a point with w = 1 or a direction with w = 0. A target at the origin itself

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.report import cycles_reference
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer, render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.report.images import load_exr, save_exr, save_png
@@ -140,7 +141,7 @@ def test_direct_light_has_no_second_diffuse_bounce(scene: bpy.types.Scene, light
     bpy.ops.mesh.primitive_cube_add(size=2, location=(0, 0, 1))
     bpy.context.object.data.materials.append(principled("wall", Base_Color=(0.8, 0.8, 0.8, 1), Specular_IOR_Level=0.0))
     scene.camera.location, scene.camera.rotation_euler = (0, 3, 1), (np.radians(90.0), 0, np.radians(180.0))
-    still = render_reference(scene, bpy.context.view_layer, WIDTH, HEIGHT, 16, light)  # type: ignore[arg-type]
+    still = render_reference(scene, bpy.context.view_layer, WIDTH, HEIGHT, 16, light)
     in_shadow = still.pixels[HEIGHT // 2, WIDTH // 2, :3]
     assert bool(in_shadow.max() > 1e-3) == bounced
 
@@ -203,7 +204,9 @@ def test_film_and_depth_come_back_from_every_format(scene: bpy.types.Scene) -> N
 
 
 @pytest.mark.parametrize("peer", ["eevee", "cycles1", "cycles8"])
-def test_peers_agree_on_a_plain_floor(scene: bpy.types.Scene, peer: str) -> None:
+def test_peers_agree_on_a_plain_floor(scene: bpy.types.Scene, peer: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    # A sample of EEVEE's takes a second on a software renderer, however small the picture.
+    monkeypatch.setattr(cycles_reference, "EEVEE_SAMPLES", 1)
     before = state_of_file()
     still = render_peer(scene, bpy.context.view_layer, peer, WIDTH, HEIGHT)
     assert differences(before, state_of_file()) == {}

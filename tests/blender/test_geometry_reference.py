@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import bpy
 import numpy as np
 import pytest
@@ -29,7 +31,7 @@ def sphere(name: str, columns: int = 256, rows: int = 128) -> bpy.types.Object:
         starts = [row * columns for row in range(rows - 1)]
         faces.append((top, starts[0] + column, starts[0] + after))
         faces.append((starts[-1] + after, starts[-1] + column, bottom))
-        faces += [(a + after, a + column, b + column, b + after) for a, b in zip(starts, starts[1:], strict=False)]
+        faces += [(a + after, a + column, b + column, b + after) for a, b in pairwise(starts)]
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(vertices.tolist(), [], faces)
     mesh.shade_smooth()

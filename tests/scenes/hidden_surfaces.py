@@ -201,9 +201,7 @@ def trace(case: Case, column: float, row: float) -> Seen:
     return Seen(_radiance(case, sheet, point + distance * way), sheet.name, True)
 
 
-def _first(
-    sheets: tuple[Sheet, ...], origin: Float64Array, direction: Float64Array
-) -> tuple[Sheet | None, float]:
+def _first(sheets: tuple[Sheet, ...], origin: Float64Array, direction: Float64Array) -> tuple[Sheet | None, float]:
     found, nearest = None, np.inf
     for sheet in sheets:
         distance = hit_sheet(sheet, origin, direction)
@@ -267,15 +265,15 @@ def scene_over_mirror() -> Case:
 
 def mirror_over_itself() -> Case:
     """A lobe of the mirror hides what the sphere behind it reflects."""
-    ball = Case("mirror_over_itself", (), (), eye=(0.0, -6.0, 0.0))
+    ball = Case("mirror_over_itself", (), ())
     lobe = Lobe(axis=(0.85, -0.5, 0.0), height=0.55, width=0.45)
-    shown = Sheet("Shown", across(*mirror_ray(ball, 106, 64), 2.0, 1.6), GREEN)
+    shown = Sheet("Shown", across(*mirror_ray(ball, 104, 48), 2.0, 1.3), GREEN)
     return Case(
         ball.name,
         (shown,),
         (
-            Pixel(106, 64, SKY, "", True, "the lobe stands before the point of the sphere that would show green"),
-            Pixel(94, 97, GREEN, "Shown", True, "clear of the lobe the sphere shows green"),
+            Pixel(107, 58, SKY, "", True, "the lobe stands before the point of the sphere that would show green"),
+            Pixel(98, 41, GREEN, "Shown", True, "clear of the lobe the sphere shows green"),
             Pixel(30, 64, SKY, "", True, "the other side shows the world"),
         ),
         lobe=lobe,
@@ -332,21 +330,20 @@ def floor_past_horizon() -> Case:
         "floor_past_horizon",
         (floor,),
         (
-            Pixel(64, 35, YELLOW, "Floor", True, "under the camera"),
-            Pixel(64, 24, YELLOW, "Floor", True, "below the mirror"),
+            Pixel(64, 40, YELLOW, "Floor", True, "under the camera"),
+            Pixel(64, 26, YELLOW, "Floor", True, "below the mirror"),
             Pixel(68, 18, YELLOW, "Floor", True, "below the mirror, nearer the horizon"),
             Pixel(64, 90, SKY, "", True, "the upper half shows the world"),
             Pixel(100, 40, SKY, "", True, "beside the floor's edge"),
         ),
-        eye=(0.0, -6.0, 1.0),
         world=SKY,
     )
 
 
 def bar_past_horizon() -> Case:
-    """A long sheet beside the mirror, from before the camera to behind the mirror, and one standing through the floor."""
+    """A long sheet that goes on past the mirror's horizon, and one that stands through the floor."""
     bar = Sheet("Bar", np.array([(1.6, -9, -0.4), (1.6, 30, -0.4), (1.6, 30, 0.5), (1.6, -9, 0.5)], float), RED)
-    post = Sheet("Post", np.array([(-2.6, -2, -4.0), (-1.6, -2, -4.0), (-1.6, -2, 1.0), (-2.6, -2, 1.0)], float), GREEN)
+    post = Sheet("Post", np.array([(-3.4, -2, -4.0), (-1.6, -2, -4.0), (-1.6, -2, 1.0), (-3.4, -2, 1.0)], float), GREEN)
     floor = Sheet("Floor", level((-30.0, 30.0), (-30.0, 30.0), -1.05), BLUE)
     return Case(
         "bar_past_horizon",
@@ -354,8 +351,8 @@ def bar_past_horizon() -> Case:
         (
             Pixel(93, 64, RED, "Bar", True, "the bar's near part"),
             Pixel(110, 64, RED, "Bar", True, "the bar's far part, near the rim"),
-            Pixel(31, 64, GREEN, "Post", True, "the post above the floor"),
-            Pixel(36, 44, BLUE, "Floor", True, "the floor hides the post's lower part"),
+            Pixel(39, 70, GREEN, "Post", True, "the post above the floor"),
+            Pixel(43, 43, BLUE, "Floor", True, "the floor hides the post's lower part"),
             Pixel(64, 22, BLUE, "Floor", True, "floor"),
         ),
         world=SKY,
@@ -387,7 +384,7 @@ def ray_visibility() -> Case:
 
 
 def sun_and_shadow() -> Case:
-    """A grey sheet seen in the mirror, half of it in the shadow of a small sheet, under a sun straight above."""
+    """A grey floor, partly in the shadows of a small sheet and of the mirror, under a sun straight above."""
     floor = Sheet("Floor", level((-8.0, 8.0), (-14.0, 8.0), -1.2), (0.8, 0.8, 0.8), diffuse=True)
     shade = Sheet("Shade", level((1.2, 3.2), (-5.0, 1.0), 3.0), BLACK)
     lit = 0.8 * 2.0 / np.pi
@@ -396,7 +393,8 @@ def sun_and_shadow() -> Case:
         (floor, shade),
         (
             Pixel(45, 34, (lit, lit, lit), "Floor", True, "lit: reflectance / pi times the sun's irradiance"),
-            Pixel(84, 34, BLACK, "Floor", True, "in the shade"),
+            Pixel(91, 44, BLACK, "Floor", True, "in the shade of the small sheet"),
+            Pixel(58, 22, BLACK, "Floor", True, "in the shade of the mirror"),
             Pixel(64, 90, BLACK, "", True, "world"),
         ),
         sun_toward=(0.0, 0.0, 1.0),

@@ -93,9 +93,7 @@ def test_an_empty_mask_has_no_numbers(picture: np.ndarray) -> None:
     assert psnr_in_mask(picture, picture, nowhere) is None
 
 
-def test_missing_flip_package_is_named(
-    monkeypatch: pytest.MonkeyPatch, picture: np.ndarray, mask: np.ndarray
-) -> None:
+def test_missing_flip_package_is_named(monkeypatch: pytest.MonkeyPatch, picture: np.ndarray, mask: np.ndarray) -> None:
     monkeypatch.setitem(sys.modules, "flip_evaluator", None)
     with pytest.raises(InputError, match="flip-evaluator"):
         flip_in_mask(picture, picture, mask)

@@ -62,9 +62,7 @@ def test_no_cracks() -> None:
 
 def test_attributes_are_the_unsplit_ones() -> None:
     result = split_for_reflection(floor(6.0, -1.0), np.zeros(3), 0.2)
-    np.testing.assert_allclose(
-        result.corner_uv, result.positions[result.corner_position, :2] / 6.0, atol=1e-6
-    )
+    np.testing.assert_allclose(result.corner_uv, result.positions[result.corner_position, :2] / 6.0, atol=1e-6)
     assert set(result.position_object) == {7}
 
 

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the extension adds to Blender while it is enabled, and takes back when it is disabled."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+from typing import Any
+
+import bpy
+
+OPERATORS: tuple[str, ...] = ()
+"""Modules of `operators`; each lists its classes in CLASSES"""
+
+_PACKAGE = __package__.rpartition(".")[0]
+_classes: list[type] = []
+_commands: list[Any] = []
+
+
+def register() -> None:
+    """Register everything, or nothing where a part fails."""
+    try:
+        for name in OPERATORS:
+            for cls in _module(name).CLASSES:
+                bpy.utils.register_class(cls)
+                _classes.append(cls)
+        _commands.append(bpy.utils.register_cli_command("curvrefl", _run_command))
+    except BaseException:
+        unregister()
+        raise
+
+
+def unregister() -> None:
+    """Undo what `register` did, last first."""
+    while _commands:
+        bpy.utils.unregister_cli_command(_commands.pop())
+    while _classes:
+        bpy.utils.unregister_class(_classes.pop())
+
+
+def _module(name: str) -> ModuleType:
+    return importlib.import_module(f"{_PACKAGE}.operators.{name}")
+
+
+def _run_command(arguments: list[str]) -> int:
+    from . import cli
+
+    return cli.main(arguments)

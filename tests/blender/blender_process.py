@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs a script in a Blender of its own, of the same kind as the one that runs the tests."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+
+
+def run_script(script: Path, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run `script` with `arguments` as the end of sys.argv and `variables` in its environment."""
+    if bpy.app.binary_path:
+        command = [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "1"]
+        command += ["--python", str(script), "--", *arguments]
+    else:
+        command = [sys.executable, str(script), *arguments]
+    return subprocess.run(command, env=os.environ | variables, capture_output=True, text=True, timeout=300)

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks the source: ruff's rules and format, types with mypy, then pytest on the layers asked for."""
+
+from __future__ import annotations
+
+import importlib.util
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TOOLS = ("pytest", "hypothesis", "ruff", "mypy", "flip_evaluator", "matplotlib")
+LINTED = "unit"
+"""Lint and types need no Blender: they go with this layer"""
+NO_TESTS_COLLECTED = 5
+TYPE_CHECKED = ("__init__.py", "curvrefl_addon", "gpu_shaders", "operators")
+
+
+def run(layers: Sequence[str]) -> int:
+    """Exit code 0 when everything asked for passes, 1 when not, 2 when this Python cannot run tests at all."""
+    missing = [name for name in TOOLS if importlib.util.find_spec(name) is None]
+    for name in missing:
+        print(f"curvrefl: this Python ({sys.executable}) lacks {name}: what needs it is skipped.", file=sys.stderr)
+    if "pytest" in missing:
+        print("curvrefl: without pytest no test can run: install it into that Python.", file=sys.stderr)
+        return 2
+    passed = True
+    if LINTED in layers:
+        if "ruff" not in missing:
+            passed &= _check("ruff check", "ruff", "check", "--quiet", ".")
+            passed &= _check("ruff format", "ruff", "format", "--check", "--quiet", ".")
+        if "mypy" not in missing:
+            passed &= _check_types()
+    folders = [ROOT / "tests" / layer for layer in layers]
+    folders = [folder for folder in folders if any(folder.glob("test_*.py"))]
+    if folders:
+        passed &= _run_pytest(folders)
+    elif set(layers) != {LINTED}:
+        print(f"curvrefl: there are no tests in {', '.join(layers)}.", file=sys.stderr)
+    print("All checks passed." if passed else "Some checks failed.", flush=True)
+    return 0 if passed else 1
+
+
+def _check(label: str, *command: str, cwd: Path = ROOT) -> bool:
+    """Run a tool of this Python in `cwd`; its output comes through."""
+    passed = subprocess.run([sys.executable, "-m", *command], cwd=cwd).returncode == 0
+    print(f"{label}: {'passed' if passed else 'FAILED'}", flush=True)
+    return passed
+
+
+def _check_types() -> bool:
+    """mypy wants a folder that is called like the package: links to what ships."""
+    package = ROOT / "build" / "mypy" / "curvrefl"
+    shutil.rmtree(package, ignore_errors=True)
+    package.mkdir(parents=True)
+    for name in TYPE_CHECKED:
+        (package / name).symlink_to(ROOT / name)
+    settings = str(ROOT / "pyproject.toml")
+    cache = str(ROOT / ".mypy_cache")
+    return _check("mypy", "mypy", "--config-file", settings, "--cache-dir", cache, "-p", "curvrefl", cwd=package.parent)
+
+
+def _run_pytest(folders: Sequence[Path]) -> bool:
+    arguments = ["-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), *map(str, folders)]
+    if _is_blender_application():
+        # The tests must run in this very process.
+        import pytest
+
+        code = int(pytest.main(arguments))
+    else:
+        code = subprocess.run([sys.executable, "-m", "pytest", *arguments], cwd=ROOT).returncode
+    return code in (0, NO_TESTS_COLLECTED)
+
+
+def _is_blender_application() -> bool:
+    if importlib.util.find_spec("bpy") is None:
+        return False
+    import bpy
+
+    return bool(bpy.app.binary_path)
