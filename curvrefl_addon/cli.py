@@ -116,6 +116,7 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
+    bake.set_defaults(camera=None, frame=None, resolution=None)
     bake.add_argument("file", metavar="FILE.blend")
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
     bake.add_argument(

@@ -44,8 +44,12 @@ def render(options: argparse.Namespace) -> int:
     passes = _names(options.passes, "pass")
     _known(passes, PASSES, "pass")
     _known([options.method], list(METHODS), "method")
+    reflectors = _names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
-    arrays, view = _read_scene(options)
+    _start_gpu()
+    scene = _open_scene(options)
+    view = _view(options, scene)
+    arrays = _read_scene(scene, reflectors)
 
     from .renderer.frame import Renderer, Settings
     from .report.images import save_exr, save_png
@@ -85,6 +89,8 @@ def compare(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     _start_gpu()
 
+    import bpy
+
     from .report.compare import Comparison, compare_open_scene
     from .report.table import format_table
 
@@ -93,7 +99,7 @@ def compare(options: argparse.Namespace) -> int:
     width, height = _resolution(options, scene)
     report = compare_open_scene(
         scene,
-        scene.view_layers[0],
+        bpy.context.view_layer,
         reflectors,
         replace(comparison, width=width, height=height),
         output,
@@ -108,10 +114,13 @@ def compare(options: argparse.Namespace) -> int:
 
 def bake(options: argparse.Namespace) -> int:
     """Bake one reflector, save its maps, and print how well they fit."""
-    if len(_names(options.reflector, "reflector")) > 1:
+    reflectors = _names(options.reflector, "reflector")
+    if len(reflectors) > 1:
         raise InputError("Name one reflector: the maps of each go to a folder of its own.")
     output = checked_folder(options.output)
-    arrays, view = _read_scene(options)
+    _start_gpu()
+    scene = _open_scene(options)
+    arrays = _read_scene(scene, reflectors)
 
     from .renderer.reflector_bake import bake_reflector
     from .renderer.reflector_files import save
@@ -121,16 +130,15 @@ def bake(options: argparse.Namespace) -> int:
     _warn(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
-    error = pixel_error(baked, view)
     center = ", ".join(f"{value:.6g}" for value in baked.center)
     print(f"{baked.object_name}: star centre ({center}), {baked.center_name}")
     print(f"radius {baked.r_min:.6g} to {baked.r_max:.6g} m")
-    print(
-        f"directions with more than one hit: {100.0 * baked.multiple_hits:.3g} %, with none: {100.0 * baked.holes:.3g} %"
-    )
-    print(
-        f"error in pixels of {view.width}x{view.height}: median {error.median:.3g}, p95 {error.p95:.3g}, max {error.max:.3g}"
-    )
+    twice, never = 100.0 * baked.multiple_hits, 100.0 * baked.holes
+    print(f"directions that meet it more than once: {twice:.3g} %, never: {never:.3g} %")
+    if scene.camera is not None:
+        view = _view(options, scene)
+        error = pixel_error(baked, view)
+        print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
 
 
@@ -178,8 +186,9 @@ def _open_scene(options: argparse.Namespace) -> bpy.types.Scene:
 
     from .scene.blend_file import open_blend
 
-    open_blend(Path(options.file))
+    open_blend(options.file)
     scene = bpy.context.scene
+    assert scene is not None, "an open file has a scene"
     if options.frame is not None:
         scene.frame_set(options.frame)
     return scene
@@ -193,22 +202,22 @@ def _resolution(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[in
     return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
 
 
-def _read_scene(options: argparse.Namespace) -> tuple[SceneArrays, View]:
-    """Open the file and read what the options choose of it; the GPU is there then."""
-    names = _names(options.reflector, "reflector")
-    _start_gpu()
-
+def _read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays:
+    """The open scene at its frame, with these mirrors."""
     import bpy
 
-    from .scene.blend_file import find_camera, find_reflectors, view_of_camera
+    from .scene.blend_file import find_reflectors
     from .scene.extract import extract_scene
 
-    scene = _open_scene(options)
-    camera = find_camera(scene, options.camera)
-    view = view_of_camera(scene, camera, *_resolution(options, scene))
-    reflectors = find_reflectors(scene, names)
-    arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors, for_render=True)
-    return arrays, view
+    chosen = find_reflectors(scene, reflectors)
+    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
+
+
+def _view(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
+    """What the chosen camera sees in the chosen resolution."""
+    from .scene.blend_file import find_camera, view_of_camera
+
+    return view_of_camera(scene, find_camera(scene, options.camera), *_resolution(options, scene))
 
 
 def _names(text: str, what: str) -> list[str]:

@@ -59,8 +59,8 @@ vec3 schlick(vec3 f0, float edge, float cosine)
   return mix(f0, vec3(1.0), edge * s2 * s2 * s);
 }
 
-// x: albedo of the lobe with Fresnel 1, y: its average over angles; z, w: mean share of a dielectric's Fresnel term
-// between F0 and 1, of this slice's IOR and the next's; in the last slice w is the mean of Schlick's (1 - cos)^5.
+// x: albedo of the lobe with Fresnel 1; y: mean over it of Schlick's (1 - cos)^5; z, w: mean share of a dielectric's
+// Fresnel term between F0 and 1, of this slice's IOR and the next's.
 vec4 ggx_table(float roughness, float cosine, float slice)
 {
   vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;
@@ -68,11 +68,17 @@ vec4 ggx_table(float roughness, float cosine, float slice)
   return textureLod(lighting_ggx, (place + vec2(slice * float(GGX_TABLE_SIZE), 0.0)) / size, 0.0);
 }
 
-// 1 + what scatters more than once, in parts of the single scattering; `average`: mean Fresnel over angles.
-vec3 multiple_scattering(vec3 average, vec4 table)
+// Cosine-weighted average of the lobe's albedo over all angles (fitted to the table, error under 0.007).
+float average_albedo(float roughness)
 {
-  vec3 more = average * table.y / (1.0 - average * (1.0 - table.y));
-  return 1.0 + more * (1.0 - table.x) / max(table.x, 1e-4);
+  return 1.0 - roughness * roughness * (-0.26747 + roughness * (2.1086 - 1.25199 * roughness));
+}
+
+// 1 + what scatters more than once, in parts of the single scattering. `fresnel`: mean over angles; `missing`: share of
+// the albedo that single scattering loses, over that it keeps.
+vec3 multiple_scattering(vec3 fresnel, float average, float missing)
+{
+  return 1.0 + fresnel * average / (1.0 - fresnel * (1.0 - average)) * missing;
 }
 
 Lobes lobes_of(Surface s, float cos_viewer)
@@ -88,9 +94,11 @@ Lobes lobes_of(Surface s, float cos_viewer)
   lobes.cos_viewer = cosine;
   lobes.alpha = roughness * roughness;
   lobes.metal_f0 = s.base_color;
+  float average = average_albedo(roughness);
+  float missing = (1.0 - table.x) / max(table.x, 1e-4);
   if (s.glossy_only) {
     lobes.metal_edge = 0.0;
-    lobes.metal_weight = multiple_scattering(s.base_color, table);
+    lobes.metal_weight = multiple_scattering(s.base_color, average, missing);
     lobes.dielectric_weight = 0.0;
     lobes.diffuse = vec3(0.0);
     lobes.specular_albedo = table.x * s.base_color * lobes.metal_weight;
@@ -98,19 +106,15 @@ Lobes lobes_of(Surface s, float cos_viewer)
   }
   float metallic = clamp(s.metallic, 0.0, 1.0);
   lobes.metal_edge = 1.0;
-  lobes.metal_weight = metallic * multiple_scattering(mix(s.base_color, vec3(1.0), 1.0 / 21.0), table);
-  lobes.specular_albedo = vec3(0.0);
-  if (metallic > 0.0) {
-    float edge = ggx_table(roughness, cosine, float(GGX_IOR_SLICES - 1)).w;
-    lobes.specular_albedo += table.x * lobes.metal_weight * mix(s.base_color, vec3(1.0), edge);
-  }
+  lobes.metal_weight = metallic * multiple_scattering(mix(s.base_color, vec3(1.0), 1.0 / 21.0), average, missing);
+  lobes.specular_albedo = table.x * lobes.metal_weight * mix(s.base_color, vec3(1.0), table.y);
   lobes.dielectric_weight = 0.0;
   lobes.diffuse = (1.0 - metallic) * s.base_color;
   if (metallic < 1.0 && lobes.eta != 1.0) {
-    float average = lobes.eta < 1.0 ?
+    float fresnel = lobes.eta < 1.0 ?
       0.997118 + lobes.eta * (0.1014 - lobes.eta * (0.965241 + lobes.eta * 0.130607)) :
       (lobes.eta - 1.0) / (4.08567 + 1.00071 * lobes.eta);
-    float scattering = multiple_scattering(vec3(average), table).x;
+    float scattering = multiple_scattering(vec3(fresnel), average, missing).x;
     float albedo = table.x * scattering * mix(root * root, 1.0, mix(table.z, table.w, slice - below));
     lobes.dielectric_weight = (1.0 - metallic) * scattering;
     lobes.specular_albedo += vec3((1.0 - metallic) * albedo);

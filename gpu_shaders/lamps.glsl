@@ -26,14 +26,14 @@ float lamp_shadow(int base, vec3 position)
   int kind = int(lighting_data[base + 6].w);
   vec3 window = vec3(0.0);
   float layer = -1.0;
-  SKIPPABLE(kind == 1) {
+  if (kind == 1) {
     vec4 p = vec4(position, 1.0);
     float w = dot(lighting_data[base + 10], p);
     window = vec3(dot(lighting_data[base + 7], p), dot(lighting_data[base + 8], p),
                   dot(lighting_data[base + 9], p)) / w;
     layer = w > 0.0 ? lighting_data[base + 11].x : -1.0;
   }
-  SKIPPABLE(kind == 2) {
+  if (kind == 2) {
     vec3 ray = position - lighting_data[base].xyz;
     vec3 size = abs(ray);
     vec4 sides = lighting_data[base + 7];
@@ -48,7 +48,7 @@ float lamp_shadow(int base, vec3 position)
                   lighting_data[base + 8].z + lighting_data[base + 8].w / depth);
   }
   float lit = 1.0;
-  SKIPPABLE(layer >= 0.0) {
+  if (layer >= 0.0) {
     lit = lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(layer + 0.5));
   }
   return lit;
@@ -90,12 +90,12 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       irradiance *= facing / distance2;
     }
     float cos_light = dot(s.normal, to_light);
-    SKIPPABLE(cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
+    if (cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
       irradiance *= lamp_shadow(base, s.position);
       vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
       // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
       float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
-      SKIPPABLE(alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
+      if (alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
         scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
       }
       sum += scattered * irradiance;

@@ -11,9 +11,6 @@
 #define MAX_LAMPS 32
 #define DIRECTION_RECORDS 5
 
-// An if that software renderers jump over when no pixel of a group wants it; they run through the body of a plain one.
-#define SKIPPABLE(condition) for (int once_ = (condition) ? 1 : 0; once_ > 0; once_--)
-
 struct Surface {
   vec3 position;   // world space
   vec3 normal;     // unit shading normal
@@ -53,7 +50,7 @@ vec3 shade_under_mirror(Surface s, vec3 to_viewer)
   }
   Lobes lobes = lobes_of(s, cos_viewer);
   vec3 sum = s.emission;
-  SKIPPABLE(max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) > 0.0) {
+  if (max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) > 0.0) {
     lobes.metal_weight = vec3(0.0);
     lobes.dielectric_weight = 0.0;
     lobes.specular_albedo = vec3(0.0);

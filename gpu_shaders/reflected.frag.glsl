@@ -3,6 +3,14 @@
 // Hidden surfaces of the reflected scene, three ways, without a stencil (Roger & Holzschuch 2006, section 3.3.6).
 #include "surface_color.glsl"
 
+// Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows: 8 degrees.
+#define STRETCHED 0.99
+
+vec3 towards_eye(vec3 point)
+{
+  return normalize(view.eye.xyz - point * view.eye.w);
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -20,6 +28,11 @@ void main()
   float vertex_distance = length(to_vertex);
   // Behind the mirror at this pixel, where a triangle goes on past the horizon.
   if (dot(normal, to_vertex) <= 0.0) {
+    discard;
+  }
+  // A triangle whose vertices found different images of a mirror that bends both ways stretches across what lies between.
+  vec3 ray = reflect(-towards_eye(seen_point), normal);
+  if (dot(ray, to_vertex) < STRETCHED * vertex_distance) {
     discard;
   }
   // 2. Reflector over itself: the reflection point lies behind a back face that this pixel's ray meets first.

@@ -50,7 +50,7 @@ vec3 world_lobe(vec3 direction, float roughness)
   vec2 place = octahedral_place(direction);
   int layer = WORLD_MAP_LOBES + int(below);
   vec3 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
-  SKIPPABLE(roughness < 0.2) {
+  if (roughness < 0.2) {
     radiance = mix(world_radiance(direction), radiance, roughness / 0.2);
   }
   return radiance;
@@ -61,7 +61,7 @@ vec3 world_lobe(vec3 direction, float roughness)
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
-  SKIPPABLE(max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
+  if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
     vec3 irradiance = world_map(place, 0);
     vec3 lost = vec3(0.0);
@@ -78,7 +78,7 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     }
     vec3 seen = irradiance - world_map(place, 1) * lost;
     sum = lobes.diffuse * seen / LIGHTING_PI;
-    SKIPPABLE(max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
+    if (max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
       vec3 share = seen / max(irradiance, vec3(1e-9));
       vec3 reflected = reflect(-to_viewer, s.normal);
       sum += lobes.specular_albedo * world_lobe(reflected, clamp(s.roughness, 0.0, 1.0)) * share;

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
 from mathutils import Matrix
 
 from ..scene.arrays import Float32Array, Float64Array
-from .shapes import Shape
+from .shapes import Numbers, Shape
 
 type Color = tuple[float, float, float]
 
@@ -32,6 +33,7 @@ def add_object(
     mesh.from_pydata(shape.positions.tolist(), [], [list(p) for p in shape.polygons], shade_flat=not smooth)
     if shape.uv is not None:
         layer = mesh.uv_layers.new(name="UVMap")
+        assert layer is not None
         layer.uv.foreach_set("vector", np.ascontiguousarray(shape.uv, np.float32).ravel())
     if normals is not None:
         mesh.normals_split_custom_set_from_vertices(normals.tolist())
@@ -54,7 +56,8 @@ def packed_image(name: str, pixels: Float32Array) -> bpy.types.Image:
     """An 8-bit sRGB image of (height, width, 4) sRGB values, kept inside the .blend."""
     height, width = pixels.shape[:2]
     image = bpy.data.images.new(name, width, height, alpha=False)
-    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
+    flat: Any = np.ascontiguousarray(pixels, np.float32).ravel()
+    image.pixels.foreach_set(flat)
     image.update()
     image.pack()
     return image
@@ -71,7 +74,8 @@ def principled(
     """A material of one Principled BSDF; `color` is scene-linear and is replaced by `image` where there is one."""
     material = bpy.data.materials.new(name)
     assert material.node_tree is not None
-    node = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    # Any: the stubs do not know what the nodes, sockets and lamps of each kind have.
+    node: Any = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
     node.inputs["Base Color"].default_value = (*color, 1.0)
     node.inputs["Metallic"].default_value = metallic
     node.inputs["Roughness"].default_value = roughness
@@ -79,11 +83,11 @@ def principled(
         node.inputs["Emission Color"].default_value = (*emission, 1.0)
         node.inputs["Emission Strength"].default_value = 1.0
     if image is not None:
-        texture = material.node_tree.nodes.new("ShaderNodeTexImage")
+        texture: Any = material.node_tree.nodes.new("ShaderNodeTexImage")
         texture.image = image
         texture.location = (-320.0, 300.0)
         material.node_tree.links.new(texture.outputs["Color"], node.inputs["Base Color"])
-    material.diffuse_color = (*color, 1.0)
+    material.diffuse_color[:] = (*color, 1.0)
     material.metallic, material.roughness = metallic, roughness
     return material
 
@@ -99,16 +103,16 @@ def emitter(name: str, color: Color) -> bpy.types.Material:
     tree = material.node_tree
     assert tree is not None
     tree.nodes.clear()
-    emission = tree.nodes.new("ShaderNodeEmission")
+    emission: Any = tree.nodes.new("ShaderNodeEmission")
     emission.inputs["Color"].default_value = (*color, 1.0)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (200.0, 0.0)
     tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
-    material.diffuse_color = (*color, 1.0)
+    material.diffuse_color[:] = (*color, 1.0)
     return material
 
 
-def looking(eye: Sequence[float], target: Sequence[float]) -> Float64Array:
+def looking(eye: Numbers, target: Numbers) -> Float64Array:
     """(4, 4) world matrix of a camera or lamp at `eye` whose -Z points at `target`, Z up where that can be."""
     back = np.asarray(eye, float) - np.asarray(target, float)
     back /= np.linalg.norm(back)
@@ -121,8 +125,8 @@ def looking(eye: Sequence[float], target: Sequence[float]) -> Float64Array:
 
 
 def add_camera(
-    eye: Sequence[float],
-    target: Sequence[float],
+    eye: Numbers,
+    target: Numbers,
     lens: float = 50.0,
     orthographic_width: float | None = None,
     clip: tuple[float, float] = (0.01, 100.0),
@@ -144,10 +148,10 @@ def add_camera(
 
 
 def add_sun(
-    toward: Sequence[float], strength: float, color: Color = (1.0, 1.0, 1.0), angle: float = 0.00918
+    toward: Numbers, strength: float, color: Color = (1.0, 1.0, 1.0), angle: float = 0.00918
 ) -> bpy.types.Object:
     """A sun in direction `toward` (from the scene), `strength` in W/m2, `angle` radians across."""
-    lamp = bpy.data.lights.new("Sun", "SUN")
+    lamp: Any = bpy.data.lights.new("Sun", "SUN")
     lamp.energy, lamp.color, lamp.angle = strength, color, angle
     thing = bpy.data.objects.new("Sun", lamp)
     thing.matrix_world = Matrix(looking(toward, (0.0, 0.0, 0.0)).tolist())
@@ -165,11 +169,11 @@ def set_world_image(path: Path, turn: float, strength: float) -> None:
     background = _background()
     tree = background.id_data
     background.inputs["Strength"].default_value = strength
-    environment = tree.nodes.new("ShaderNodeTexEnvironment")
+    environment: Any = tree.nodes.new("ShaderNodeTexEnvironment")
     environment.image = bpy.data.images.load(str(path))
     environment.image.pack()
     environment.location = (-300.0, 0.0)
-    mapping = tree.nodes.new("ShaderNodeMapping")
+    mapping: Any = tree.nodes.new("ShaderNodeMapping")
     mapping.inputs["Rotation"].default_value = (0.0, 0.0, turn)
     mapping.location = (-500.0, 0.0)
     coordinate = tree.nodes.new("ShaderNodeTexCoord")
@@ -179,7 +183,7 @@ def set_world_image(path: Path, turn: float, strength: float) -> None:
     tree.links.new(environment.outputs["Color"], background.inputs["Color"])
 
 
-def _background() -> bpy.types.Node:
+def _background() -> Any:
     scene = bpy.context.scene
     assert scene is not None
     world = bpy.data.worlds.new("World")
@@ -190,7 +194,8 @@ def _background() -> bpy.types.Node:
 
 def studio_light(name: str) -> Path:
     """One of the environment pictures that come with Blender, such as 'forest.exr'."""
-    folder = Path(bpy.utils.system_resource("DATAFILES", path="studiolights/world"))
+    utilities: Any = bpy.utils
+    folder = Path(utilities.system_resource("DATAFILES", path="studiolights/world"))
     path = folder / name
     if not path.is_file():
         raise FileNotFoundError(f"This Blender came without {name} in {folder}.")
@@ -200,8 +205,7 @@ def studio_light(name: str) -> Path:
 def start_empty_scene(width: int = 640, height: int = 480) -> bpy.types.Scene:
     """Replace the open file by an empty one (preferences and add-ons stay) that renders width x height in Cycles."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    scene = bpy.context.scene
-    assert scene is not None
+    scene: Any = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.samples = 64
     scene.cycles.use_denoising = False

@@ -11,6 +11,7 @@ kettle's own enamelled parts touch it.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import bmesh
 import bpy
@@ -236,9 +237,10 @@ def add_suzanne(location: tuple[float, float, float], size: float, toward: Float
     sculpt.free()
     mesh.materials.append(principled("Suzanne", (0.05, 0.32, 0.52), roughness=0.38))
     suzanne = bpy.data.objects.new("Suzanne", mesh)
-    suzanne.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    subdivision: Any = suzanne.modifiers.new("Subdivision", "SUBSURF")
+    subdivision.levels = 1
     suzanne.location = location
-    way = Vector(toward) - Vector(location)
+    way = Vector(toward.tolist()) - Vector(location)
     way.z = 0.0
     suzanne.rotation_euler = (0.0, 0.0, way.to_2d().angle_signed(Vector((0.0, -1.0))))
     scene = bpy.context.scene

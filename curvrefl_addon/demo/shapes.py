@@ -16,6 +16,8 @@ import numpy as np
 
 from ..scene.arrays import Float64Array
 
+type Numbers = Sequence[float] | Float64Array
+
 type RadiusFunction = Callable[[Float64Array], Float64Array]
 """Unit directions (n, 3) -> distances (n,) of a star-shaped surface from its centre."""
 
@@ -30,7 +32,7 @@ class Shape:
     uv: Float64Array | None = None
     """(corners, 2) in the order of the polygons' corners"""
 
-    def moved(self, offset: Sequence[float]) -> Shape:
+    def moved(self, offset: Numbers) -> Shape:
         return Shape(self.positions + np.asarray(offset, float), self.polygons, self.uv)
 
     def turned(self, angle: float, axis: int = 2) -> Shape:
@@ -155,9 +157,7 @@ def ball(radius: float, segments: int) -> Shape:
     return Shape(shape.positions, shape.polygons, np.array(uv))
 
 
-def tube(
-    path: Float64Array, radii: Sequence[float], segments: int, side: Sequence[float], capped: bool = True
-) -> Shape:
+def tube(path: Float64Array, radii: Numbers, segments: int, side: Numbers, capped: bool = True) -> Shape:
     """A round tube along `path` (n, 3) with a radius per point; `side` must not be parallel to the path anywhere."""
     path = np.asarray(path, float)
     tangent = np.gradient(path, axis=0)
@@ -185,7 +185,8 @@ def box(size: Sequence[float], bevel: float = 0.0) -> Shape:
     signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     if bevel <= 0.0:
         return hull_faces(signs * half, _box_faces(signs))
-    positions, keys = [], {}
+    positions: list[Float64Array] = []
+    keys: dict[tuple[int, int], int] = {}
     for corner, sign in enumerate(signs):
         for axis in range(3):
             inset = half - bevel
@@ -257,9 +258,7 @@ def surface_samples(shape: Shape, spacing: float) -> Float64Array:
     return np.concatenate(samples)
 
 
-def slide_to_contact(
-    shape: Shape, direction: Sequence[float], radius: RadiusFunction, center: Sequence[float], gap: float
-) -> Shape:
+def slide_to_contact(shape: Shape, direction: Numbers, radius: RadiusFunction, center: Numbers, gap: float) -> Shape:
     """Push a shape that stands clear of a star-shaped body along `direction`, to `gap` metres short of touching it."""
     way = np.asarray(direction, float)
     way = way / np.linalg.norm(way)

@@ -19,7 +19,7 @@ from .geometry import WorldGeometry
 from .gpu_objects import buffer_of, texture_2d, uniform_block
 from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
-from .lighting_shadow_maps import ShadowCasters, ShadowMaps
+from .lighting_shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
 from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 from .lighting_world import world_light
 
@@ -191,7 +191,7 @@ class Lighting:
             records[start] = [*self._world_light.directions[direction], layer]
             records[start + 1, :3] = self._world_light.weights[draw] * self.sub_frames
             view = self._world_maps.views[layer]
-            records[start + 2 : start + 5] = _window_rows(view, self._world_maps.resolution)[:3]
+            records[start + 2 : start + 5] = window_rows(view, self._world_maps.resolution)[:3]
             world_layers.append(layer)
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1, :3] = self._world.color
@@ -202,27 +202,15 @@ class Lighting:
         """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
         if len(layers) == 1 and layers[0] >= 0:
             block[6, 3] = 1.0
-            block[7:11] = _window_rows(maps.views[layers[0]], maps.resolution)
+            block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
             block[11, 0] = layers[0]
         elif len(layers) == 6 and max(layers) >= 0:
             block[6, 3] = 2.0
             near_term, far_term = maps.views[max(layers)].depth_terms
             block[7] = layers[:4]
             block[8] = [layers[4], layers[5], near_term, far_term]
-            block[9, :2] = [0.5 * maps.resolution, 0.5 * maps.resolution - MARGIN_TEXELS]
-
-
-def _window_rows(view: ShadowView, resolution: int) -> Float64Array:
-    """(4, 4) rows that give a world point's texel x, texel y and depth in 0..1, each times w, and w."""
-    to_window = np.array(
-        [
-            [0.5 * resolution, 0.0, 0.0, 0.5 * resolution],
-            [0.0, 0.5 * resolution, 0.0, 0.5 * resolution],
-            [0.0, 0.0, 0.5, 0.5],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
-    )
-    return to_window @ view.world_to_clip
+            half = 0.5 * maps.resolution - BORDER
+            block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
 
 
 def _casting_triangles(scene: SceneArrays, geometry: WorldGeometry, triangles: Int32Array) -> np.ndarray:

@@ -25,9 +25,9 @@ IOR_SLICES = 16
 def ggx_table(strata: int = 24) -> Float32Array:
     """(TABLE_SIZE, TABLE_SIZE * IOR_SLICES, 4): rows roughness, columns the viewer's cosine, once per IOR slice.
 
-    x: albedo with Fresnel 1; y: its cosine-weighted average over angles; z: mean over the lobe of (F - F0) / (1 - F0),
-    not below 0, of the dielectric of this slice's IOR; w: the same of the next slice, in the last slice instead the
-    mean of Schlick's (1 - cos)^5. `strata` squared is the number of sampled normals per entry.
+    x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
+    (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
+    `strata` squared is the number of sampled normals per entry.
     """
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
@@ -37,14 +37,13 @@ def ggx_table(strata: int = 24) -> Float32Array:
         weight, cos_difference = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
         albedo = weight.mean(axis=1)
         table[row, :, :, 0] = albedo
-        table[row, :, :, 1] = 2.0 * np.trapezoid(albedo * cosine, cosine)
         total = np.maximum(weight.sum(axis=1), 1e-9)
         for index, ior in enumerate(iors):
             f0 = ((ior - 1.0) / (ior + 1.0)) ** 2
             share = np.maximum((fresnel_dielectric(cos_difference, ior) - f0) / (1.0 - f0), 0.0)
             table[row, index, :, 2] = (weight * share).sum(axis=1) / total
         table[row, :-1, :, 3] = table[row, 1:, :, 2]
-        table[row, -1, :, 3] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
+        table[row, :, :, 1] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
     return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
 
 

@@ -12,12 +12,16 @@ import gpu
 import numpy as np
 
 from ...gpu_shaders.loader import load
-from ..scene.arrays import Float32Array
+from ..scene.arrays import Float32Array, Float64Array
 from .gpu_objects import drawing_state
 from .lighting_shadow_views import SceneExtent, ShadowView
 
 SLOPE_LIMIT_TEXELS = 20.0
 """Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
+
+
+BORDER = 1
+"""Texels round a map that stay empty: they stand for all that lies outside of it"""
 
 
 class ShadowCasters:
@@ -73,6 +77,7 @@ class ShadowMaps:
             with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
                 gpu.state.viewport_set(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
+                gpu.state.viewport_set(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
                 if batch is not None:
                     shader.bind()
                     shader.uniform_float("world_to_clip", _matrix(view))
@@ -91,6 +96,20 @@ def _matrix(view: ShadowView) -> Any:
     from mathutils import Matrix
 
     return Matrix(view.world_to_clip.tolist())
+
+
+def window_rows(view: ShadowView, resolution: int) -> Float64Array:
+    """(4, 4) rows that give a world point's texel x, texel y and depth in 0..1, each times w, and w."""
+    half = 0.5 * resolution - BORDER
+    to_window = np.array(
+        [
+            [half, 0.0, 0.0, 0.5 * resolution],
+            [0.0, half, 0.0, 0.5 * resolution],
+            [0.0, 0.0, 0.5, 0.5],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+    return to_window @ view.world_to_clip
 
 
 @cache

@@ -1,70 +1,70 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opening a .blend file and finding in it what the user named; every mistake is an InputError of one sentence."""
+"""What a user names: the .blend file, the camera, the reflectors."""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import bpy
 import numpy as np
 
 from ..errors import InputError
-from .extract import SURFACE_TYPES
 from .view import View
 
-
-def open_blend(path: str | Path) -> bpy.types.Scene:
-    """Open the file and return its active scene, set to show what a render would."""
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(f"There is no file {path}.")
-    try:
-        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
-    except RuntimeError as error:
-        raise InputError(f"{path} could not be opened as a .blend file: it is damaged or of another kind.") from error
-    scene = bpy.context.scene
-    show_as_rendered(scene)
-    return scene
+SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""Object types that may evaluate to a mesh"""
+# Uncompressed, Zstandard and (before Blender 3.0) gzip.
+_FILE_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
 
 
-def show_as_rendered(scene: bpy.types.Scene) -> None:
-    """Make the viewport's evaluation that of a render: visibility, modifiers, subdivision levels.
+def open_blend(path: str | Path) -> None:
+    """Make the .blend file at `path` the open one, without its window layout.
 
-    Python can only evaluate for the viewport. Changes the open file's data; meant for a file opened to be rendered.
+    Python scripts in the file run only where the user's preferences allow it. Raises InputError for a file that is
+    missing or that Blender cannot read; what was open before may then be gone.
     """
-    for item in scene.objects:
-        item.hide_viewport = item.hide_render
-        if item.name in bpy.context.view_layer.objects:
-            item.hide_set(False)
-        for modifier in item.modifiers:
-            modifier.show_viewport = modifier.show_render
-            if modifier.type in ("SUBSURF", "MULTIRES"):
-                modifier.levels = modifier.render_levels
-    for collection in scene.collection.children_recursive:
-        collection.hide_viewport = collection.hide_render
-
-    def unhide(layer: bpy.types.LayerCollection) -> None:
-        layer.hide_viewport = False
-        for child in layer.children:
-            unhide(child)
-
-    unhide(bpy.context.view_layer.layer_collection)
-    bpy.context.view_layer.update()
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f'There is no file "{path}": check the path of the .blend file.')
+    if not path.is_file():
+        raise InputError(f'"{path}" is not a file: name a .blend file.')
+    try:
+        with path.open("rb") as file:
+            start = file.read(8)
+    except OSError as error:
+        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its permissions.') from error
+    if not start.startswith(_FILE_STARTS):
+        raise InputError(f'"{path}" is not a .blend file: choose one that Blender saved.')
+    trust = bpy.context.preferences.filepaths.use_scripts_auto_execute
+    try:
+        result = bpy.ops.wm.open_mainfile(filepath=str(path.absolute()), load_ui=False, use_scripts=trust)
+    except RuntimeError as error:
+        reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+        raise InputError(
+            f'Blender cannot open "{path}" ({reason}): the file is damaged or from a newer version.'
+        ) from error
+    if "FINISHED" not in result:
+        raise InputError(f'Blender cannot open "{path}": the file is damaged or from a newer version.')
 
 
 def find_camera(scene: bpy.types.Scene, name: str | None = None) -> bpy.types.Object:
-    """The named camera, or the scene's own."""
+    """The camera object called `name`, or the scene's active camera. Raises InputError when there is none."""
     if name is None:
         if scene.camera is None:
-            raise InputError("The scene has no camera: add one, or name one with --camera.")
-        return scene.camera
-    cameras = [item.name for item in scene.objects if item.type == "CAMERA"]
-    if name not in cameras:
-        raise InputError(f'There is no camera "{name}".{_near(name, cameras)}')
-    return scene.objects[name]
+            raise InputError(f'Scene "{scene.name}" has no camera: add one or make one active.')
+        camera = scene.camera
+    else:
+        found = scene.objects.get(name)
+        if found is None:
+            cameras = (obj.name for obj in scene.objects if obj.type == "CAMERA")
+            raise InputError(f'There is no camera "{name}" in scene "{scene.name}"{_near(name, cameras)}.')
+        camera = found
+    if not isinstance(camera.data, bpy.types.Camera):
+        raise InputError(f'"{camera.name}" is not a camera: choose a camera object.')
+    return camera
 
 
 def view_of_camera(
@@ -74,43 +74,81 @@ def view_of_camera(
     height: int,
     depsgraph: bpy.types.Depsgraph | None = None,
 ) -> View:
-    """What the camera sees in a picture of `width` x `height` square pixels."""
-    depsgraph = depsgraph or bpy.context.evaluated_depsgraph_get()
+    """What `camera` sees on a picture of `width` x `height` pixels: shift, sensor fit and pixel aspect included.
+
+    As in Blender's renders, the scale of the camera object is ignored. Raises InputError for a size without pixels,
+    a camera that is neither perspective nor orthographic, and a matrix that cannot be inverted.
+    """
+    if width < 1 or height < 1:
+        raise InputError(f"A picture of {width}x{height} has no pixels: choose at least 1x1.")
+    if depsgraph is None:
+        depsgraph = bpy.context.evaluated_depsgraph_get()
     evaluated = camera.evaluated_get(depsgraph)
-    if evaluated.type == "CAMERA" and evaluated.data.type == "PANO":
-        raise InputError(f'"{camera.name}" is a panoramic camera: use a perspective or orthographic one.')
-    projection = np.array(
-        evaluated.calc_matrix_camera(
-            depsgraph, x=width, y=height, scale_x=scene.render.pixel_aspect_x, scale_y=scene.render.pixel_aspect_y
-        )
+    data = evaluated.data
+    if not isinstance(data, bpy.types.Camera):
+        raise InputError(f'"{camera.name}" is not a camera: choose a camera object.')
+    if data.type not in ("PERSP", "ORTHO"):
+        raise InputError(f'Camera "{camera.name}" is panoramic: make it perspective or orthographic.')
+    placed = np.array(evaluated.matrix_world, dtype=np.float64)
+    lengths = np.linalg.norm(placed[:3, :3], axis=0)
+    if not np.isfinite(placed).all() or lengths.min() == 0.0:
+        raise InputError(f'Camera "{camera.name}" has a zero or endless scale: clear its scale.')
+    placed[:3, :3] /= lengths
+    if abs(np.linalg.det(placed[:3, :3])) < 1e-6:
+        raise InputError(f'Camera "{camera.name}" is flattened by its parents: clear their scale.')
+    projection = evaluated.calc_matrix_camera(
+        depsgraph,
+        x=width,
+        y=height,
+        scale_x=scene.render.pixel_aspect_x,
+        scale_y=scene.render.pixel_aspect_y,
     )
-    # A scaled camera sees no differently: only its turn and place count.
-    world = evaluated.matrix_world.normalized()
-    return View(np.linalg.inv(np.array(world)), projection, width, height)
+    return View(
+        world_to_view=np.linalg.inv(placed),
+        view_to_clip=np.array(projection, dtype=np.float64),
+        width=width,
+        height=height,
+    )
 
 
 def find_reflectors(scene: bpy.types.Scene, names: Sequence[str]) -> list[bpy.types.Object]:
-    """The named objects, in order and each once."""
+    """The objects called `names`, once each, in that order.
+
+    Raises InputError, with what to do, for no name at all, a name that the scene does not have (near names are
+    offered), an object that has no surface, is hidden, or is a mesh without faces or modifiers. What only shows
+    in the evaluated mesh (no faces, wild coordinates) is found by `extract_scene`.
+    """
     if not names:
-        raise InputError("Name at least one reflector.")
-    surfaces = [item.name for item in scene.objects if item.type in SURFACE_TYPES]
-    found = []
-    for name in dict.fromkeys(names):
-        if name not in scene.objects:
-            raise InputError(f'There is no object "{name}".{_near(name, surfaces)}')
-        item = scene.objects[name]
-        if item.type not in SURFACE_TYPES:
-            raise InputError(f'"{name}" is a {item.type.lower()}, not a mesh: a reflector needs a surface.')
-        found.append(item)
-    return found
+        raise InputError("No reflector is chosen: name at least one object.")
+    return [_find_reflector(scene, name) for name in dict.fromkeys(names)]
 
 
-def _near(name: str, names: Sequence[str]) -> str:
-    """A hint at what was meant, with a space before it; empty where there is nothing near."""
-    lower = {item.lower(): item for item in names}
-    matches = difflib.get_close_matches(name.lower(), list(lower), n=3, cutoff=0.4)
-    if matches:
-        return " Did you mean " + " or ".join(f'"{lower[match]}"' for match in matches) + "?"
-    if names:
-        return " There are: " + ", ".join(f'"{item}"' for item in names[:8]) + "."
-    return ""
+def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
+    obj = scene.objects.get(name)
+    if obj is None:
+        surfaces = (other.name for other in scene.objects if other.type in SURFACE_TYPES)
+        raise InputError(f'There is no object "{name}" in scene "{scene.name}"{_near(name, surfaces)}.')
+    if obj.type not in SURFACE_TYPES:
+        kind = obj.type.lower().replace("_", " ")
+        raise InputError(f'"{name}" is not a mesh but of type {kind}: choose a mesh object as the reflector.')
+    if isinstance(obj.data, bpy.types.Mesh) and len(obj.data.polygons) == 0 and len(obj.modifiers) == 0:
+        raise InputError(f'"{name}" has no faces: choose a mesh with a surface as the reflector.')
+    if obj.hide_render or not obj.visible_get(view_layer=view_layer_of(scene)):
+        raise InputError(f'"{name}" is hidden: show it, in the viewport and in renders, to use it as a reflector.')
+    return obj
+
+
+def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
+    """The view layer in use where `scene` is the open one, else its first."""
+    return bpy.context.view_layer if bpy.context.scene == scene else scene.view_layers[0]
+
+
+def _near(name: str, known: Iterable[str]) -> str:
+    """The end of a sentence: up to three of the names `known` that look like `name`, letter case aside."""
+    by_lower = {other.lower(): other for other in known}
+    close = difflib.get_close_matches(name.lower(), by_lower, n=3, cutoff=0.5)
+    if close:
+        return ": did you mean " + " or ".join(f'"{by_lower[other]}"' for other in close)
+    if by_lower:
+        return ": choose from " + ", ".join(f'"{other}"' for other in sorted(by_lower.values())[:5])
+    return ", which has nothing of the kind"

@@ -98,31 +98,43 @@ def test_contact(gap: float) -> None:
 class Dumbbell:
     """Two lobes along z: each hides a part of the other."""
 
-    bound = 1.6
+    bound = 1.1
 
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         z = u[:, 2]
         gradient = np.zeros_like(u)
-        gradient[:, 2] = 2.0 * z
-        return 0.6 + z**2, tangential(gradient, u)
+        gradient[:, 2] = 0.6 * z
+        return 0.8 + 0.3 * z**2, tangential(gradient, u)
 
 
-def test_reflector_over_itself() -> None:
-    """Seen from above, the near lobe hides the waist and the far lobe: no pixel may show what those reflect."""
+@pytest.mark.parametrize("eye", [(0.5, -3.0, 4.0), (0.4, -0.6, 5.0), (3.0, -3.0, 0.5)])
+def test_reflector_over_itself(eye: tuple[float, float, float]) -> None:
+    """The near lobe hides the waist and the far lobe: no pixel may show what those reflect, where a ray cast finds
+    nothing."""
+    from mathutils.bvhtree import BVHTree
+
     room = Room()
     room.add_mirror(Dumbbell(), 256)
     for i, angle in enumerate(np.linspace(0, 2 * np.pi, 9)[:-1]):
-        room.add_ball((2.2 * np.cos(angle), 2.2 * np.sin(angle), -0.6 + 0.3 * (i % 3)), 0.3)
-    view = look_at(np.array([0.5, -3.0, 4.0]), np.zeros(3), 320, 240, np.radians(34))
+        room.add_ball((2.2 * np.cos(angle), 2.2 * np.sin(angle), -1.2 + 0.4 * (i % 5)), 0.3)
+    view = look_at(np.array(eye), np.zeros(3), 320, 240, np.radians(34))
     frame = render(room, view)
-    geometry = frame._geometry
-    shown = (frame.mask() > 0) & (frame.reflected_object() > 0)
-    assert shown.sum() > 1000
-    point, normal = geometry["seen_position"][..., :3], geometry["seen_normal"][..., :3]
+    mirror = room.arrays().meshes[0]
+    itself = BVHTree.FromPolygons(mirror.positions.tolist(), mirror.triangles.tolist())
+    point, normal = frame._geometry["seen_position"][..., :3], frame._geometry["seen_normal"][..., :3]
     to_eye = unit(view.eye[:3] - point)
     ray = 2 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
-    off = np.degrees(np.arccos(np.clip((ray * unit(frame.reflected_position()[..., :3] - point)).sum(-1), -1, 1)))
-    assert np.percentile(off[shown], 99) < 5.0
+    truth, _ = room.cast(point.astype(float), ray.astype(float))
+    on_mirror = np.argwhere(frame.mask() > 0)
+    free = np.zeros(frame.mask().shape, bool)
+    for y, x in on_mirror:
+        start = point[y, x] + 1e-3 * normal[y, x]
+        free[y, x] = itself.ray_cast(start.tolist(), ray[y, x].tolist())[0] is None
+    shown = frame.reflected_object()
+    assert (shown[free] > 0).sum() > 200
+    false_image = free & (shown > 0) & (truth != shown)
+    # One-pixel rims of true images are allowed; a lobe's worth of wrong image is not.
+    assert false_image.sum() / (shown[free] > 0).sum() < 0.12
 
 
 def test_visibility_flags() -> None:
@@ -137,9 +149,9 @@ def test_visibility_flags() -> None:
 
 def test_holdout_cuts_the_picture_but_not_the_mirror() -> None:
     room = ball_room()
-    cutter = room.add_ball((1.2, -1.5, 0.2), 0.3, holdout=True)
+    cutter = room.add_ball((1.1, -1.4, 0.2), 0.25, holdout=True)
     frame = render(room)
-    x, y = VIEW.project(np.array([[1.2, -1.5, 0.2]]))[0].astype(int)
+    x, y = VIEW.project(np.array([[1.1, -1.4, 0.2]]))[0].astype(int)
     assert frame.color()[y, x].tolist() == [0.0, 0.0, 0.0, 0.0]
     assert cutter in frame.reflected_object()
 

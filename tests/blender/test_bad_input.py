@@ -1,0 +1,284 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every mistake in files and scenes, through the command line: one sentence, exit code 2, nothing written."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon import cli
+from curvrefl.curvrefl_addon.report.images import load_exr
+from mathutils import Matrix
+
+SIZE = (32, 24)
+CAMERA_PLACE = (0.0, -6.0, 0.0)
+
+type Change = Callable[[bpy.types.Object], None]
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+
+def build_scene() -> bpy.types.Object:
+    """A mirror ball of radius 1 at the origin, a red block beside it, a white world; returns the ball."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.world = bpy.data.worlds.new("world")
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1.0)
+    ball = bpy.context.object
+    ball.name = "Mirror Ball"
+    bpy.ops.object.shade_smooth()
+    chrome = bpy.data.materials.new("chrome")
+    shader = chrome.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Metallic"].default_value = 1.0
+    shader.inputs["Roughness"].default_value = 0.0
+    ball.data.materials.append(chrome)
+    bpy.ops.mesh.primitive_cube_add(size=1.0, location=(2.0, -1.0, 0.0))
+    block = bpy.context.object
+    block.name = "Block"
+    camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
+    camera.location = CAMERA_PLACE
+    camera.rotation_euler = (np.pi / 2.0, 0.0, 0.0)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    return ball
+
+
+def saved(folder: Path, change: Change | None = None) -> Path:
+    """The scene with a change, as a file in a folder of its own."""
+    ball = build_scene()
+    if change:
+        change(ball)
+    path = folder / "files" / "scene.blend"
+    path.parent.mkdir(exist_ok=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False)
+    return path
+
+
+def render(path: Path, *more: str, reflector: str = "Mirror Ball") -> tuple[int, Path]:
+    """Exit code of the verb `render`, and its output's path."""
+    output = path.parents[1] / "out" / "picture.exr"
+    arguments = ["render", str(path), "--reflector", reflector, "--samples", "1", "--output", str(output), *more]
+    return cli.main(arguments), output
+
+
+def refused(code: int, output: Path, capfd: pytest.CaptureFixture[str]) -> str:
+    """What was said: one sentence and no more; nothing was written."""
+    err = capfd.readouterr().err
+    assert code == 2, err
+    said = [line for line in err.splitlines() if line.startswith("curvrefl: ")]
+    assert len(said) == 1, err
+    assert re.fullmatch(r"curvrefl: .*[.?]", said[0])
+    assert "Traceback" not in err
+    assert not output.parent.exists()
+    return said[0]
+
+
+def test_a_missing_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "files").mkdir()
+    code, output = render(tmp_path / "files" / "none.blend")
+    assert "none.blend" in refused(code, output, capfd)
+
+
+@pytest.mark.parametrize("content", [b"", b"BLENDER-v502", b"not a scene at all" * 100, None])
+def test_a_broken_file(content: bytes | None, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = saved(tmp_path)
+    # None: a whole file that breaks off in the middle.
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if content is None else content)
+    code, output = render(path)
+    assert "scene.blend" in refused(code, output, capfd)
+
+
+def test_a_folder_instead_of_a_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path).parent / ".")
+    assert "files" in refused(code, tmp_path / "out" / "picture.exr", capfd)
+    assert not output.exists()
+
+
+def test_no_camera(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def change(_ball: bpy.types.Object) -> None:
+        bpy.data.objects.remove(bpy.data.objects["Eye"])
+
+    code, output = render(saved(tmp_path, change))
+    assert "no camera" in refused(code, output, capfd)
+
+
+def test_an_unknown_camera(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path), "--camera", "Eie")
+    assert '"Eye"' in refused(code, output, capfd)
+
+
+def test_an_unknown_reflector_gets_near_names(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path), reflector="mirorball")
+    said = refused(code, output, capfd)
+    assert "mirorball" in said
+    assert '"Mirror Ball"' in said
+
+
+def test_a_reflector_that_is_not_a_mesh(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path), reflector="Eye")
+    assert "mesh" in refused(code, output, capfd)
+
+
+def without_faces(ball: bpy.types.Object) -> None:
+    ball.data.clear_geometry()
+
+
+def with_loose_edges_only(ball: bpy.types.Object) -> None:
+    ball.data.clear_geometry()
+    ball.data.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+
+
+def with_a_nan(ball: bpy.types.Object) -> None:
+    ball.data.vertices[7].co.x = float("nan")
+
+
+def with_an_infinity(ball: bpy.types.Object) -> None:
+    ball.data.vertices[7].co.z = float("inf")
+
+
+def flattened(ball: bpy.types.Object) -> None:
+    ball.scale = (1.0, 1.0, 0.0)
+
+
+def shrunk_to_nothing(ball: bpy.types.Object) -> None:
+    ball.scale = (0.0, 0.0, 0.0)
+
+
+def singular(ball: bpy.types.Object) -> None:
+    ball.matrix_parent_inverse = Matrix(((1, 1, 0, 0), (1, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
+    ball.parent = bpy.data.objects["Block"]
+
+
+def hidden_in_renders(ball: bpy.types.Object) -> None:
+    ball.hide_render = True
+
+
+def a_spring(ball: bpy.types.Object) -> None:
+    """Not star-shaped, however the centre is chosen."""
+    bpy.context.view_layer.objects.active = ball
+    ball.data.clear_geometry()
+    t = np.linspace(0.0, 8.0 * np.pi, 200)
+    path = np.column_stack([np.cos(t), np.sin(t), 0.15 * t])
+    ring = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
+    radial = np.column_stack([np.cos(t), np.sin(t), np.zeros_like(t)])
+    tube = path[:, None] + 0.1 * (
+        np.cos(ring)[None, :, None] * radial[:, None] + np.sin(ring)[None, :, None] * np.array([0.0, 0.0, 1.0])
+    )
+    faces = [
+        (8 * i + j, 8 * i + (j + 1) % 8, 8 * (i + 1) + (j + 1) % 8, 8 * (i + 1) + j)
+        for i in range(len(t) - 1)
+        for j in range(8)
+    ]
+    ball.data.from_pydata(tube.reshape(-1, 3).tolist(), [], faces)
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        (without_faces, "Mirror Ball"),
+        (with_loose_edges_only, "Mirror Ball"),
+        (with_a_nan, "finite|not numbers|not a number"),
+        (with_an_infinity, "finite|not numbers|not a number"),
+        (flattened, "scale"),
+        (shrunk_to_nothing, "scale"),
+        (singular, "Mirror Ball"),
+        (hidden_in_renders, "render"),
+        (a_spring, "star-shaped"),
+    ],
+)
+@pytest.mark.parametrize("verb", ["render", "bake", "compare"])
+def test_a_reflector_that_cannot_be_one(
+    verb: str, change: Change, named: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = saved(tmp_path, change)
+    output = tmp_path / "out" / "x.exr"
+    destination = output if verb == "render" else output.parent
+    code = cli.main([verb, str(path), "--reflector", "Mirror Ball", "--output", str(destination)])
+    said = refused(code, output, capfd)
+    assert "Mirror Ball" in said
+    assert re.search(named, said), said
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_an_output_folder_that_is_write_protected(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = saved(tmp_path)
+    protected = tmp_path / "protected"
+    protected.mkdir(mode=0o500)
+    code = cli.main(["render", str(path), "--reflector", "Mirror Ball", "--output", str(protected / "new" / "x.png")])
+    assert str(protected) in refused(code, protected / "new" / "x.png", capfd)
+
+
+def test_a_folder_that_cannot_be_made(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    path = saved(tmp_path)
+    (tmp_path / "file").write_text("mine")
+    for arguments in (["render"], ["compare"], ["bake"]):
+        output = tmp_path / "file" / "x.png"
+        code = cli.main([*arguments, str(path), "--reflector", "Mirror Ball", "--output", str(output)])
+        assert code == 2
+        assert "which is a file" in capfd.readouterr().err
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def warned(code: int, capfd: pytest.CaptureFixture[str]) -> str:
+    """The warnings of a verb that has done its work."""
+    err = capfd.readouterr().err
+    assert code == 0, err
+    said = [line for line in err.splitlines() if line.startswith("curvrefl: Warning: ")]
+    assert said, err
+    return "\n".join(said)
+
+
+def test_a_camera_inside_the_reflector(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def change(_ball: bpy.types.Object) -> None:
+        bpy.data.objects["Eye"].location = (0.0, 0.0, 0.0)
+
+    code, output = render(saved(tmp_path, change))
+    assert "inside" in warned(code, capfd)
+    assert np.isfinite(load_exr(output)).all()
+
+
+def test_nothing_to_reflect(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def change(_ball: bpy.types.Object) -> None:
+        bpy.data.objects.remove(bpy.data.objects["Block"])
+
+    code, output = render(saved(tmp_path, change))
+    assert "nothing" in warned(code, capfd).lower()
+    # Chrome before a white world: its base colour 0.8 in the middle, white around it.
+    picture = load_exr(output)
+    np.testing.assert_allclose(picture[SIZE[1] // 2, SIZE[0] // 2, :3], 0.8, atol=0.02)
+    np.testing.assert_allclose(picture[0, 0, :3], 1.0, atol=1e-3)
+
+
+def test_a_reflector_out_of_view(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    def change(_ball: bpy.types.Object) -> None:
+        bpy.data.objects["Eye"].rotation_euler = (-np.pi / 2.0, 0.0, 0.0)
+
+    code, output = render(saved(tmp_path, change))
+    assert "in view" in warned(code, capfd)
+    np.testing.assert_allclose(load_exr(output)[..., :3], 1.0, atol=1e-3)
+
+
+def test_passes_lie_beside_the_picture(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path), "--passes", "color,position,object,iterations", "--resolution", "40x30")
+    out, err = capfd.readouterr()
+    assert code == 0, err
+    assert "Warning" not in err
+    names = sorted(path.name for path in output.parent.iterdir())
+    assert names == ["picture.exr", "picture_iterations.exr", "picture_object.exr", "picture_position.exr"]
+    assert load_exr(output).shape == (30, 40, 4)
+    (block,) = [int(line.split()[1].rstrip(":")) for line in out.splitlines() if line.endswith(": Block")]
+    shown = load_exr(output.with_name("picture_object.exr"))[..., 0] == block
+    # The block is to the right of the ball and as near: it is seen in the right half of the mirror, and is there.
+    assert 0.005 < shown.mean() < 0.3
+    assert np.flatnonzero(shown.any(axis=0)).mean() > 20
+    position = load_exr(output.with_name("picture_position.exr"))[shown]
+    np.testing.assert_array_equal(position[:, 3], 1.0)
+    assert np.abs(position[:, :3] - (2.0, -1.0, 0.0)).max() < 0.5 + 0.05
