@@ -39,6 +39,11 @@ def say(text: str) -> None:
     print(f"curvrefl: {text}", file=sys.stderr, flush=True)
 
 
+def progress(text: str) -> None:
+    """What is being done, on stdout before the results."""
+    print(f"{text} ...", flush=True)
+
+
 def render(options: argparse.Namespace) -> int:
     """Render the file's picture, and what is behind it as passes."""
     passes = _names(options.passes, "pass")
@@ -105,7 +110,7 @@ def compare(options: argparse.Namespace) -> int:
         output,
         scene_name=Path(options.file).name,
         camera=options.camera,
-        progress=say,
+        progress=progress,
     )
     print(format_table(report))
     print(f"Report: {output / 'report.html'}")
@@ -152,11 +157,11 @@ def demo(options: argparse.Namespace) -> int:
     from .report.cycles_reference import PEERS
     from .report.table import format_table
 
-    say("Building the demo scene")
+    progress("Building the demo scene")
     with folder_to_publish(output) as folder:
         build_demo(folder / "demo.blend")
     report = compare_blend(
-        output / "demo.blend", [KETTLE], DEFAULT_METHODS, 640, 480, 256, "direct", PEERS, output, progress=say
+        output / "demo.blend", [KETTLE], DEFAULT_METHODS, 640, 480, 256, "direct", PEERS, output, progress=progress
     )
     print(format_table(report))
     print(f"Scene: {output / 'demo.blend'}")

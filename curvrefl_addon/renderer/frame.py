@@ -84,6 +84,8 @@ class Renderer:
         self.bake_ms = 1e3 * (perf_counter() - start)
         for mirror in self.mirrors:
             self.warnings += mirror.map.warnings
+        if self.mirrors and not any(len(mirror.whole_scenery.triangles) for mirror in self.mirrors):
+            self.warnings.append("There is nothing to reflect: no other object is visible to glossy rays.")
         numbers = {id(scene.instances[index]): number for number, index in enumerate(chosen, 1)}
 
         def is_seen(instance: InstanceArrays) -> bool:
@@ -184,7 +186,10 @@ class Renderer:
         if reflect:
             targets.reflected.clear()
             for mirror, solution in zip(self.mirrors, solutions, strict=True):
-                targets.back_faces.draw(mirror.surface, uniforms)
+                if mirror.may_hide_itself:
+                    targets.back_faces.draw(mirror.surface, uniforms)
+                else:
+                    targets.back_faces.clear()
                 draw_reflected(
                     targets.reflected,
                     targets.seen,

@@ -11,6 +11,7 @@ import numpy as np
 from ..optics.cube_map import CubeMapSurface
 from ..scene.arrays import InstanceArrays, SceneArrays
 from ..scene.view import View
+from .convexity import is_convex
 from .geometry import WorldGeometry, flatten
 from .gpu_objects import cube_texture
 from .reflector_bake import bake_instance
@@ -36,6 +37,7 @@ class Mirror:
 
         self.surface = flatten(scene, is_own)
         """The reflector's own triangles"""
+        self.may_hide_itself = not is_convex(self.surface)
         self.whole_scenery = flatten(scene, is_reflected)
         """All that it may show, unsplit"""
         self._split: tuple[float, WorldGeometry] | None = None
@@ -55,7 +57,9 @@ class Mirror:
         distance = float(np.linalg.norm(eye))
         if distance >= self.map.r_max:
             return False
-        radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / max(distance, 1e-30))
+        if distance == 0.0:
+            return True
+        radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / distance)
         return distance < float(radius[0])
 
     def scenery(self, view: View, tolerance: float) -> WorldGeometry:

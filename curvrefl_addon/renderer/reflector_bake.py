@@ -21,6 +21,8 @@ from .reflector_map import ReflectorMap, Spread
 
 MIN_RESOLUTION = 8
 MAX_RESOLUTION = 2048
+LARGEST_COORDINATE = 1e18
+"""Squares of larger ones overflow in float32"""
 LEAST_COSINE = 0.05
 """Between direction and shading normal; flatter than that the gradient is clamped to what it is there (|grad r| = 20 r)"""
 SAME_HIT = 1e-3
@@ -190,6 +192,8 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
         raise InputError(f'"{name}" has no faces: choose a mesh with a surface as reflector.')
     if not np.isfinite(mesh.positions).all():
         raise InputError(f'"{name}" has vertices that are not finite numbers: repair its mesh.')
+    if len(mesh.positions) and np.abs(mesh.positions).max() > LARGEST_COORDINATE:
+        raise InputError(f'"{name}" has vertices too far away to compute with: repair its mesh.')
     if not np.isfinite(mesh.corner_normals).all():
         raise InputError(f'"{name}" has normals that are not finite numbers: repair its mesh.')
     linear = np.asarray(instance.matrix[:3, :3], np.float64)

@@ -55,6 +55,11 @@ class BackFaces:
         self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.distance,))
         self.width, self.height = width, height
 
+    def clear(self) -> None:
+        """No back faces anywhere."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+
     def draw(self, geometry: WorldGeometry, view_uniforms: Any) -> None:
         """Fill from the reflector's triangles (closed, counter-clockwise from outside)."""
         shader = _back_faces_shader()

@@ -160,9 +160,9 @@ def compare_open_scene(
     """
     say = progress or _silent
     output = checked_folder(output)
-    with _camera_in_use(scene, camera):
+    with _camera_in_use(scene, camera) as camera_object:
         say("Reading the scene")
-        view = view_of_camera(scene, scene.camera, comparison.width, comparison.height)
+        view = view_of_camera(scene, camera_object, comparison.width, comparison.height)
         with bpy.context.temp_override(scene=scene, view_layer=view_layer):
             depsgraph = bpy.context.evaluated_depsgraph_get()
         start = time.perf_counter()
@@ -327,11 +327,12 @@ def _silent(_message: str) -> None:
 
 
 @contextmanager
-def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[bpy.types.Object]:
     """`scene.camera` is the camera object called `name` (or stays) for the time being."""
     before = scene.camera
-    scene.camera = find_camera(scene, name)
+    camera = find_camera(scene, name)
+    scene.camera = camera
     try:
-        yield
+        yield camera
     finally:
         scene.camera = before

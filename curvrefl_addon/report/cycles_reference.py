@@ -78,11 +78,15 @@ def render_peer(
         use_viewport_geometry(changes, scene, view_layer)
         if peer == "eevee":
             _use_eevee(changes, scene, light)
+            # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
+            changes.set(scene.eevee, taa_render_samples=1)
         elif peer in ("cycles1", "cycles8"):
             use_cycles(changes, scene, view_layer, int(peer.removeprefix("cycles")), light)
         else:
             raise InputError(f"Unknown peer '{peer}': choose from {', '.join(PEERS)}, or none.")
         render_still(scene, view_layer)
+        if peer == "eevee":
+            changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES)
         return render_still(scene, view_layer)
 
 
@@ -205,7 +209,7 @@ def cycles_settings(scene: bpy.types.Scene) -> Any:
 
 def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: str) -> None:
     changes.set(scene.render, engine="BLENDER_EEVEE")
-    changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES, use_raytracing=True)
+    changes.set(scene.eevee, use_raytracing=True)
     if light == "direct":
         changes.set(scene.render, filter_size=1.5)
         changes.set(scene.eevee, fast_gi_method="AMBIENT_OCCLUSION_ONLY")

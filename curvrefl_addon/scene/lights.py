@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender lamps to arrays."""
+"""Lamps, in the units of `LightArrays`."""
 
 from __future__ import annotations
 
@@ -9,55 +9,89 @@ import math
 import bpy
 import numpy as np
 
-from .arrays import LightArrays
+from .arrays import Float64Array, LightArrays
+from .node_colors import ColorReader
+from .node_links import source_of
 
 
-def read_light(light: bpy.types.Light, source: bpy.types.Object, matrix: np.ndarray, warnings: list[str]) -> LightArrays:
-    """A lamp placed by the world matrix (4, 4); `source` gives its visibility."""
+def read_light(
+    light: bpy.types.Light, name: str, matrix: Float64Array, visible_glossy: bool, warnings: list[str]
+) -> LightArrays | None:
+    """The lamp `light` of the object called `name` placed by `matrix` (4, 4); None for one without light or place.
+
+    Sizes of area lamps follow the object's scale, their power does not; balls keep their radius: as in Cycles.
+    """
     lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+    if not np.isfinite(matrix).all() or lengths.min() == 0.0:
+        warnings.append(f'Lamp "{name}" has a zero or endless scale and is left out.')
+        return None
     placed = matrix.copy()
-    placed[:3, :3] /= np.where(lengths > 0.0, lengths, 1.0)
-    size = (0.0, 0.0)
-    area = 1.0
-    if light.type == "AREA":
-        square = light.shape in ("SQUARE", "DISK")
-        size = (light.size * lengths[0], (light.size if square else light.size_y) * lengths[1])
-        area = size[0] * size[1] * (math.pi / 4 if light.shape in ("DISK", "ELLIPSE") else 1.0)
-    elif light.type in ("POINT", "SPOT"):
-        area = 4.0 * math.pi * light.shadow_soft_size**2
-    elif light.type == "SUN":
-        area = math.pi * math.sin(0.5 * light.angle) ** 2
-    strength = light.energy * 2.0**light.exposure
-    if not light.normalize:
-        # The strength is then per area, and a lamp of no area shines as it would normalised.
-        strength *= area if area > 0.0 else 1.0
-    color = np.array(light.color) * strength
+    placed[:3, :3] /= lengths
+    color = np.array(light.color, np.float64) * light.energy * 2.0**light.exposure
     if light.use_temperature:
-        color = color * np.array(light.temperature_color)
-    color = color * _node_factor(light, warnings)
+        color *= np.array(light.temperature_color, np.float64)
+    color *= _node_color(light, name, warnings)
+    if not color.any():
+        return None
+
+    kind = str(light.type)
+    radius = angle = spot_angle = spot_blend = 0.0
+    size = (0.0, 0.0)
+    ellipse = False
+    area = 0.0
+    if isinstance(light, bpy.types.SunLight):
+        angle = light.angle
+        area = math.pi * math.sin(0.5 * angle) ** 2
+    elif isinstance(light, bpy.types.AreaLight):
+        height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
+        size = (float(light.size * lengths[0]), float(height * lengths[1]))
+        ellipse = light.shape in ("DISK", "ELLIPSE")
+        area = size[0] * size[1] * (math.pi / 4.0 if ellipse else 1.0)
+        if light.spread < math.pi - 1e-4:
+            warnings.append(f'The spread of area lamp "{name}" is left out: it shines to all sides.')
+    elif isinstance(light, (bpy.types.PointLight, bpy.types.SpotLight)):
+        radius = light.shadow_soft_size
+        area = math.pi * radius**2
+        if isinstance(light, bpy.types.SpotLight):
+            spot_angle, spot_blend = light.spot_size, light.spot_blend
+            if lengths.max() > lengths.min() * 1.001:
+                warnings.append(f'The cone of spot lamp "{name}" is drawn round, whatever its scale.')
+    if not light.normalize and area > 0.0:
+        color *= area
+    r, g, b = color.tolist()
     return LightArrays(
-        name=source.name,
-        kind=light.type,
-        color=(float(color[0]), float(color[1]), float(color[2])),
+        name=name,
+        kind=kind,
+        color=(r, g, b),
         matrix=placed,
-        radius=light.shadow_soft_size if light.type in ("POINT", "SPOT") else 0.0,
-        angle=light.angle if light.type == "SUN" else 0.0,
-        spot_angle=light.spot_size if light.type == "SPOT" else 0.0,
-        spot_blend=light.spot_blend if light.type == "SPOT" else 0.0,
-        size=(float(size[0]), float(size[1])),
-        ellipse=light.type == "AREA" and light.shape in ("DISK", "ELLIPSE"),
+        radius=radius,
+        angle=angle,
+        spot_angle=spot_angle,
+        spot_blend=spot_blend,
+        size=size,
+        ellipse=ellipse,
         casts_shadow=light.use_shadow,
-        visible_glossy=source.visible_glossy,
+        visible_glossy=visible_glossy,
     )
 
 
-def _node_factor(light: bpy.types.Light, warnings: list[str]) -> np.ndarray:
-    """What the lamp's nodes multiply its colour by."""
-    output = light.node_tree.get_output_node("CYCLES") if light.use_nodes and light.node_tree else None
-    if output is None or not output.inputs["Surface"].is_linked:
+def _node_color(light: bpy.types.Light, name: str, warnings: list[str]) -> Float64Array:
+    """(3,) what the lamp's nodes multiply its colour with."""
+    tree = light.node_tree
+    outputs = [node for node in tree.nodes if node.type == "OUTPUT_LIGHT"] if tree is not None else []
+    if not outputs:
         return np.ones(3)
-    emission = output.inputs["Surface"].links[0].from_node
-    if emission.type != "EMISSION" or any(socket.is_linked for socket in emission.inputs):
-        warnings.append(f'Lamp "{light.name}": its nodes are not supported and left out.')
+    output = next((node for node in outputs if getattr(node, "is_active_output", False)), outputs[0])
+    source = source_of(output.inputs["Surface"])
+    if source.node is None:
+        return np.zeros(3)
+    if source.node.type != "EMISSION" or source.node.mute:
+        warnings.append(f'The nodes of lamp "{name}" are left out: only an Emission node is drawn.')
         return np.ones(3)
-    return np.array(emission.inputs["Color"].default_value)[:3] * emission.inputs["Strength"].default_value
+    notes: list[str] = []
+    reader = ColorReader(lambda _: None, notes)
+    strength = reader.number(source.input("Strength"), "strength")
+    color = reader.color(source.input("Color")).mean()
+    if notes:
+        warnings.append(f'Lamp "{name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
+    return np.array(color, np.float64) * strength

@@ -1,226 +1,242 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender materials to the part of the Principled BSDF that the renderer shades."""
+"""Materials: the nodes that the renderer can draw, the nearest constant and a warning for the rest."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
 from .arrays import ImageArrays, MaterialArrays
+from .images import ImageReader
+from .meshes import MeshNeeds
+from .node_colors import ColorReader, NodeColor
+from .node_links import Source, find_input, source_of, surface_source
+from .surface_textures import SurfaceTexture, SurfaceTextureReader
+
+EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
+"""What Cycles draws without a material: a diffuse grey"""
+
+# Inputs of the Principled BSDF that are not drawn unless they are at this value.
+_IGNORED = {
+    "Alpha": 1.0,
+    "Subsurface Weight": 0.0,
+    "Anisotropic": 0.0,
+    "Transmission Weight": 0.0,
+    "Coat Weight": 0.0,
+    "Sheen Weight": 0.0,
+    "Thin Film Thickness": 0.0,
+    "Diffuse Roughness": 0.0,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Surface:
+    """A material whose base colour may still have textures."""
+
+    color: NodeColor
+    rest: MaterialArrays
+    """All but the base colour"""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadMaterial:
+    """A material of the scene."""
+
+    index: int
+    """Into `MaterialReader.materials`"""
+    needs: MeshNeeds
+    """What it reads of the meshes it is on"""
 
 
 class MaterialReader:
-    """Collects materials, their images, and what could not be read."""
+    """Reads each material once."""
 
-    def __init__(self) -> None:
-        self.materials: list[MaterialArrays] = [MaterialArrays("default")]
+    def __init__(self, images: ImageReader, warnings: list[str]) -> None:
+        """`warnings` gets one sentence for each material that is drawn only roughly."""
+        self.materials: list[MaterialArrays] = [EMPTY_SLOT]
         self.images: list[ImageArrays] = []
-        self.warnings: list[str] = []
-        self._known: dict[int, int] = {}
-        self._known_images: dict[tuple[int, bool, bool], int] = {}
+        self._warnings = warnings
+        self._textures = SurfaceTextureReader(images)
+        self._read: dict[int, ReadMaterial] = {}
 
-    def index_of(self, material: bpy.types.Material | None) -> int:
-        """Index into `materials`; 0 for an empty slot."""
+    def read(self, material: bpy.types.Material | None) -> ReadMaterial:
+        """The material's place in the list; None, an empty slot, is at index 0."""
         if material is None:
-            return 0
-        key = material.original.session_uid
-        if key not in self._known:
-            self._known[key] = len(self.materials)
-            self.materials.append(self._read(material))
-        return self._known[key]
+            return ReadMaterial(0, MeshNeeds())
+        key = material.original.as_pointer()
+        if key not in self._read:
+            notes: list[str] = []
+            arrays, needs = self._arrays(material, notes)
+            self.materials.append(arrays)
+            self._read[key] = ReadMaterial(len(self.materials) - 1, needs)
+            if notes:
+                self._warnings.append(f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
+        return self._read[key]
 
-    def _warn(self, material: bpy.types.Material, what: str) -> None:
-        self.warnings.append(f'Material "{material.name}": {what}.')
-
-    def _read(self, material: bpy.types.Material) -> MaterialArrays:
-        viewport = tuple(material.diffuse_color)[:3]
-        fallback = MaterialArrays(
-            material.name, base_color=viewport, metallic=material.metallic, roughness=material.roughness
-        )
-        output = material.node_tree.get_output_node("CYCLES") if material.node_tree else None
-        if output is None:
-            return fallback
-        shader = _source(output.inputs["Surface"])
-        while shader is not None and shader.type in ("MIX_SHADER", "ADD_SHADER"):
-            self._warn(material, "mixed shaders are not followed, the first one is taken")
-            inputs = [socket for socket in shader.inputs if socket.type == "SHADER"]
-            shader = next((node for node in map(_source, inputs) if node is not None), None)
-        if shader is None:
-            return replace(fallback, base_color=(0.0, 0.0, 0.0), specular_level=0.0)
-        if shader.type == "BSDF_PRINCIPLED":
-            return self._principled(material, shader)
-        if shader.type == "BSDF_DIFFUSE":
-            base = MaterialArrays(material.name, roughness=1.0, specular_level=0.0)
-            return self._with_color(material, base, shader.inputs["Color"])
-        if shader.type in ("BSDF_GLOSSY", "BSDF_METALLIC"):
-            base = MaterialArrays(
-                material.name, roughness=self._number(material, shader, "Roughness"), glossy_only=True
+    def _arrays(self, material: bpy.types.Material, notes: list[str]) -> tuple[MaterialArrays, MeshNeeds]:
+        source = surface_source(material.node_tree)
+        if source is None:
+            r, g, b, _ = material.diffuse_color
+            plain = MaterialArrays(
+                material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
             )
-            color = shader.inputs["Color"] if "Color" in shader.inputs else shader.inputs["Base Color"]
-            return self._with_color(material, base, color)
-        if shader.type == "EMISSION":
-            strength = self._number(material, shader, "Strength")
-            color = self._constant(material, shader, "Color")
-            emission = tuple(strength * channel for channel in color)
-            return MaterialArrays(material.name, base_color=(0, 0, 0), specular_level=0.0, emission=emission)
-        self._warn(material, f"the shader {shader.bl_label} is not supported, its viewport colour is used")
-        return fallback
-
-    def _principled(self, material: bpy.types.Material, shader: bpy.types.Node) -> MaterialArrays:
-        strength = self._number(material, shader, "Emission Strength")
-        color = self._constant(material, shader, "Emission Color") if strength else (0.0, 0.0, 0.0)
-        for name in ("Transmission Weight", "Coat Weight", "Subsurface Weight", "Sheen Weight"):
-            if shader.inputs[name].is_linked or shader.inputs[name].default_value > 0.0:
-                self._warn(material, f"{name} is not supported and left out")
-        if shader.inputs["Normal"].is_linked:
-            self._warn(material, "bump and normal maps are not supported and left out")
-        base = MaterialArrays(
-            material.name,
-            metallic=self._number(material, shader, "Metallic"),
-            roughness=self._number(material, shader, "Roughness"),
-            ior=self._number(material, shader, "IOR"),
-            specular_level=self._number(material, shader, "Specular IOR Level"),
-            emission=tuple(strength * channel for channel in color),
-        )
-        return self._with_color(material, base, shader.inputs["Base Color"])
-
-    def _number(self, material: bpy.types.Material, node: bpy.types.Node, name: str) -> float:
-        socket = node.inputs[name]
-        source = _source(socket)
-        if source is not None:
-            if source.type == "VALUE":
-                return float(source.outputs[0].default_value)
-            self._warn(material, f"the texture on {name} is not supported, its slider's value is used")
-        return float(socket.default_value)
-
-    def _constant(self, material: bpy.types.Material, node: bpy.types.Node, name: str) -> tuple[float, float, float]:
-        socket = node.inputs[name]
-        source = _source(socket)
-        if source is not None:
-            if source.type == "RGB":
-                return tuple(source.outputs[0].default_value)[:3]
-            self._warn(material, f"the texture on {name} is not supported, its plain colour is used")
-        return tuple(socket.default_value)[:3]
-
-    def _with_color(
-        self, material: bpy.types.Material, base: MaterialArrays, socket: bpy.types.NodeSocket
-    ) -> MaterialArrays:
-        """`base` with its base colour from `socket`: a value, an image, vertex colours, or a product of those."""
-        node = _source(socket)
-        if node is None:
-            return replace(base, base_color=tuple(socket.default_value)[:3])
-        if node.type == "RGB":
-            return replace(base, base_color=tuple(node.outputs[0].default_value)[:3])
-        if node.type == "TEX_IMAGE" and node.image is not None:
-            return self._textured(material, replace(base, base_color=(1.0, 1.0, 1.0)), node)
-        if node.type == "VERTEX_COLOR" or (node.type == "ATTRIBUTE" and node.attribute_type == "GEOMETRY"):
-            return replace(base, base_color=(1.0, 1.0, 1.0), uses_vertex_color=True)
-        if node.type == "MIX" and node.data_type == "RGBA" and node.blend_type == "MULTIPLY":
-            factor = next(s for s in node.inputs if s.identifier == "Factor_Float")
-            if not factor.is_linked and factor.default_value == 1.0:
-                first, second = (next(s for s in node.inputs if s.identifier == f"{k}_Color") for k in "AB")
-                a = self._with_color(material, base, first)
-                b = self._with_color(material, base, second)
-                if a.image < 0 or b.image < 0:
-                    mapped = a if a.image >= 0 else b
-                    product = tuple(p * q for p, q in zip(a.base_color, b.base_color, strict=True))
-                    return replace(
-                        mapped, base_color=product, uses_vertex_color=a.uses_vertex_color or b.uses_vertex_color
-                    )
-        self._warn(material, f"the node {node.bl_label} on the base colour is not supported, a plain colour is used")
-        return replace(base, base_color=_middle_color(node, socket))
-
-    def _textured(
-        self, material: bpy.types.Material, base: MaterialArrays, node: bpy.types.Node
-    ) -> MaterialArrays:
-        scale, offset = np.ones(2), np.zeros(2)
-        vector = _source(node.inputs["Vector"])
-        if vector is not None and vector.type == "MAPPING":
-            inputs = vector.inputs
-            simple = vector.vector_type == "POINT" and not any(
-                inputs[name].is_linked for name in ("Location", "Rotation", "Scale")
+            return plain, MeshNeeds()
+        surface = _ShaderReader(self._textures, notes).surface(source)
+        arrays = replace(surface.rest, name=material.name, base_color=surface.color.factor)
+        needs = MeshNeeds(colors=surface.color.vertex_colors)
+        texture = surface.color.texture
+        if isinstance(texture, SurfaceTexture):
+            arrays = replace(
+                arrays, image=self._image_index(texture.image), uv_scale=texture.space.scale,
+                uv_offset=texture.space.offset,
             )
-            if simple and not any(inputs["Rotation"].default_value):
-                scale = np.array(inputs["Scale"].default_value)[:2]
-                offset = np.array(inputs["Location"].default_value)[:2]
-            else:
-                self._warn(material, "a texture mapping that turns or is driven is not supported and left out")
-            vector = _source(inputs["Vector"])
-        by_uv = vector is None or vector.type == "UVMAP" or _output_name(node, "Vector") in ("UV", "")
-        if not by_uv:
-            self._warn(material, "texture coordinates other than UV are not supported, UV is used")
-        if node.projection != "FLAT":
-            self._warn(material, "image projections other than flat are not supported, UV is used")
-        pixels = self._image(material, node)
-        if pixels < 0:
-            return base
-        return replace(
-            base,
-            image=pixels,
-            uv_scale=(float(scale[0]), float(scale[1])),
-            uv_offset=(float(offset[0]), float(offset[1])),
+            needs = replace(needs, uv_map=texture.space.uv_map)
+        return replace(arrays, uses_vertex_color=needs.colors is not None), needs
+
+    def _image_index(self, image: ImageArrays) -> int:
+        for index, known in enumerate(self.images):
+            if known is image:
+                return index
+        self.images.append(image)
+        return len(self.images) - 1
+
+
+class _ShaderReader:
+    """One material's shader nodes."""
+
+    def __init__(self, textures: SurfaceTextureReader, notes: list[str]) -> None:
+        self._notes = notes
+        self._colors = ColorReader(lambda source: textures.read(source, notes), notes)
+
+    def surface(self, source: Source) -> _Surface:
+        """The surface of a shader node. What it lacks for a true picture goes into the notes."""
+        node = source.node
+        kind = "" if node is None else node.type
+        if node is None or node.mute:
+            return _Surface(NodeColor((0.0, 0.0, 0.0)), _matt())
+        if kind == "BSDF_PRINCIPLED":
+            return self._principled(source)
+        if kind == "BSDF_DIFFUSE":
+            if self._number(source, "Roughness") > 0.0:
+                self._notes.append("its diffuse roughness is left out")
+            self._note_normal(source)
+            return _Surface(self._color(source, "Color"), _matt())
+        if kind == "BSDF_GLOSSY":
+            self._note_normal(source)
+            if self._number(source, "Anisotropy") != 0.0:
+                self._notes.append("its anisotropy is left out")
+            return _Surface(
+                self._color(source, "Color"),
+                MaterialArrays("", metallic=1.0, roughness=self._number(source, "Roughness"), glossy_only=True),
+            )
+        if kind == "BSDF_METALLIC":
+            return self._metallic(source)
+        if kind == "EMISSION":
+            emission = self._emission(source, "Color", "Strength")
+            return _Surface(NodeColor((0.0, 0.0, 0.0)), replace(_matt(), emission=emission))
+        if kind == "MIX_SHADER":
+            return self._mix(source)
+        if kind == "ADD_SHADER":
+            return self._add(source)
+        return self._unsupported(source)
+
+    def _principled(self, source: Source) -> _Surface:
+        ignored = [name for name, neutral in _IGNORED.items() if not self._is_at(source, name, neutral)]
+        tint = self._colors.color(source.input("Specular Tint"))
+        if tint != NodeColor():
+            ignored.append("Specular Tint")
+        if ignored:
+            self._notes.append("not drawn: " + ", ".join(ignored))
+        self._note_normal(source)
+        rest = MaterialArrays(
+            "",
+            metallic=min(max(self._number(source, "Metallic"), 0.0), 1.0),
+            roughness=min(max(self._number(source, "Roughness"), 0.0), 1.0),
+            ior=max(self._number(source, "IOR"), 1e-5),
+            specular_level=max(self._number(source, "Specular IOR Level"), 0.0),
+            emission=self._emission(source, "Emission Color", "Emission Strength"),
         )
+        return _Surface(self._color(source, "Base Color"), rest)
 
-    def _image(self, material: bpy.types.Material, node: bpy.types.Node) -> int:
-        image = node.image
-        repeat, nearest = node.extension == "REPEAT", node.interpolation == "Closest"
-        key = (image.original.session_uid, repeat, nearest)
-        if key not in self._known_images:
-            pixels = read_image(image)
-            if pixels is None:
-                self._warn(material, f'the image "{image.name}" has no pixels, is its file missing?')
-                self._known_images[key] = -1
-            else:
-                self._known_images[key] = len(self.images)
-                self.images.append(ImageArrays(image.name, pixels, repeat, nearest))
-        return self._known_images[key]
+    def _metallic(self, source: Source) -> _Surface:
+        node = source.node
+        assert node is not None
+        self._note_normal(source)
+        color = self._color(source, "Base Color")
+        if node.fresnel_type == "PHYSICAL_CONDUCTOR":
+            ior, extinction = (np.array(self._colors.color(source.input(n)).mean()) for n in ("IOR", "Extinction"))
+            squared = extinction**2
+            r, g, b = (((ior - 1.0) ** 2 + squared) / ((ior + 1.0) ** 2 + squared)).tolist()
+            color = NodeColor((r, g, b))
+        elif self._colors.color(source.input("Edge Tint")) != NodeColor():
+            self._notes.append("its edge tint is left out")
+        return _Surface(color, MaterialArrays("", metallic=1.0, roughness=self._number(source, "Roughness")))
+
+    def _mix(self, source: Source) -> _Surface:
+        factor = min(max(self._colors.number(source.input("Fac"), "mix factor"), 0.0), 1.0)
+        first, second = source.input("Shader"), source.input("Shader_001")
+        if 0.0 < factor < 1.0 or source.input("Fac").node is not None:
+            self._notes.append("of its mixed shaders only the stronger one is drawn")
+        return self.surface(second if factor > 0.5 else first)
+
+    def _add(self, source: Source) -> _Surface:
+        surfaces = [self.surface(source.input(name)) for name in ("Shader", "Shader_001")]
+        first, second = surfaces
+        if _only_emits(first):
+            first, second = second, first
+        if not _only_emits(second):
+            self._notes.append("of its added shaders only the first one is drawn")
+            return first
+        r, g, b = np.add(first.rest.emission, second.rest.emission).tolist()
+        return replace(first, rest=replace(first.rest, emission=(r, g, b)))
+
+    def _unsupported(self, source: Source) -> _Surface:
+        node = source.node
+        assert node is not None
+        self._notes.append(f'shader "{node.name}" is drawn as the nearest plain surface')
+        inputs = {socket.identifier for socket in node.inputs}
+        color = self._color(source, "Color") if "Color" in inputs else NodeColor((0.0, 0.0, 0.0))
+        if node.type in ("BSDF_GLASS", "BSDF_REFRACTION", "BSDF_TRANSPARENT", "HOLDOUT"):
+            # Nothing of its light comes from a diffuse layer.
+            color = NodeColor((0.0, 0.0, 0.0))
+        if node.type == "BSDF_GLASS":
+            rest = MaterialArrays("", roughness=self._number(source, "Roughness"), ior=self._number(source, "IOR"))
+            return _Surface(color, rest)
+        return _Surface(color, _matt())
+
+    def _color(self, source: Source, name: str) -> NodeColor:
+        return self._colors.color(source.input(name))
+
+    def _number(self, source: Source, name: str) -> float:
+        return self._colors.number(source.input(name), name.lower())
+
+    def _emission(self, source: Source, color_name: str, strength_name: str) -> tuple[float, float, float]:
+        strength = self._number(source, strength_name)
+        if strength == 0.0:
+            return 0.0, 0.0, 0.0
+        color = self._color(source, color_name).scaled((strength, strength, strength))
+        if not color.is_constant and any(color.factor):
+            self._notes.append("its emission varies, the mean is used")
+        return color.mean()
+
+    def _is_at(self, source: Source, name: str, value: float) -> bool:
+        found = source.input(name)
+        return found.node is None and float(found.socket.default_value) == value
+
+    def _note_normal(self, source: Source) -> None:
+        node = source.node
+        assert node is not None
+        if source_of(find_input(node, "Normal"), source.groups).node is not None:
+            self._notes.append("its bumps are left out")
 
 
-def read_image(image: bpy.types.Image) -> np.ndarray | None:
-    """(height, width, 4) scene-linear float32 of an image, row 0 at the bottom; None without pixels."""
-    width, height = image.size
-    if width == 0 or height == 0 or len(image.pixels) == 0:
-        return None
-    values = np.empty((height, width, image.channels), np.float32)
-    image.pixels.foreach_get(values.ravel())
-    pixels = np.ones((height, width, 4), np.float32)
-    if image.channels == 1:
-        pixels[..., :3] = values
-    else:
-        pixels[..., : image.channels] = values
-    # Float images come scene-linear, byte images as they are stored.
-    if not image.is_float and image.colorspace_settings.name == "sRGB":
-        color = pixels[..., :3]
-        pixels[..., :3] = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
-    return pixels
+def _matt() -> MaterialArrays:
+    """A surface without gloss."""
+    return MaterialArrays("", roughness=1.0, specular_level=0.0)
 
 
-def _source(socket: bpy.types.NodeSocket) -> bpy.types.Node | None:
-    """The node behind a socket, reroutes and muted links passed over."""
-    while socket.is_linked:
-        link = socket.links[0]
-        if link.is_muted:
-            return None
-        if link.from_node.type != "REROUTE":
-            return link.from_node
-        socket = link.from_node.inputs[0]
-    return None
-
-
-def _output_name(node: bpy.types.Node, name: str) -> str:
-    links = node.inputs[name].links
-    if links and links[0].from_node.type == "MAPPING":
-        return _output_name(links[0].from_node, "Vector")
-    return links[0].from_socket.name if links else ""
-
-
-def _middle_color(node: bpy.types.Node, socket: bpy.types.NodeSocket) -> tuple[float, float, float]:
-    """Mean of the colours that a node mixes, for lack of better."""
-    colors = [
-        tuple(s.default_value)[:3] for s in node.inputs if s.type == "RGBA" and not s.is_linked and s.enabled
-    ] or [tuple(socket.default_value)[:3]]
-    mean = np.mean(np.array(colors, float), axis=0)
-    return (float(mean[0]), float(mean[1]), float(mean[2]))
+def _only_emits(surface: _Surface) -> bool:
+    return surface.color == NodeColor((0.0, 0.0, 0.0)) and surface.rest.specular_level == 0.0

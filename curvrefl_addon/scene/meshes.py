@@ -181,10 +181,9 @@ def _uv(
             location = np.array(mesh.texspace_location[:2], np.float32)
             flat = (flat - location) / np.where(size == 0.0, 1.0, 2.0 * size) + 0.5
         return np.ascontiguousarray(flat, np.float32)[corner_vertex]
-    layer = next((l for l in mesh.uv_layers if (l.name == name if name else l.active_render)), None)
+    layer = next((uv_map for uv_map in mesh.uv_layers if (uv_map.name == name if name else uv_map.active_render)), None)
     if layer is None:
-        if name:
-            missing.append(f'UV map "{name}"')
+        missing.append(f'UV map "{name}"' if name else "a UV map")
         return None
     uv = np.empty((len(corner_vertex), 2), np.float32)
     if len(uv):

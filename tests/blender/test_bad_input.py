@@ -17,7 +17,6 @@ from curvrefl.curvrefl_addon.report.images import load_exr
 from mathutils import Matrix
 
 SIZE = (32, 24)
-CAMERA_PLACE = (0.0, -6.0, 0.0)
 
 type Change = Callable[[bpy.types.Object], None]
 
@@ -44,7 +43,7 @@ def build_scene() -> bpy.types.Object:
     block = bpy.context.object
     block.name = "Block"
     camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
-    camera.location = CAMERA_PLACE
+    camera.location = (0.0, -6.0, 0.0)
     camera.rotation_euler = (np.pi / 2.0, 0.0, 0.0)
     scene.collection.objects.link(camera)
     scene.camera = camera
@@ -141,7 +140,17 @@ def with_a_nan(ball: bpy.types.Object) -> None:
 
 
 def with_an_infinity(ball: bpy.types.Object) -> None:
+    positions = np.empty(3 * len(ball.data.vertices), np.float32)
+    attribute = ball.data.attributes["position"].data
+    attribute.foreach_get("vector", positions)
+    positions[20] = np.inf
+    # (setting a single vertex clamps it to the largest number there is)
+    attribute.foreach_set("vector", positions)
+
+
+def with_a_vertex_far_out(ball: bpy.types.Object) -> None:
     ball.data.vertices[7].co.z = float("inf")
+    assert np.isfinite(ball.data.vertices[7].co.z)
 
 
 def flattened(ball: bpy.types.Object) -> None:
@@ -153,31 +162,20 @@ def shrunk_to_nothing(ball: bpy.types.Object) -> None:
 
 
 def singular(ball: bpy.types.Object) -> None:
-    ball.matrix_parent_inverse = Matrix(((1, 1, 0, 0), (1, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
     ball.parent = bpy.data.objects["Block"]
+    ball.matrix_parent_inverse = Matrix(((1, 1, 0, 0), (1, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)))
 
 
 def hidden_in_renders(ball: bpy.types.Object) -> None:
     ball.hide_render = True
 
 
-def a_spring(ball: bpy.types.Object) -> None:
-    """Not star-shaped, however the centre is chosen."""
-    bpy.context.view_layer.objects.active = ball
-    ball.data.clear_geometry()
-    t = np.linspace(0.0, 8.0 * np.pi, 200)
-    path = np.column_stack([np.cos(t), np.sin(t), 0.15 * t])
-    ring = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
-    radial = np.column_stack([np.cos(t), np.sin(t), np.zeros_like(t)])
-    tube = path[:, None] + 0.1 * (
-        np.cos(ring)[None, :, None] * radial[:, None] + np.sin(ring)[None, :, None] * np.array([0.0, 0.0, 1.0])
-    )
-    faces = [
-        (8 * i + j, 8 * i + (j + 1) % 8, 8 * (i + 1) + (j + 1) % 8, 8 * (i + 1) + j)
-        for i in range(len(t) - 1)
-        for j in range(8)
-    ]
-    ball.data.from_pydata(tube.reshape(-1, 3).tolist(), [], faces)
+def bent_to_a_horseshoe(ball: bpy.types.Object) -> None:
+    """Not star-shaped, however the centre is chosen: a long ellipsoid, bent by 270 degrees."""
+    for vertex in ball.data.vertices:
+        x, y, z = vertex.co
+        angle, radius = 0.75 * np.pi * x, 1.0 + 0.3 * z
+        vertex.co = (radius * np.sin(angle), 0.3 * y, radius * np.cos(angle))
 
 
 @pytest.mark.parametrize(
@@ -187,11 +185,12 @@ def a_spring(ball: bpy.types.Object) -> None:
         (with_loose_edges_only, "Mirror Ball"),
         (with_a_nan, "finite|not numbers|not a number"),
         (with_an_infinity, "finite|not numbers|not a number"),
+        (with_a_vertex_far_out, "too far"),
         (flattened, "scale"),
         (shrunk_to_nothing, "scale"),
         (singular, "Mirror Ball"),
         (hidden_in_renders, "render"),
-        (a_spring, "star-shaped"),
+        (bent_to_a_horseshoe, "star-shaped"),
     ],
 )
 @pytest.mark.parametrize("verb", ["render", "bake", "compare"])
@@ -225,6 +224,24 @@ def test_a_folder_that_cannot_be_made(tmp_path: Path, capfd: pytest.CaptureFixtu
         assert code == 2
         assert "which is a file" in capfd.readouterr().err
     assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.parametrize("verb", ["render", "compare", "bake", "demo"])
+def test_no_gpu_context(
+    verb: str, tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import gpu
+
+    def fail() -> None:
+        raise SystemError("no display")
+
+    monkeypatch.setattr(gpu, "init", fail)
+    output = tmp_path / "out" / "x.exr"
+    file = [] if verb == "demo" else ["x.blend", "--reflector", "Ball"]
+    code = cli.main([verb, *file, "--output", str(output if verb == "render" else output.parent)])
+    said = refused(code, output, capfd)
+    assert "OpenGL" in said
+    assert "install" in said
 
 
 def warned(code: int, capfd: pytest.CaptureFixture[str]) -> str:

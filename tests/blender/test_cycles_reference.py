@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.report import cycles_reference
-from curvrefl.curvrefl_addon.report.cycles_reference import render_peer, render_reference
+from curvrefl.curvrefl_addon.report.cycles_reference import Still, render_peer, render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.report.images import load_exr, save_exr, save_png
 from curvrefl.curvrefl_addon.report.temporary_settings import temporary_settings
@@ -212,6 +212,26 @@ def test_peers_agree_on_a_plain_floor(scene: bpy.types.Scene, peer: str, monkeyp
     assert differences(before, state_of_file()) == {}
     expected = np.array([0.5, 0.4, 0.3]) * 2.0 / np.pi
     assert still.pixels[..., :3].mean(axis=(0, 1)) == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("peer", "engine", "samples"),
+    [("eevee", "BLENDER_EEVEE", [1, 16]), ("cycles1", "CYCLES", [1, 1]), ("cycles8", "CYCLES", [8, 8])],
+)
+def test_the_second_render_is_the_one_that_counts(
+    scene: bpy.types.Scene, monkeypatch: pytest.MonkeyPatch, peer: str, engine: str, samples: list[int]
+) -> None:
+    used: list[int] = []
+
+    def record(scene: bpy.types.Scene, _view_layer: bpy.types.ViewLayer) -> Still:
+        assert scene.render.engine == engine
+        assert peer != "eevee" or scene.eevee.use_raytracing
+        used.append(scene.eevee.taa_render_samples if peer == "eevee" else scene.cycles.samples)
+        return Still(np.zeros((1, 1, 4), np.float32), float(len(used)))
+
+    monkeypatch.setattr(cycles_reference, "render_still", record)
+    assert render_peer(scene, bpy.context.view_layer, peer, WIDTH, HEIGHT).seconds == 2.0
+    assert used == samples
 
 
 def test_unknown_peer_is_named(scene: bpy.types.Scene) -> None:

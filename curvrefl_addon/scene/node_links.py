@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the value of a node's input comes from: through reroutes, muted nodes and groups."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+
+type Groups = tuple[Any, ...]
+"""Group nodes one is inside of, outermost first"""
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """The end of a chain of links."""
+
+    socket: Any
+    """An output of a node that makes the value, or an unlinked input whose `default_value` is it"""
+    groups: Groups = ()
+
+    @property
+    def node(self) -> Any | None:
+        """The node that makes the value; None for a plain value."""
+        return self.socket.node if self.socket.is_output else None
+
+    def input(self, name: str) -> Source:
+        """Source of the node's input called `name` (its name or identifier)."""
+        return source_of(find_input(self.socket.node, name), self.groups)
+
+
+def find_input(node: Any, name: str) -> Any:
+    """The input called `name`; identifiers go before names, which are not unique. Raises KeyError."""
+    for socket in node.inputs:
+        if socket.identifier == name:
+            return socket
+    return node.inputs[name]
+
+
+def source_of(socket: Any, groups: Groups = ()) -> Source:
+    """Follow the links of an input."""
+    while not socket.is_output:
+        links = [link for link in socket.links if not link.is_muted and link.is_valid]
+        if not links:
+            return Source(socket, groups)
+        socket = links[0].from_socket
+        node = socket.node
+        if node.type == "REROUTE":
+            socket = node.inputs[0]
+        elif node.mute:
+            passed = next((link.from_socket for link in node.internal_links if link.to_socket == socket), None)
+            if passed is None:
+                return Source(socket, groups)
+            socket = passed
+        elif node.type == "GROUP" and node.node_tree is not None:
+            inside = _group_output(node.node_tree)
+            if inside is None:
+                return Source(socket, groups)
+            socket, groups = find_input(inside, socket.identifier), (*groups, node)
+        elif node.type == "GROUP_INPUT" and groups:
+            socket, groups = find_input(groups[-1], socket.identifier), groups[:-1]
+    return Source(socket, groups)
+
+
+def surface_source(tree: bpy.types.NodeTree | None) -> Source | None:
+    """What is plugged into the Surface of a material's or world's output as Cycles sees it, or None."""
+    if tree is None:
+        return None
+    output: Any = tree.get_output_node("CYCLES")  # type: ignore[attr-defined]
+    if output is None:
+        return None
+    found = source_of(output.inputs["Surface"])
+    return found if found.node is not None else None
+
+
+def _group_output(tree: Any) -> Any | None:
+    outputs = [node for node in tree.nodes if node.type == "GROUP_OUTPUT"]
+    return next((node for node in outputs if node.is_active_output), outputs[0] if outputs else None)

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Points on lamps, shadow views and the GGX table, against what geometry and integrals say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.renderer.lighting_ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
+from curvrefl.curvrefl_addon.renderer.lighting_lamps import lamp_points, lamp_records
+from curvrefl.curvrefl_addon.renderer.lighting_shadow_views import SceneExtent
+from curvrefl.curvrefl_addon.scene.arrays import LightArrays
+
+
+def lamp(kind: str, **more: object) -> LightArrays:
+    matrix = np.eye(4)
+    matrix[:3, 3] = (1.0, 2.0, 3.0)
+    return LightArrays("lamp", kind, (1.0, 1.0, 1.0), matrix, **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "light",
+    [
+        lamp("POINT", radius=0.5),
+        lamp("SPOT", radius=0.5, spot_angle=1.0),
+        lamp("AREA", size=(2.0, 1.0)),
+        lamp("AREA", size=(2.0, 1.0), ellipse=True),
+    ],
+)
+def test_points_lie_in_the_lamp_about_its_middle(light: LightArrays) -> None:
+    points = lamp_points(light, 16, seed=3)
+    offsets = points[:, :3] - light.matrix[:3, 3]
+    assert np.all(points[:, 3] == 1.0)
+    assert np.allclose(offsets.mean(axis=0), 0.0, atol=1e-12)
+    if light.kind == "AREA":
+        scaled = offsets[:, :2] / (0.5 * np.array(light.size))
+        assert np.all(offsets[:, 2] == 0.0)
+        assert np.all((np.linalg.norm(scaled, axis=1) if light.ellipse else np.abs(scaled).max(axis=1)) <= 1.0)
+        assert len({tuple(cell) for cell in np.floor(2 * scaled).astype(int)}) >= 12  # spread out
+    else:
+        assert np.linalg.norm(offsets, axis=1).max() <= light.radius
+
+
+def test_ball_looks_like_an_even_disk_from_every_side() -> None:
+    """Half of the disk's area lies beyond 1/sqrt(2) of its radius."""
+    points = lamp_points(lamp("POINT", radius=1.0), 4096, seed=0)[:, :3] - (1.0, 2.0, 3.0)
+    for axis in ((1, 0, 0), (0, 0, 1), (0.6, 0.0, 0.8)):
+        across = np.linalg.norm(np.cross(points, axis), axis=1)
+        assert abs((across < np.sqrt(0.5)).mean() - 0.5) < 0.03
+
+
+def test_hard_lamps_have_one_point() -> None:
+    assert lamp_points(lamp("POINT"), 16, 0).shape == (1, 4)
+    assert np.allclose(lamp_points(lamp("SUN"), 16, 0), [[0, 0, 1, 0]])
+    assert np.allclose(lamp_points(lamp("AREA", size=(1, 1)), 1, 0), [[1, 2, 3, 1]])
+
+
+def test_sun_points_are_directions_within_its_disk() -> None:
+    points = lamp_points(lamp("SUN", angle=0.2), 16, 0)
+    assert np.all(points[:, 3] == 0.0)
+    assert np.allclose(np.linalg.norm(points[:, :3], axis=1), 1.0)
+    assert points[:, 2].min() >= np.cos(0.1) - 1e-9
+
+
+def test_lamp_bodies_carry_the_power() -> None:
+    """Radiance of the body times its area and pi, or the ball's four pi, is the lamp's power."""
+    area = lamp_records(lamp("AREA", size=(2.0, 0.5)), np.zeros(4), 1)
+    assert np.isclose(area[6, 0] * np.pi * 1.0, 1.0)
+    ball = lamp_records(lamp("POINT", radius=0.5), np.zeros(4), 1)
+    assert np.isclose(ball[6, 0] * np.pi * 0.25 * 4 * np.pi, 1.0)
+
+
+def floor_and_box() -> tuple[np.ndarray, np.ndarray]:
+    """A floor of 40 m at z = 0 and a box of 1 m that stands 1 m above it."""
+    floor = np.array([[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], float)
+    box = np.array([[x, y, z] for z in (1, 2) for y in (0, 1) for x in (0, 1)], float)
+    quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return np.concatenate([floor, box]), np.concatenate([[[0, 1, 2], [0, 2, 3]], faces + 4]).astype(np.int32)
+
+
+def test_floor_does_not_widen_the_map_of_a_sun_above_or_below() -> None:
+    positions, triangles = floor_and_box()
+    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
+    assert any(set(plane.triangles) == {0, 1} for plane in extent.hull)
+    for height in (1.0, -1.0):
+        direction = np.array([0.6, 0.0, 0.8 * height])
+        view = extent.parallel_view(direction, 512)
+        assert view is not None
+        box = np.column_stack([positions[4:], np.ones(8)]) @ view.world_to_clip.T
+        assert np.abs(box[:, :2]).max() <= 1.0
+        assert np.abs(box[:, :2]).max() > 0.98
+        drawn_floor = extent.in_planes(view.idle_planes)[:2]
+        assert np.all(drawn_floor == (height > 0.0))
+        clip = np.column_stack([positions, np.ones(len(positions))]) @ view.world_to_clip.T
+        assert np.abs(clip[4:, 2]).max() <= 1.0
+
+
+def test_nothing_to_cast_needs_no_map() -> None:
+    positions, triangles = floor_and_box()
+    extent = SceneExtent(positions, triangles[:2], np.ones(2, bool))
+    assert extent.parallel_view(np.array([0.0, 0.0, 1.0]), 256) is None
+    assert extent.point_views(np.array([0.0, 0.0, 1.0]), 256) == ()
+    empty = SceneExtent(np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0, bool))
+    assert empty.parallel_view(np.array([0.0, 0.0, 1.0]), 256) is None
+
+
+def test_far_lamp_gets_one_map_and_a_lamp_among_the_casters_a_cube() -> None:
+    positions, triangles = floor_and_box()
+    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
+    (view,) = extent.point_views(np.array([0.5, 0.5, 6.0]), 512)
+    assert view is not None
+    clip = np.column_stack([positions[4:], np.ones(8)]) @ view.world_to_clip.T
+    assert np.abs(clip[:, :3] / clip[:, 3:]).max() <= 1.0
+    around = extent.point_views(np.array([0.5, 0.5, 1.5]), 512)
+    assert len(around) == 6
+    assert all(face is not None for face in around)
+
+
+def test_depth_terms_are_the_projections() -> None:
+    positions, triangles = floor_and_box()
+    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
+    place = np.array([0.5, 0.5, 1.5])
+    view = extent.point_views(place, 512)[0]  # +X
+    assert view is not None
+    clip = view.world_to_clip @ np.append(place + (2.0, 0.3, -0.4), 1.0)
+    depth = 0.5 + 0.5 * clip[2] / clip[3]
+    assert np.isclose(view.depth_terms[0] + view.depth_terms[1] / 2.0, depth)
+
+
+def test_ggx_table_at_its_known_ends() -> None:
+    table = ggx_table().reshape(TABLE_SIZE, IOR_SLICES, TABLE_SIZE, 4)
+    assert np.allclose(table[0, 0, 1:, 0], 1.0, atol=2e-3)  # a mirror loses nothing
+    assert np.all(np.diff(table[:, 0, -1, 0]) < 1e-3)  # a rougher lobe loses more
+    assert abs(float(table[-1, 0, -1, 0]) - 0.6) < 0.02  # roughness 1, head on: about 0.6 remains
+    cosine = np.linspace(0.0, 1.0, TABLE_SIZE)
+    z = 6 / (IOR_SLICES - 1)
+    ior = (1 + z * z) / (1 - z * z)
+    f0 = ((ior - 1) / (ior + 1)) ** 2
+    share = (fresnel_dielectric(cosine, ior) - f0) / (1 - f0)
+    assert np.allclose(table[0, 6, 2:, 2], share[2:], atol=5e-3)
+    assert np.allclose(table[:, 5, :, 3], table[:, 6, :, 2])
