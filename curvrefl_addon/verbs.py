@@ -26,9 +26,11 @@ from .output import checked_file, checked_folder, folder_to_publish
 if TYPE_CHECKING:
     import bpy
 
+    from .report.compare import Comparison
     from .scene.arrays import SceneArrays
     from .scene.view import View
 
+STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent
 LAYERS = ("unit", "blender", "gui")
 PASSES = ("color", "position", "object", "iterations")
@@ -52,7 +54,7 @@ def render(options: argparse.Namespace) -> int:
     reflectors = _names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
     _start_gpu()
-    scene = _open_scene(options)
+    scene = _open_scene(options.file, options.frame)
     view = _view(options, scene)
     arrays = _read_scene(scene, reflectors)
 
@@ -94,26 +96,13 @@ def compare(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     _start_gpu()
 
-    import bpy
-
-    from .report.compare import Comparison, compare_open_scene
-    from .report.table import format_table
+    from .report.compare import Comparison
 
     comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
-    scene = _open_scene(options)
+    scene = _open_scene(options.file, options.frame)
     width, height = _resolution(options, scene)
-    report = compare_open_scene(
-        scene,
-        bpy.context.view_layer,
-        reflectors,
-        replace(comparison, width=width, height=height),
-        output,
-        scene_name=Path(options.file).name,
-        camera=options.camera,
-        progress=progress,
-    )
-    print(format_table(report))
-    print(f"Report: {output / 'report.html'}")
+    comparison = replace(comparison, width=width, height=height)
+    _compare_and_print(scene, reflectors, comparison, output, options.camera)
     return 0
 
 
@@ -124,7 +113,7 @@ def bake(options: argparse.Namespace) -> int:
         raise InputError("Name one reflector: the maps of each go to a folder of its own.")
     output = checked_folder(options.output)
     _start_gpu()
-    scene = _open_scene(options)
+    scene = _open_scene(options.file, options.frame)
     arrays = _read_scene(scene, reflectors)
 
     from .renderer.reflector_bake import bake_reflector
@@ -153,20 +142,35 @@ def demo(options: argparse.Namespace) -> int:
     _start_gpu()
 
     from .demo.scene import KETTLE, build_demo
-    from .report.compare import DEFAULT_METHODS, compare_blend
-    from .report.cycles_reference import PEERS
-    from .report.table import format_table
+    from .report.compare import Comparison
 
     progress("Building the demo scene")
-    with folder_to_publish(output) as folder:
-        build_demo(folder / "demo.blend")
-    report = compare_blend(
-        output / "demo.blend", [KETTLE], DEFAULT_METHODS, 640, 480, 256, "direct", PEERS, output, progress=progress
-    )
-    print(format_table(report))
-    print(f"Scene: {output / 'demo.blend'}")
-    print(f"Report: {output / 'report.html'}")
+    file = output / "demo.blend"
+    with folder_to_publish(output) as folder, _dropped(STDOUT):
+        build_demo(folder / file.name)
+    _compare_and_print(_open_scene(file), [KETTLE], Comparison(), output)
+    print(f"Scene: {file}")
     return 0
+
+
+def _compare_and_print(
+    scene: bpy.types.Scene,
+    reflectors: Sequence[str],
+    comparison: Comparison,
+    output: Path,
+    camera: str | None = None,
+) -> None:
+    """Compare the open scene, write the report into `output`, print its table."""
+    import bpy
+
+    from .report.compare import compare_open_scene
+    from .report.table import format_table
+
+    view_layer = bpy.context.view_layer
+    assert view_layer is not None, "an open scene has a view layer"
+    report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+    print(format_table(report))
+    print(f"Report: {output / 'report.html'}")
 
 
 def test(options: argparse.Namespace) -> int:
@@ -185,17 +189,18 @@ def build(options: argparse.Namespace) -> int:
     return 0
 
 
-def _open_scene(options: argparse.Namespace) -> bpy.types.Scene:
-    """Open the file and go to the chosen frame."""
+def _open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
+    """Open the file and go to a frame of it; returns the file's active scene."""
     import bpy
 
     from .scene.blend_file import open_blend
 
-    open_blend(options.file)
+    with _dropped(STDOUT):
+        open_blend(file)
     scene = bpy.context.scene
     assert scene is not None, "an open file has a scene"
-    if options.frame is not None:
-        scene.frame_set(options.frame)
+    if frame is not None:
+        scene.frame_set(frame)
     return scene
 
 
@@ -245,17 +250,19 @@ def _warn(warnings: Sequence[str]) -> None:
 
 
 @contextlib.contextmanager
-def _standard_error_dropped() -> Iterator[None]:
-    """What C libraries write to file descriptor 2 meanwhile goes nowhere."""
-    sys.stderr.flush()
-    kept = os.dup(2)
+def _dropped(descriptor: int) -> Iterator[None]:
+    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere."""
+    stream = sys.stdout if descriptor == STDOUT else sys.stderr
+    stream.flush()
+    kept = os.dup(descriptor)
     try:
         nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 2)
+        os.dup2(nowhere, descriptor)
         os.close(nowhere)
         yield
     finally:
-        os.dup2(kept, 2)
+        stream.flush()
+        os.dup2(kept, descriptor)
         os.close(kept)
 
 
@@ -267,7 +274,7 @@ def _start_gpu() -> None:
 
     try:
         # EGL tries configurations that do not match and says so, at length, though all is well.
-        with _standard_error_dropped():
+        with _dropped(STDERR):
             require_gpu()
     except GpuUnavailableError as error:
         message = str(error).rstrip(".")

@@ -59,7 +59,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
   int count = int(lighting_data[0].x);
-  for (int i = 0; i < count; i++) {
+  int i = 0;
+  do {
     int base = HEADER_RECORDS + i * LAMP_RECORDS;
     vec4 place = lighting_data[base];
     int kind = int(place.w);
@@ -100,7 +101,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       }
       sum += scattered * irradiance;
     }
-  }
+    i++;
+  } while (i < count);
   return sum;
 }
 
@@ -110,13 +112,11 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
 {
   vec4 sum = vec4(0.0);
   int count = int(lighting_data[0].x);
-  for (int i = 0; i < count; i++) {
+  int i = 0;
+  do {
     int base = HEADER_RECORDS + i * LAMP_RECORDS;
     int kind = int(lighting_data[base].w);
     vec3 radiance = lighting_data[base + 6].rgb;
-    if (lighting_data[base + 5].w < 0.5 || radiance.r + radiance.g + radiance.b <= 0.0) {
-      continue;
-    }
     vec3 shines = lighting_data[base + 3].xyz;
     bool hit = false;
     if (kind == LAMP_SUN) {
@@ -149,9 +149,10 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
         }
       }
     }
-    if (hit) {
+    if (hit && lighting_data[base + 5].w > 0.5 && radiance.r + radiance.g + radiance.b > 0.0) {
       sum += vec4(radiance, 1.0);
     }
-  }
+    i++;
+  } while (i < count);
   return vec4(sum.rgb, min(sum.a, 1.0));
 }

@@ -67,7 +67,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     vec3 lost = vec3(0.0);
     int count = int(lighting_data[0].y);
     vec4 p = vec4(s.position, 1.0);
-    for (int i = 0; i < count; i++) {
+    int i = 0;
+    do {
       int record = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + DIRECTION_RECORDS * i;
       vec4 light = lighting_data[record];
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
@@ -75,7 +76,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
                          dot(lighting_data[record + 3], p),
                          dot(lighting_data[record + 4], p) - 2e-6);
       lost += lighting_data[record + 1].rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
-    }
+      i++;
+    } while (i < count);
     vec3 seen = irradiance - world_map(place, 1) * lost;
     sum = lobes.diffuse * seen / LIGHTING_PI;
     if (max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {

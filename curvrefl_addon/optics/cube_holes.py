@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .cube_map import directions_at, nearest_texel, texel_directions
 from .radial_surfaces import Float64Array, tangential
 
-MAX_RIM = 1024
+MAX_RIM = 512
 """Of a longer rim, an even spread of about so many texels is used."""
 _CHUNK = 4096
 
@@ -33,11 +33,12 @@ def fill_holes(radial: Float64Array, hit: NDArray[np.bool_]) -> Float64Array:
         u = directions[chunk]
         # |u - v|^2 = 2 - 2 u . v; a hundredth of a texel keeps it from 0.
         squared = 2.0 - 2.0 * u @ rim_directions.T + (0.02 / resolution) ** 2
-        weights = squared**-2.0
+        inverse = 1.0 / squared
+        weights = inverse * inverse
         total = weights.sum(axis=1, keepdims=True)
         r = weights @ rim_radii[:, None] / total
         # d weight / d u = 4 v / squared^3
-        slopes = (4.0 * weights / squared) * (rim_radii - r)
+        slopes = (4.0 * weights * inverse) * (rim_radii - r)
         filled[chunk] = np.column_stack([r, tangential(slopes @ rim_directions / total, u)])
     return filled
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .radial_surfaces import Float64Array, unit
+from .radial_surfaces import Float64Array
 
 MAX_TRIANGLES = 40_000
 """Of larger meshes an evenly spread subset of about so many triangles is looked at to choose the centre."""
@@ -34,29 +34,35 @@ class StarCenter:
 
 
 def find_star_center(corners: Float64Array, origin: Float64Array) -> StarCenter:
-    """Best centre for triangles (n, 3, 3), counter-clockwise seen from outside; `origin` (3,) is the first candidate.
+    """Best centre for triangles (n, 3, 3) that are wound alike; `origin` (3,) is the first candidate.
 
     Triangles without area do not matter. Everything is relative to the mesh's size.
     """
-    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    centroids = _centroids(corners)
+    # Column by column: reducing many short rows is many times slower.
+    low = np.array([corners[..., axis].min() for axis in range(3)])
+    high = np.array([corners[..., axis].max() for axis in range(3)])
     size = float(np.linalg.norm(high - low))
-    signed_volumes = np.einsum("ij,ij->i", corners[:, 0] - low, np.cross(corners[:, 1] - low, corners[:, 2] - low))
-    doubled_areas = np.linalg.norm(_normals(corners), axis=1)
-    centroids = corners.mean(axis=1)
+    normals = _normals(corners)
+    doubled_areas = _lengths(normals)
+    # Six times the volumes between the triangles and `low`.
+    signed_volumes = np.einsum("ij,ij->i", normals, corners[:, 0] - low)
     candidates = [
         ("origin", origin),
         ("bounds centre", 0.5 * (low + high)),
-        ("vertex mean", centroids.mean(axis=0)),
+        ("triangle mean", np.array([centroids[:, axis].mean() for axis in range(3)])),
     ]
     total_area = float(doubled_areas.sum())
     if total_area > 0.0:
         candidates.append(("area centroid", doubled_areas @ centroids / total_area))
     volume = signed_volumes.sum()
     # A flat or open mesh has a volume near 0 and then a centroid anywhere.
-    if abs(volume) > 1e-3 * size**3:
+    if abs(volume) > 6e-3 * size**3:
         centroid = low + signed_volumes @ (0.75 * (centroids - low)) / volume
         candidates.append(("volume centroid", centroid))
 
+    if volume < 0.0:
+        corners = corners[:, ::-1]
     stride = -(-len(corners) // MAX_TRIANGLES)
     planes = _Planes(corners[::stride], size, total_area)
     tried = [planes.judge(name, np.asarray(position, np.float64)) for name, position in candidates]
@@ -71,7 +77,16 @@ def _rank(center: StarCenter) -> tuple[int, float]:
 
 
 def _normals(corners: Float64Array) -> Float64Array:
+    """Normals (n, 3) of triangles, as long as twice their areas."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def _centroids(corners: Float64Array) -> Float64Array:
+    return (corners[:, 0] + corners[:, 1] + corners[:, 2]) / 3.0
+
+
+def _lengths(vectors: Float64Array) -> Float64Array:
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
 class _Planes:
@@ -79,10 +94,11 @@ class _Planes:
 
     def __init__(self, corners: Float64Array, size: float, total_area: float) -> None:
         normals = _normals(corners)
-        doubled_areas = np.linalg.norm(normals, axis=1)
+        doubled_areas = _lengths(normals)
         # Slivers have normals of rounding noise.
         kept = doubled_areas > 1e-9 * size**2 / max(len(corners), 1)
         self.corners = corners[kept]
+        self.centroids = _centroids(self.corners)
         self.size = size
         self.share = float(doubled_areas.sum() / total_area) if total_area > 0.0 else 1.0
         self.normals = normals[kept] / doubled_areas[kept, None]
@@ -91,8 +107,9 @@ class _Planes:
     def judge(self, name: str, center: Float64Array) -> StarCenter:
         angles = solid_angles(self.corners - center)
         seen = float(angles[angles > 0.0].sum()) / (4.0 * np.pi * self.share)
-        to_triangles = unit(self.corners.mean(axis=1) - center)
-        cosines = np.einsum("ij,ij->i", self.normals, to_triangles)
+        to_triangles = self.centroids - center
+        heights = np.einsum("ij,ij->i", self.normals, to_triangles)
+        cosines = heights / np.maximum(_lengths(to_triangles), 1e-30 * self.size)
         return StarCenter(name, center, abs(seen - 1.0), float(cosines.min(initial=1.0)))
 
     def towards_kernel(self, start: Float64Array, steps: int = 200) -> Float64Array:
@@ -124,7 +141,7 @@ def solid_angles(corners: Float64Array) -> Float64Array:
     A. van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Trans. Biomedical Engineering 30, 1983.
     """
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
+    la, lb, lc = _lengths(a), _lengths(b), _lengths(c)
     volume = np.einsum("ij,ij->i", a, np.cross(b, c))
     denominator = (
         la * lb * lc

@@ -22,9 +22,7 @@ NEAR = 1e-5
 class CubeRaster:
     """A mesh on the GPU, ready to be drawn through the faces of cubes about the origin."""
 
-    def __init__(
-        self, positions: Float32Array, normals: Float32Array, triangles: Int32Array, resolution: int
-    ) -> None:
+    def __init__(self, positions: Float32Array, normals: Float32Array, triangles: Int32Array, resolution: int) -> None:
         """Corners at `positions` (n, 3) with `normals` (n, 3), `triangles` (m, 3) that index them, counter-clockwise
         seen from outside, for faces of `resolution` x `resolution` texels. At least one triangle.
         """

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...gpu_shaders.loader import load
 from ..scene.arrays import Float32Array
+from .gpu_probe import headless_gpu_fails
 
 TEXTURE_WIDTH = 2048
 """Width of the 2D textures that hold per-vertex records (there are no storage buffers)."""
@@ -37,13 +38,23 @@ def require_gpu() -> None:
 
     if not bpy.app.background:
         return
-    try:
-        gpu.init()
-    except SystemError as error:
+    reason = _why_no_headless_gpu()
+    if not reason:
+        try:
+            gpu.init()
+        except SystemError as error:
+            reason = str(error)
+    if reason:
         raise GpuUnavailableError(
-            f"no OpenGL context could be made ({error}): install a GPU driver with EGL or Mesa's software renderer "
-            "(Debian: libegl1 libgl1-mesa-dri)"
-        ) from error
+            f"no OpenGL 4.3 context could be made ({reason}): install a GPU driver with EGL or Mesa's software "
+            "renderer (Debian: libgl1 libegl1 libgl1-mesa-dri)"
+        )
+
+
+@cache
+def _why_no_headless_gpu() -> str:
+    """Asked once: later the context is there, or will not come."""
+    return headless_gpu_fails()
 
 
 def buffer_of(array: np.ndarray) -> Any:

@@ -19,7 +19,7 @@ from .geometry import WorldGeometry
 from .gpu_objects import buffer_of, texture_2d, uniform_block
 from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
-from .lighting_shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .lighting_shadow_maps import BORDER, MANY_TRIANGLES, ShadowCasters, ShadowMaps, window_rows
 from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 from .lighting_world import world_light
 
@@ -30,9 +30,10 @@ MAX_DIRECTIONS = 32
 DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
 """vec4 records of the uniform block; as in lighting.glsl"""
 SAMPLER_COUNT = 5
-MAX_LAMP_SAMPLES = 16
-WORLD_DIRECTIONS = 128
-"""World directions of a whole picture"""
+LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
+"""Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
+WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 32
+"""World directions of a whole picture, and in scenes of more than MANY_TRIANGLES"""
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 LAMP_MAP_BYTES = 80 << 20
@@ -54,7 +55,9 @@ class Lighting:
         self._extent = SceneExtent(geometry.positions, triangles, casts)
         self._casters = ShadowCasters(geometry.positions, self._extent)
         self._lights = self._chosen_lights(scene.lights)
-        self._samples = min(self.sub_frames, MAX_LAMP_SAMPLES)
+        many = len(triangles) > MANY_TRIANGLES
+        self._samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if many else LAMP_SAMPLES)
+        self._most_directions = WORLD_DIRECTIONS_OF_MANY if many else WORLD_DIRECTIONS
         self._plan_lamps()
         self._plan_world(scene)
         self._ggx = texture_2d(ggx_table(), linear=True)
@@ -148,7 +151,7 @@ class Lighting:
         """Choose the world's directions and their shadow views; fill its textures."""
         world = self._world = scene.world
         lit = max(world.color) > 0.0
-        self._directions_at_once = min(-(-WORLD_DIRECTIONS // self.sub_frames), MAX_DIRECTIONS) if lit else 0
+        self._directions_at_once = min(-(-self._most_directions // self.sub_frames), MAX_DIRECTIONS) if lit else 0
         self._world_light = light = world_light(world, max(self._directions_at_once * self.sub_frames, 1))
         views: list[ShadowView] = []
         self._world_layers = np.full(len(light.directions), -1)

@@ -45,16 +45,18 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
     if count == 1 or not is_soft(light):
         middle = back if light.kind == "SUN" else centre
         return np.tile(np.append(middle, weight), (1, 1))
-    u, v = _square_points((count + 1) // 2, seed)
-    if light.kind == "AREA":
-        across = _disk(u, v) if light.ellipse else np.column_stack([2.0 * u - 1.0, 2.0 * v - 1.0])
-        offsets = 0.5 * across * light.size @ np.stack([x, y])
+    # half of the points; the rest lie opposite
+    half = (count + 1) // 2
+    u, v = (np.arange(half) + 0.5) / half, _half_sequence(half, seed)
+    if light.kind == "AREA" and not light.ellipse:
+        offsets = 0.5 * np.column_stack([u - 1.0, 2.0 * v - 1.0]) * light.size @ np.stack([x, y])
+    elif light.kind == "AREA":
+        offsets = 0.5 * _half_disk(u, v) * light.size @ np.stack([x, y])
     elif light.kind == "SUN":
-        offsets = np.tan(0.5 * min(light.angle, 3.1)) * _disk(u, v) @ np.stack([x, y])
+        offsets = np.tan(0.5 * min(light.angle, 3.1)) * _half_disk(u, v) @ np.stack([x, y])
         centre = back
     else:
-        offsets = light.radius * _ball(u, v)
-    # in opposite pairs, so that their middle is the lamp's
+        offsets = light.radius * _half_ball(u, v)
     offsets = np.stack([offsets, -offsets], axis=1).reshape(-1, 3)[:count]
     places = centre + offsets
     if light.kind == "SUN":
@@ -108,30 +110,28 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     return records
 
 
-def _square_points(count: int, seed: int) -> tuple[Float64Array, Float64Array]:
-    """Hammersley points in the unit square, shifted by a step that depends on `seed`."""
-    index = np.arange(count)
-    shift = np.array([0.7548776662, 0.5698402910]) * seed
-    bits = np.zeros(count)
-    weight, rest = 0.5, index.copy()
+def _half_sequence(count: int, seed: int) -> Float64Array:
+    """(count,) van der Corput's sequence, shifted by `seed`; off 0 so that 1 minus it interleaves."""
+    sequence = np.zeros(count)
+    weight, rest = 0.5, np.arange(count)
     while np.any(rest > 0):
-        bits += weight * (rest & 1)
+        sequence += weight * (rest & 1)
         rest >>= 1
         weight *= 0.5
-    return ((index + 0.5) / count + shift[0]) % 1.0, (bits + 0.5 / count + shift[1]) % 1.0
+    return (sequence + 0.25 / count + 0.5698402910 * seed) % 1.0
 
 
-def _disk(u: Float64Array, v: Float64Array) -> Float64Array:
-    """(n, 2) points of the unit disk."""
-    radius, turn = np.sqrt(u), 2.0 * np.pi * v
+def _half_disk(u: Float64Array, v: Float64Array) -> Float64Array:
+    """(n, 2) points of one half of the unit disk."""
+    radius, turn = np.sqrt(u), np.pi * v
     return np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
 
 
-def _ball(u: Float64Array, v: Float64Array) -> Float64Array:
-    """(n, 3) points of the unit ball with density 1 / sqrt(1 - r^2): its shadow along any axis is an even disk."""
+def _half_ball(u: Float64Array, v: Float64Array) -> Float64Array:
+    """(n, 3) points of one half of the unit ball, density 1 / sqrt(1 - r^2): along any axis an even disk."""
     radii = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, 257))
     share = (np.arcsin(radii) - radii * np.sqrt(1.0 - radii**2)) * 2.0 / np.pi
-    height, turn = 1.0 - 2.0 * u, 2.0 * np.pi * v
+    height, turn = 1.0 - 2.0 * u, np.pi * v
     sine = np.sqrt(np.maximum(1.0 - height**2, 0.0))
     # the radii, one from each of as many equal shares, in an order unlike that of the directions
     count = len(u)

@@ -20,6 +20,8 @@ SLOPE_LIMIT_TEXELS = 20.0
 """Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
 
 
+MANY_TRIANGLES = 300_000
+"""More than these are drawn into every map rather than sorted for each"""
 BORDER = 1
 """Texels round a map that stay empty: they stand for all that lies outside of it"""
 
@@ -39,6 +41,8 @@ class ShadowCasters:
 
     def batch(self, idle_planes: frozenset[int]) -> Any:
         """GPUBatch of the casting triangles outside these planes of the hull, None when there are none."""
+        if len(self._extent.triangles) > MANY_TRIANGLES:
+            idle_planes = frozenset()
         if idle_planes not in self._batches:
             chosen = self._extent.triangles[self._extent.casts & ~self._extent.in_planes(idle_planes)]
             made = None
@@ -53,7 +57,7 @@ class ShadowMaps:
     """Square depth maps of `resolution`, one layer per view."""
 
     def __init__(self, casters: ShadowCasters, resolution: int, views: list[ShadowView], bias_texels: float) -> None:
-        """`bias_texels`: how far from a texel's middle it is looked up, 1 for bilinear comparison, 0.5 for the nearest."""
+        """`bias_texels`: how far from its middle a texel counts: 1 in bilinear comparison, 0.5 for the nearest."""
         self.casters = casters
         self.resolution = resolution
         self.views = views

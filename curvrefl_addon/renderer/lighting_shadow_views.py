@@ -19,6 +19,11 @@ HULL_PLANES = 16
 """How many of the largest planes are tested for lying on the hull"""
 WIDEST_TANGENT = 2.5
 """A lamp whose receivers and casters lie within this slope of one axis gets one map instead of the six of a cube"""
+LARGEST_TRIANGLES = 50_000
+"""How many triangles, the largest ones, are searched for such planes"""
+OUTLINE_DIRECTIONS = 128
+OUTLINE_SLACK = 1.01
+"""Grows an outline of many positions, which may lie inside of the true one by half the directions' spacing squared"""
 MARGIN_TEXELS = 2.0
 """Free border of a fitted map"""
 
@@ -50,30 +55,50 @@ class HullPlane:
 class SceneExtent:
     """What casts and what receives, seen from any light."""
 
-    def __init__(self, positions: Float64Array, triangles: Int32Array, casts: np.ndarray) -> None:
+    def __init__(self, positions: np.ndarray, triangles: Int32Array, casts: np.ndarray) -> None:
         """`positions` (n, 3), `triangles` (t, 3) into them, `casts` (t,) bool."""
         self.positions = np.asarray(positions, np.float64)
         self.triangles = triangles
         self.casts = casts
         self.size = float(np.linalg.norm(np.ptp(self.positions, axis=0))) if len(positions) else 0.0
         self.hull = _hull_planes(self.positions, triangles, self.size)
-        self._splits: dict[frozenset[int], tuple[Float64Array, ...]] = {}
+        free = ~self.in_planes(frozenset(range(len(self.hull))))
+        groups: list[np.ndarray] = [np.flatnonzero(free), *(plane.triangles for plane in self.hull)]
+        # outlines of what casts and of everything: first of what lies in no plane of the hull, then per plane
+        self._outlines = [(self._outline(group[casts[group]]), self._outline(group)) for group in groups]
 
     def split_by(self, light: Float64Array) -> tuple[frozenset[int], Float64Array, Float64Array]:
-        """For a light (homogeneous place, w = 0: direction to it) the planes that cast on nothing, and positions
+        """For a light (homogeneous place, w = 0: direction to it) the planes that cast on nothing, and outlines
         (n, 3) of the triangles that may cast and of those that may receive."""
         idle = frozenset(
             index
             for index, plane in enumerate(self.hull)
             if float(plane.normal @ light[:3]) - plane.offset * float(light[3]) > 0.0
         )
-        if idle not in self._splits:
-            may_cast = self.casts & ~self.in_planes(idle)
-            may_receive = ~self.in_planes(frozenset(range(len(self.hull))) - idle)
-            self._splits[idle] = tuple(
-                self.positions[_used(self.triangles[chosen], len(self.positions))] for chosen in (may_cast, may_receive)
-            )
-        return idle, *self._splits[idle]
+        casters, receivers = [self._outlines[0][0]], [self._outlines[0][1]]
+        for index in range(len(self.hull)):
+            if index in idle:
+                receivers.append(self._outlines[1 + index][1])
+            else:
+                casters.append(self._outlines[1 + index][0])
+        return idle, np.concatenate(casters), np.concatenate(receivers)
+
+    def _outline(self, chosen: np.ndarray) -> Float64Array:
+        """(n, 3) positions of the chosen triangles; of many those farthest out in OUTLINE_DIRECTIONS directions."""
+        used = np.zeros(len(self.positions), bool)
+        used[self.triangles[chosen].ravel()] = True
+        points = self.positions[used]
+        if len(points) <= 4 * OUTLINE_DIRECTIONS:
+            return points
+        index = np.arange(OUTLINE_DIRECTIONS) + 0.5
+        height = 1.0 - 2.0 * index / OUTLINE_DIRECTIONS
+        turn = np.pi * (1.0 + np.sqrt(5.0)) * index
+        flat = np.sqrt(1.0 - height**2)
+        directions = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height]).astype(np.float32)
+        small = points.astype(np.float32)
+        farthest = {int(np.argmax(small @ direction)) for direction in directions}
+        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+        return middle + (points[sorted(farthest)] - middle) * OUTLINE_SLACK
 
     def in_planes(self, planes: frozenset[int]) -> np.ndarray:
         """(triangles,) bool: lies in one of these planes of the hull."""
@@ -170,9 +195,7 @@ def _slopes(points: Float64Array) -> tuple[Float64Array, Float64Array] | None:
     return slopes.min(axis=0), slopes.max(axis=0)
 
 
-def _widened(
-    low: Float64Array, high: Float64Array, resolution: int, least: float
-) -> tuple[Float64Array, Float64Array]:
+def _widened(low: Float64Array, high: Float64Array, resolution: int, least: float) -> tuple[Float64Array, Float64Array]:
     """The rectangle with a border of MARGIN_TEXELS, at least `least` wide."""
     middle, half = 0.5 * (low + high), np.maximum(0.5 * (high - low), 0.5 * least)
     half = half * resolution / (resolution - 2.0 * MARGIN_TEXELS)
@@ -215,13 +238,6 @@ def _meets_pyramid(triangles: Float64Array, axes: Float64Array) -> bool:
     return bool(np.any(~outside))
 
 
-def _used(triangles: Int32Array, count: int) -> Int32Array:
-    """Indices that occur in `triangles`."""
-    mask = np.zeros(count, bool)
-    mask[triangles.ravel()] = True
-    return np.flatnonzero(mask).astype(np.int32)
-
-
 def _hull_planes(positions: Float64Array, triangles: Int32Array, size: float) -> tuple[HullPlane, ...]:
     """The largest planes that have the whole scene on one side."""
     if len(triangles) == 0 or size == 0.0:
@@ -229,6 +245,9 @@ def _hull_planes(positions: Float64Array, triangles: Int32Array, size: float) ->
     a, b, c = (positions[triangles[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     doubled_area = np.linalg.norm(normals, axis=1)
+    if len(triangles) > LARGEST_TRIANGLES:
+        largest = np.argpartition(doubled_area, -LARGEST_TRIANGLES)[-LARGEST_TRIANGLES:]
+        a, normals, doubled_area = a[largest], normals[largest], doubled_area[largest]
     normals /= np.maximum(doubled_area, 1e-300)[:, None]
     # both sides of a triangle are one plane
     lead = np.argmax(np.abs(normals) > 0.5, axis=1)

@@ -57,7 +57,9 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
         lobes = [np.tile(np.asarray(world.color, np.float64), (len(normals), 1))] * len(ROUGHNESS_LEVELS)
     else:
         irradiance = np.maximum(normals @ coarse.directions.T.astype(np.float32), 0.0) @ coarse.power
-        lobes = [_lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS]
+        lobes = [
+            _lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS
+        ]
     by_draws = np.maximum(normals @ directions[draws].T.astype(np.float32), 0.0) @ weights
     ratio = np.ones_like(by_draws)
     np.divide(irradiance, by_draws, out=ratio, where=by_draws > 0.0)
@@ -81,7 +83,7 @@ def octahedral_directions(size: int) -> Float64Array:
 
 
 def image_directions(height: int, width: int) -> tuple[Float64Array, Float64Array]:
-    """Unit directions (height, width, 3) of an equirectangular image's texels, row 0 lowest, and solid angles (height,)."""
+    """Unit directions (height, width, 3) of an equirectangular image's texels, row 0 lowest; solid angles (height,)."""
     azimuth = -(2.0 * np.pi) * ((np.arange(width) + 0.5) / width - 0.5)
     edges = np.pi * (np.arange(height + 1) / height - 0.5)
     elevation = 0.5 * (edges[1:] + edges[:-1])
@@ -96,11 +98,12 @@ def image_directions(height: int, width: int) -> tuple[Float64Array, Float64Arra
 def _shrunk(image: Float32Array, height: int) -> Float64Array:
     """The image averaged down to `height` rows and twice as many columns, never up."""
     shape = (min(height, image.shape[0]), min(2 * height, image.shape[1]))
+    pixels: np.ndarray = image
     for axis, parts in enumerate(shape):
         starts = np.arange(parts) * image.shape[axis] // parts
         counts = np.diff(np.append(starts, image.shape[axis])).reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
-        image = np.add.reduceat(image, starts, axis=axis) / counts.astype(np.float32)
-    return image.astype(np.float64)
+        pixels = np.add.reduceat(pixels, starts, axis=axis) / counts.astype(np.float32)
+    return pixels.astype(np.float64)
 
 
 @dataclass(frozen=True, slots=True)

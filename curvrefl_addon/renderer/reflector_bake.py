@@ -115,9 +115,7 @@ def bake_instance(
     the `limits`; GpuUnavailableError without a GPU context.
     """
     if not MIN_RESOLUTION <= resolution <= MAX_RESOLUTION:
-        raise InputError(
-            f"A map of {resolution} texels is out of range: choose {MIN_RESOLUTION} to {MAX_RESOLUTION}."
-        )
+        raise InputError(f"A map of {resolution} texels is out of range: choose {MIN_RESOLUTION} to {MAX_RESOLUTION}.")
     limits = limits or Limits()
     require_gpu()
     instance = scene.instances[instance_index]
@@ -142,7 +140,7 @@ def bake_instance(
     hit = hits[..., 3] != 0.0
     if not hit.any():
         raise InputError(
-            f'Nothing of "{placed.name}" can be seen from its star centre: give it a surface around the centre.'
+            f'"{placed.name}" is flat or has nothing around its star centre: choose a closed, curved mesh as reflector.'
         )
     weights = _solid_angle_weights(resolution)
     # An inverted mesh turns its inside outwards all around: then that counts as the outside.
@@ -246,14 +244,18 @@ def _gradients(
 
 
 def _refuse_or_warn(name: str, multiple_hits: float, holes: float, limits: Limits) -> tuple[str, ...]:
-    twice = f'"{name}" is not star-shaped ({_percent(multiple_hits)} of directions from its centre leave it more than once)'
-    open_ = f'"{name}" is open ({_percent(holes)} of directions from its centre meet no surface)'
+    twice = (
+        f'"{name}" is not star-shaped ({_percent(multiple_hits)} of directions from its centre leave it more than once)'
+    )
+    open_ = f'"{name}" is open or not star-shaped ({_percent(holes)} of directions from its centre meet no surface)'
     if multiple_hits > limits.multiple_hits:
         raise InputError(
             f"{twice}: split it into parts that are, or use its convex hull or a smoothed remesh as reflector."
         )
     if holes > limits.holes:
-        raise InputError(f"{open_}: close it by filling its holes, or use its convex hull as reflector.")
+        raise InputError(
+            f"{open_}: fill its holes, split it into star-shaped parts, or use its convex hull as reflector."
+        )
     warnings = []
     if multiple_hits > 0.5 * limits.multiple_hits:
         warnings.append(f"{twice}: what is in front of its farthest surface reflects wrongly.")
@@ -279,8 +281,8 @@ def _measure(
     """Errors of the map against the mesh's outside, at points spread evenly over its area."""
     corners = placed.triangle_positions() - origin
     crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    areas = np.linalg.norm(crossed, axis=1)
-    outward = np.einsum("ij,ij->i", crossed, corners.sum(axis=1)) * (-1.0 if inverted else 1.0)
+    areas = np.sqrt(np.einsum("ij,ij->i", crossed, crossed))
+    outward = np.einsum("ij,ij->i", crossed, corners[:, 0]) * (-1.0 if inverted else 1.0)
     areas[outward <= 0.0] = 0.0
     if not areas.any():
         return Spread(), Spread(), np.zeros((0, 4), np.float32)

@@ -74,6 +74,23 @@ class ReflectorMap:
         """(3,) star centre in world space."""
         return -self.world_to_map[:3, :3].T @ self.world_to_map[:3, 3]
 
+    def describe(self) -> list[str]:
+        """What a user wants to know of it, a line each."""
+        x, y, z = self.center
+        radius, angle = self.radius_error, self.normal_error_degrees
+        return [
+            f"{self.object_name}: star centre ({x:.6g}, {y:.6g}, {z:.6g}), {self.center_name}",
+            f"radius {self.r_min:.6g} to {self.r_max:.6g} m, {self.resolution} x {self.resolution} x 6 texels",
+            f"directions that leave it more than once: {_percent(self.multiple_hits)}, never: {_percent(self.holes)}",
+            f"radius error: median {_percent(radius.median)}, 95 of 100 under {_percent(radius.p95)}, "
+            f"largest {_percent(radius.max)}",
+            f"normal error: median {angle.median:.3g} degrees, 95 of 100 under {angle.p95:.3g}, largest {angle.max:.3g}",
+        ]
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.3g} %"
+
 
 def pixel_error(reflector: ReflectorMap, view: View) -> Spread:
     """How far the map's surface lies from the mesh's in the picture, in pixels, where it is in front of the eye."""

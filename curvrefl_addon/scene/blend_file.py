@@ -60,7 +60,7 @@ def find_camera(scene: bpy.types.Scene, name: str | None = None) -> bpy.types.Ob
         found = scene.objects.get(name)
         if found is None:
             cameras = (obj.name for obj in scene.objects if obj.type == "CAMERA")
-            raise InputError(f'There is no camera "{name}" in scene "{scene.name}"{_near(name, cameras)}.')
+            raise InputError(f'There is no camera "{name}" in scene "{scene.name}"{_near(name, cameras)}')
         camera = found
     if not isinstance(camera.data, bpy.types.Camera):
         raise InputError(f'"{camera.name}" is not a camera: choose a camera object.')
@@ -127,7 +127,7 @@ def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
     obj = scene.objects.get(name)
     if obj is None:
         surfaces = (other.name for other in scene.objects if other.type in SURFACE_TYPES)
-        raise InputError(f'There is no object "{name}" in scene "{scene.name}"{_near(name, surfaces)}.')
+        raise InputError(f'There is no object "{name}" in scene "{scene.name}"{_near(name, surfaces)}')
     if obj.type not in SURFACE_TYPES:
         kind = obj.type.lower().replace("_", " ")
         raise InputError(f'"{name}" is not a mesh but of type {kind}: choose a mesh object as the reflector.')
@@ -148,7 +148,7 @@ def _near(name: str, known: Iterable[str]) -> str:
     by_lower = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_lower, n=3, cutoff=0.5)
     if close:
-        return ": did you mean " + " or ".join(f'"{by_lower[other]}"' for other in close)
+        return ": did you mean " + " or ".join(f'"{by_lower[other]}"' for other in close) + "?"
     if by_lower:
-        return ": choose from " + ", ".join(f'"{other}"' for other in sorted(by_lower.values())[:5])
-    return ", which has nothing of the kind"
+        return ": choose from " + ", ".join(f'"{other}"' for other in sorted(by_lower.values())[:5]) + "."
+    return ", which has nothing of the kind: add one."

@@ -24,36 +24,36 @@ def merge_corners(
     Works in rounds: in each, every vertex has one of its remaining corners as a model, and those like it join it. A
     vertex needs as many rounds as it has distinct corners, and each round looks only at what is left.
     """
-    keys = [_bits(layer) for layer in layers]
-    merged = np.empty(len(corner_vertex), np.int32)
-    models: list[NDArray[np.int32]] = []
-    model_of_vertex = np.empty(vertex_count, np.int32)
+    columns = [column for layer in layers for column in _bits(layer)]
+    vertex = corner_vertex.astype(np.intp)
+    model_of_vertex = np.empty(vertex_count, np.intp)
+    model_of_vertex[vertex] = np.arange(len(vertex), dtype=np.intp)
+    models = [model_of_vertex.astype(np.int32)]
+    alike = np.ones(len(vertex), bool)
+    for column in columns:
+        # By way of the vertices: they are fewer, and memory likes it.
+        alike &= column[model_of_vertex][vertex] == column
+    if alike.all():
+        return corner_vertex, models[0]
+
+    merged = corner_vertex.copy()
     number_of_vertex = np.empty(vertex_count, np.int32)
-    remaining: NDArray[np.int32] = np.arange(len(corner_vertex), dtype=np.int32)
-    count = 0
+    count = vertex_count
+    remaining = np.flatnonzero(~alike)
     while remaining.size:
-        first_round = count == 0
-        vertex = corner_vertex if first_round else corner_vertex[remaining]
-        model_of_vertex[vertex] = remaining
-        model = model_of_vertex[vertex]
+        vertex_left = vertex[remaining]
+        model_of_vertex[vertex_left] = remaining
+        model = model_of_vertex[vertex_left]
         alike = np.ones(len(remaining), bool)
-        for key in keys:
-            for column in key:
-                alike &= column[model] == (column if first_round else column[remaining])
-        if first_round:
-            new_models = model_of_vertex.copy()
-            number_of_vertex[:] = np.arange(vertex_count, dtype=np.int32)
-        else:
-            new_models = remaining[model == remaining]
-            number_of_vertex[corner_vertex[new_models]] = count + np.arange(len(new_models), dtype=np.int32)
-        models.append(new_models)
+        for column in columns:
+            alike &= column[model] == column[remaining]
+        new_models = remaining[model == remaining]
+        number_of_vertex[vertex[new_models]] = count + np.arange(len(new_models), dtype=np.int32)
+        merged[remaining[alike]] = number_of_vertex[vertex_left[alike]]
+        models.append(new_models.astype(np.int32))
         count += len(new_models)
-        if alike.all():
-            merged[remaining] = number_of_vertex[vertex]
-            break
-        merged[remaining[alike]] = number_of_vertex[vertex[alike]]
         remaining = remaining[~alike]
-    return merged, np.concatenate(models) if models else np.empty(0, np.int32)
+    return merged, np.concatenate(models)
 
 
 def _bits(layer: Float32Array) -> list[NDArray[np.int64] | NDArray[np.int32]]:

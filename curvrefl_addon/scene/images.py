@@ -56,9 +56,9 @@ class ImageReader:
 
 def srgb_to_linear(values: Float32Array) -> Float32Array:
     """IEC 61966-2-1, any shape."""
-    return np.where(
-        values <= 0.04045, values / 12.92, ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4
-    ).astype(np.float32)
+    return np.where(values <= 0.04045, values / 12.92, ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4).astype(
+        np.float32
+    )
 
 
 def _srgb_table() -> Float32Array:

@@ -19,7 +19,8 @@ def read_light(
 ) -> LightArrays | None:
     """The lamp `light` of the object called `name` placed by `matrix` (4, 4); None for one without light or place.
 
-    Sizes of area lamps follow the object's scale, their power does not; balls keep their radius: as in Cycles.
+    As in Cycles, sizes of area lamps follow the object's scale but their power does not, and balls keep their radius.
+    An area lamp without area gives no light.
     """
     lengths = np.linalg.norm(matrix[:3, :3], axis=0)
     if not np.isfinite(matrix).all() or lengths.min() == 0.0:
@@ -38,25 +39,29 @@ def read_light(
     radius = angle = spot_angle = spot_blend = 0.0
     size = (0.0, 0.0)
     ellipse = False
-    area = 0.0
+    area = 1.0
     if isinstance(light, bpy.types.SunLight):
         angle = light.angle
-        area = math.pi * math.sin(0.5 * angle) ** 2
+        if angle > 0.0:
+            area = math.pi * math.sin(0.5 * angle) ** 2
     elif isinstance(light, bpy.types.AreaLight):
         height = light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size
         size = (float(light.size * lengths[0]), float(height * lengths[1]))
         ellipse = light.shape in ("DISK", "ELLIPSE")
         area = size[0] * size[1] * (math.pi / 4.0 if ellipse else 1.0)
+        if area == 0.0:
+            return None
         if light.spread < math.pi - 1e-4:
             warnings.append(f'The spread of area lamp "{name}" is left out: it shines to all sides.')
     elif isinstance(light, (bpy.types.PointLight, bpy.types.SpotLight)):
         radius = light.shadow_soft_size
-        area = math.pi * radius**2
+        area = 4.0 * math.pi * radius**2 if radius > 0.0 else 4.0
         if isinstance(light, bpy.types.SpotLight):
             spot_angle, spot_blend = light.spot_size, light.spot_blend
             if lengths.max() > lengths.min() * 1.001:
                 warnings.append(f'The cone of spot lamp "{name}" is drawn round, whatever its scale.')
-    if not light.normalize and area > 0.0:
+    if not light.normalize:
+        # The energy is then that of a square metre; Cycles counts a point as four.
         color *= area
     r, g, b = color.tolist()
     return LightArrays(

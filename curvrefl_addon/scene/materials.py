@@ -73,7 +73,9 @@ class MaterialReader:
             self.materials.append(arrays)
             self._read[key] = ReadMaterial(len(self.materials) - 1, needs)
             if notes:
-                self._warnings.append(f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
+                self._warnings.append(
+                    f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.'
+                )
         return self._read[key]
 
     def _arrays(self, material: bpy.types.Material, notes: list[str]) -> tuple[MaterialArrays, MeshNeeds]:
@@ -90,7 +92,9 @@ class MaterialReader:
         texture = surface.color.texture
         if isinstance(texture, SurfaceTexture):
             arrays = replace(
-                arrays, image=self._image_index(texture.image), uv_scale=texture.space.scale,
+                arrays,
+                image=self._image_index(texture.image),
+                uv_scale=texture.space.scale,
                 uv_offset=texture.space.offset,
             )
             needs = replace(needs, uv_map=texture.space.uv_map)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Script: installs the packed extension that argv ends with, enables and disables it, and prints what it saw as JSON."""
+"""Script: installs the packed extension that argv ends with, enables and disables it, and prints what it saw."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def blender_types() -> list[str]:
             f"{base.__name__} {cls.__module__}.{cls.__name__}" for cls in base.__subclasses__() if cls.is_registered
         ]
     for owner in (bpy.types.Object, bpy.types.Scene, bpy.types.WindowManager):
-        found += [f"{owner.__name__}.{name}" for name in owner.bl_rna.properties.keys()]
+        found += [f"{owner.__name__}.{name}" for name in list(owner.bl_rna.properties.keys())]
     return sorted(found)
 
 

@@ -33,14 +33,15 @@ from curvrefl.gpu_shaders.loader import load
 from mathutils import Matrix, Vector
 
 
-
 @dataclass
 class Body:
     """A mesh with one material."""
 
     positions: np.ndarray
     triangles: np.ndarray
-    material: MaterialArrays = field(default_factory=lambda: MaterialArrays("grey", (0.5, 0.5, 0.5), specular_level=0.0))
+    material: MaterialArrays = field(
+        default_factory=lambda: MaterialArrays("grey", (0.5, 0.5, 0.5), specular_level=0.0)
+    )
     smooth_center: tuple[float, float, float] | None = None
     """Shading normals point away from here; None: flat"""
     visible_shadow: bool = True
@@ -302,6 +303,27 @@ class Harness:
 
 
 _MAIN = """
+vec3 mirror_at(Surface s, vec3 to_viewer)
+{
+  return mirror_reflectance(s, max(dot(s.normal, to_viewer), 0.0));
+}
+
+vec3 world_and_lamps_at(Surface s, vec3 to_viewer)
+{
+  vec3 direction = reflect(-to_viewer, s.normal);
+  return mirror_at(s, to_viewer) * (world_radiance(direction) + lamps_seen(s.position, direction, 2e30).rgb);
+}
+
+vec3 lamps_nearer_than_2(Surface s, vec3 to_viewer)
+{
+  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 2.0).rgb;
+}
+
+vec3 lamps_nearer_than_4(Surface s, vec3 to_viewer)
+{
+  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 4.0).rgb;
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

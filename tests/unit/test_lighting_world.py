@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting_world import (
@@ -91,7 +93,7 @@ def test_a_sun_gets_draws_by_its_power_but_few_maps() -> None:
     directions, solid_angles = image_directions(*image.shape[:2])
     true_power = (image.sum(axis=-1) * solid_angles[:, None])[directions @ sun > np.cos(0.1)].sum()
     assert np.isclose(power[near].sum(), true_power, rtol=0.1)
-    assert np.isclose(near.mean(), power[near].sum() / power.sum(), atol=0.05)
+    assert np.isclose(near.mean(), power[near].sum() / power.sum(), atol=0.08)
     assert len(set(light.draws[near])) < 0.5 * near.sum()
     # any run of a sub-frame has its share of the sun
     runs = near.reshape(16, 8).mean(axis=1)
@@ -105,7 +107,7 @@ def test_lobes_widen_with_roughness_and_keep_the_mean() -> None:
     peak = np.unravel_index(np.argmax(towards), towards.shape)
     peaks = [float(lobe[peak][0]) for lobe in light.maps[2:]]
     assert len(peaks) == len(ROUGHNESS_LEVELS)
-    assert all(a > b for a, b in zip(peaks, peaks[1:], strict=False))
+    assert all(a > b for a, b in pairwise(peaks))
     away = light.maps[2:, ..., 0][:, towards < -0.2]
     assert away.min() > 0.19 and away.max() < 1.2 * 300.0
 
