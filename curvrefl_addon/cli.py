@@ -18,6 +18,7 @@ from typing import NoReturn
 
 from . import verbs
 from .errors import InputError
+from .gpu_caches import clear_gpu_caches
 from .verbs import say
 
 DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -45,6 +46,8 @@ def main(arguments: Sequence[str]) -> int:
     except Exception:
         traceback.print_exc()
         return OUR_FAILURE
+    finally:
+        clear_gpu_caches()
 
 
 def run(arguments: Sequence[str]) -> int:

@@ -10,7 +10,9 @@ from typing import Any
 
 import bpy
 
-OPERATORS: tuple[str, ...] = ()
+from .gpu_caches import clear_gpu_caches
+
+OPERATORS = ("bake_reflector", "compare_with_cycles")
 """Modules of `operators`; each lists its classes in CLASSES"""
 
 _PACKAGE = __package__.rpartition(".")[0]
@@ -37,6 +39,7 @@ def unregister() -> None:
         bpy.utils.unregister_cli_command(_commands.pop())
     while _classes:
         bpy.utils.unregister_class(_classes.pop())
+    clear_gpu_caches()
 
 
 def _module(name: str) -> ModuleType:

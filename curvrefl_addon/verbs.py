@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from .errors import InputError
 from .optics.catalogue import METHODS
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from .scene.arrays import SceneArrays
     from .scene.view import View
 
+DEMO_SAMPLES = 128
+"""Of the demo's reference: two cores need about two minutes in all"""
 STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent
 LAYERS = ("unit", "blender", "gui")
@@ -39,11 +41,6 @@ PASSES = ("color", "position", "object", "iterations")
 def say(text: str) -> None:
     """A line on stderr: stdout is for results."""
     print(f"curvrefl: {text}", file=sys.stderr, flush=True)
-
-
-def progress(text: str) -> None:
-    """What is being done, on stdout before the results."""
-    print(f"{text} ...", flush=True)
 
 
 def render(options: argparse.Namespace) -> int:
@@ -124,11 +121,8 @@ def bake(options: argparse.Namespace) -> int:
     _warn(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
-    center = ", ".join(f"{value:.6g}" for value in baked.center)
-    print(f"{baked.object_name}: star centre ({center}), {baked.center_name}")
-    print(f"radius {baked.r_min:.6g} to {baked.r_max:.6g} m")
-    twice, never = 100.0 * baked.multiple_hits, 100.0 * baked.holes
-    print(f"directions that meet it more than once: {twice:.3g} %, never: {never:.3g} %")
+    for sentence in baked.describe():
+        print(sentence)
     if scene.camera is not None:
         view = _view(options, scene)
         error = pixel_error(baked, view)
@@ -144,11 +138,11 @@ def demo(options: argparse.Namespace) -> int:
     from .demo.scene import KETTLE, build_demo
     from .report.compare import Comparison
 
-    progress("Building the demo scene")
+    print("Building the demo scene", flush=True)
     file = output / "demo.blend"
     with folder_to_publish(output) as folder, _dropped(STDOUT):
         build_demo(folder / file.name)
-    _compare_and_print(_open_scene(file), [KETTLE], Comparison(), output)
+    _compare_and_print(_open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
     print(f"Scene: {file}")
     return 0
 
@@ -168,7 +162,12 @@ def _compare_and_print(
 
     view_layer = bpy.context.view_layer
     assert view_layer is not None, "an open scene has a view layer"
-    report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+    with _dropped(STDOUT) as stdout:
+
+        def progress(text: str) -> None:
+            print(text, file=stdout, flush=True)
+
+        report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
     print(format_table(report))
     print(f"Report: {output / 'report.html'}")
 
@@ -250,20 +249,20 @@ def _warn(warnings: Sequence[str]) -> None:
 
 
 @contextlib.contextmanager
-def _dropped(descriptor: int) -> Iterator[None]:
-    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere."""
+def _dropped(descriptor: int) -> Iterator[TextIO]:
+    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere; yields the way past that."""
     stream = sys.stdout if descriptor == STDOUT else sys.stderr
     stream.flush()
     kept = os.dup(descriptor)
-    try:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, descriptor)
-        os.close(nowhere)
-        yield
-    finally:
-        stream.flush()
-        os.dup2(kept, descriptor)
-        os.close(kept)
+    with open(kept, "w", encoding="utf-8") as past:
+        try:
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, descriptor)
+            os.close(nowhere)
+            yield past
+        finally:
+            stream.flush()
+            os.dup2(kept, descriptor)
 
 
 def _start_gpu() -> None:

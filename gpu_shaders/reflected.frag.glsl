@@ -35,6 +35,7 @@ void main()
   if (dot(ray, to_vertex) < STRETCHED * vertex_distance) {
     discard;
   }
+#ifdef BACK_FACES
   // 2. Reflector over itself: the reflection point lies behind a back face that this pixel's ray meets first.
   vec3 to_point = reflection_point - view.eye.xyz * view.eye.w;
   float point_distance = view.eye.w > 0.0 ? length(to_point) : -dot(to_point, view.eye.xyz);
@@ -42,6 +43,7 @@ void main()
   if (back_distance > 0.0 && point_distance > back_distance) {
     discard;
   }
+#endif
   // 3. Reflected scene over itself: depth is the distance from the mirror, per fragment, as interpolated distances of
   // thin layers cross each other.
   gl_FragDepth = vertex_distance / (vertex_distance + depth_scale);

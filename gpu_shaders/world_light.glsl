@@ -36,55 +36,72 @@ vec2 octahedral_place(vec3 direction)
   return (d.xy * (0.5 * (WORLD_MAP_SIZE - 1.0)) + 0.5 * WORLD_MAP_SIZE) / WORLD_MAP_SIZE;
 }
 
-vec3 world_map(vec2 place, int layer)
+vec4 world_map(vec2 place, int layer)
 {
-  return textureLod(lighting_world_maps, vec3(place, float(layer)), 0.0).rgb;
+  return textureLod(lighting_world_maps, vec3(place, float(layer)), 0.0);
 }
 
-// Mean radiance that a lobe of this roughness about `direction` sees, without shadows.
-vec3 world_lobe(vec3 direction, float roughness)
+// Mean radiance that a lobe of this roughness about `direction` sees, without shadows; alpha: the directions' weights
+// under `lobe_window`.
+vec4 world_lobe(vec3 direction, float roughness)
 {
   // levels 0.2, 0.35, 0.5, 0.65, 0.8, 1.0; below the first the image itself takes over
   float level = roughness < 0.8 ? max((roughness - 0.2) / 0.15, 0.0) : 4.0 + min((roughness - 0.8) / 0.2, 1.0);
   float below = min(floor(level), 4.0);
   vec2 place = octahedral_place(direction);
   int layer = WORLD_MAP_LOBES + int(below);
-  vec3 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
+  vec4 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
   if (roughness < 0.2) {
-    radiance = mix(world_radiance(direction), radiance, roughness / 0.2);
+    radiance.rgb = mix(world_radiance(direction), radiance.rgb, roughness / 0.2);
   }
   return radiance;
 }
 
-// Radiance towards the viewer from the world. The directions' shadows are taken off the exact irradiance, scaled so
-// that a point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
+// How much a direction's shadow counts for a glossy lobe at this cosine to it.
+float lobe_window(float cosine)
+{
+  float square = cosine * cosine;
+  return cosine > 0.0 ? square * square : 0.0;
+}
+
+// Middle of the lobe: rough surfaces seen at a grazing angle reflect from nearer to the normal (Lagarde and
+// de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014, section 4.9.3).
+vec3 lobe_middle(vec3 to_viewer, vec3 normal, float alpha)
+{
+  float smooth_share = 1.0 - alpha;
+  return normalize(mix(normal, reflect(-to_viewer, normal), smooth_share * (sqrt(smooth_share) + alpha)));
+}
+
+// Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
+// point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
-    vec3 irradiance = world_map(place, 0);
+    vec3 middle = lobe_middle(to_viewer, s.normal, lobes.alpha);
     vec3 lost = vec3(0.0);
-    int count = int(lighting_data[0].y);
+    float lobe_lost = 0.0;
     vec4 p = vec4(s.position, 1.0);
+    int count = int(lighting_data[0].y);
     int i = 0;
     do {
       int record = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + DIRECTION_RECORDS * i;
       vec4 light = lighting_data[record];
+      vec3 weight = lighting_data[record + 1].rgb;
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
       vec3 window = vec3(dot(lighting_data[record + 2], p),
                          dot(lighting_data[record + 3], p),
                          dot(lighting_data[record + 4], p) - 2e-6);
-      lost += lighting_data[record + 1].rgb * (cos_light * (1.0 - lit_sharp(window, int(light.w))));
+      float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
+      lost += weight * (cos_light * dark);
+      lobe_lost += lighting_data[record + 1].w * lobe_window(dot(middle, light.xyz)) * dark;
       i++;
     } while (i < count);
-    vec3 seen = irradiance - world_map(place, 1) * lost;
-    sum = lobes.diffuse * seen / LIGHTING_PI;
-    if (max(lobes.specular_albedo.r, max(lobes.specular_albedo.g, lobes.specular_albedo.b)) > 0.0) {
-      vec3 share = seen / max(irradiance, vec3(1e-9));
-      vec3 reflected = reflect(-to_viewer, s.normal);
-      sum += lobes.specular_albedo * world_lobe(reflected, clamp(s.roughness, 0.0, 1.0)) * share;
-    }
+    vec3 seen = world_map(place, 0).rgb - world_map(place, 1).rgb * lost;
+    vec4 lobe = world_lobe(middle, clamp(s.roughness, 0.0, 1.0));
+    sum = lobes.diffuse * seen / LIGHTING_PI +
+          lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));
   }
   return sum;
 }

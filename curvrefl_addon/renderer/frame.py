@@ -188,18 +188,17 @@ class Renderer:
             for mirror, solution in zip(self.mirrors, solutions, strict=True):
                 if mirror.may_hide_itself:
                     targets.back_faces.draw(mirror.surface, uniforms)
-                else:
-                    targets.back_faces.clear()
                 draw_reflected(
                     targets.reflected,
                     targets.seen,
                     mirror.number,
-                    targets.back_faces,
+                    targets.back_faces if mirror.may_hide_itself else None,
                     mirror.scenery(view, self.settings.pixel_tolerance),
                     solution,
                     self._materials,
                     uniforms,
                     depth_scale=mirror.map.r_max,
+                    window=mirror.window(view),
                 )
         return uniforms
 

@@ -139,6 +139,17 @@ def drawing_state(depth_test: str = "NONE", depth_write: bool = False, blend: st
         gpu.state.blend_set("NONE")
 
 
+@contextmanager
+def scissored(window: tuple[int, int, int, int]) -> Iterator[None]:
+    """Draw only inside the window (x, y, width, height) of the bound frame buffer."""
+    gpu.state.scissor_set(*window)
+    gpu.state.scissor_test_set(True)
+    try:
+        yield
+    finally:
+        gpu.state.scissor_test_set(False)
+
+
 @cache
 def cube_copy_shader() -> Any:
     info = gpu.types.GPUShaderCreateInfo()

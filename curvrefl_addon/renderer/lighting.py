@@ -33,7 +33,9 @@ SAMPLER_COUNT = 5
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
 """Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
 WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 32
-"""World directions of a whole picture, and in scenes of more than MANY_TRIANGLES"""
+"""World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
+DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
+"""World directions of one sub-frame (each costs as much as a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 LAMP_MAP_BYTES = 80 << 20
@@ -151,7 +153,8 @@ class Lighting:
         """Choose the world's directions and their shadow views; fill its textures."""
         world = self._world = scene.world
         lit = max(world.color) > 0.0
-        self._directions_at_once = min(-(-self._most_directions // self.sub_frames), MAX_DIRECTIONS) if lit else 0
+        at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
+        self._directions_at_once = min(-(-self._most_directions // self.sub_frames), at_once) if lit else 0
         self._world_light = light = world_light(world, max(self._directions_at_once * self.sub_frames, 1))
         views: list[ShadowView] = []
         self._world_layers = np.full(len(light.directions), -1)
@@ -192,7 +195,8 @@ class Lighting:
                 continue
             start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
             records[start] = [*self._world_light.directions[direction], layer]
-            records[start + 1, :3] = self._world_light.weights[draw] * self.sub_frames
+            weight = self._world_light.weights[draw] * self.sub_frames
+            records[start + 1] = [*weight, weight.sum()]
             view = self._world_maps.views[layer]
             records[start + 2 : start + 5] = window_rows(view, self._world_maps.resolution)[:3]
             world_layers.append(layer)

@@ -36,7 +36,16 @@ class WorldLight:
     """(k, 3) radiance times solid angle of each draw; sums to the integral over the sphere"""
     maps: Float32Array
     """(2 + levels, MAP_SIZE, MAP_SIZE, 4), octahedral: irradiance by normal; that over the irradiance from the draws;
-    per roughness level the radiance that the lobe about a reflected direction sees"""
+    per roughness level the radiance that the lobe about a reflected direction sees, with the draws' sum (red, green and
+    blue) under `lobe_window` as alpha"""
+
+
+def lobe_window(cosine: np.ndarray) -> np.ndarray:
+    """How much a direction's shadow counts for a glossy lobe at this cosine to it; as in world_light.glsl.
+
+    Wide enough (half at 33 degrees) to hold several of the directions, whatever the lobe.
+    """
+    return np.maximum(cosine, 0.0) ** 4
 
 
 _last: list[tuple[WorldArrays, int, WorldLight]] = []
@@ -64,7 +73,9 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     ratio = np.ones_like(by_draws)
     np.divide(irradiance, by_draws, out=ratio, where=by_draws > 0.0)
     layers = np.stack([irradiance, np.clip(ratio, 0.0, 4.0), *lobes])
+    window = lobe_window(normals @ directions[draws].T.astype(np.float32)) @ weights.sum(axis=1)
     maps = np.ones((len(layers), MAP_SIZE, MAP_SIZE, 4), np.float32)
+    maps[2:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
     _last[:] = [(world, count, light)]

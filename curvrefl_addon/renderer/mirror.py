@@ -62,6 +62,19 @@ class Mirror:
         radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / distance)
         return distance < float(radius[0])
 
+    def window(self, view: View) -> tuple[int, int, int, int]:
+        """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
+        low, high = self.surface.bounds
+        corners = np.array([[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        clip = corners @ view.world_to_clip.T
+        if (clip[:, 3] <= 1e-6).any():
+            return (0, 0, view.width, view.height)
+        pixels = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
+        size = (view.width, view.height)
+        first = np.clip(np.floor(pixels.min(axis=0)) - 1, 0, size).astype(int)
+        last = np.clip(np.ceil(pixels.max(axis=0)) + 1, 0, size).astype(int)
+        return (int(first[0]), int(first[1]), int(last[0] - first[0]), int(last[1] - first[1]))
+
     def scenery(self, view: View, tolerance: float) -> WorldGeometry:
         """What this mirror shows, split as finely as `tolerance` pixels need at the mirror's size in this view."""
         angle = split_angle(self.radius_pixels(view), tolerance)

@@ -12,19 +12,19 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import InputError
 from ..optics.cube_holes import fill_holes
 from ..optics.cube_map import CubeMapSurface, texel_directions
-from ..optics.radial_surfaces import tangential, unit
+from ..optics.radial_surfaces import unit
 from ..optics.star_center import find_star_center
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from .cube_raster import CubeRaster
 from .gpu_objects import require_gpu
-from .reflector_map import ReflectorMap, Spread
+from .reflector_map import ReflectorMap, Spread, percent
 
 MIN_RESOLUTION = 8
 MAX_RESOLUTION = 2048
 LARGEST_COORDINATE = 1e18
 """Squares of larger ones overflow in float32"""
 LEAST_COSINE = 0.05
-"""Between direction and shading normal; flatter than that the gradient is clamped to what it is there (|grad r| = 20 r)"""
+"""Between direction and shading normal; at flatter angles the gradient is clamped to its length there (20 r)"""
 SAME_HIT = 1e-3
 """Two hits along a direction count as one when their radii differ by less than this share"""
 ERROR_POINTS = 4096
@@ -245,9 +245,9 @@ def _gradients(
 
 def _refuse_or_warn(name: str, multiple_hits: float, holes: float, limits: Limits) -> tuple[str, ...]:
     twice = (
-        f'"{name}" is not star-shaped ({_percent(multiple_hits)} of directions from its centre leave it more than once)'
+        f'"{name}" is not star-shaped ({percent(multiple_hits)} of directions from its centre leave it more than once)'
     )
-    open_ = f'"{name}" is open or not star-shaped ({_percent(holes)} of directions from its centre meet no surface)'
+    open_ = f'"{name}" is open or not star-shaped ({percent(holes)} of directions from its centre meet no surface)'
     if multiple_hits > limits.multiple_hits:
         raise InputError(
             f"{twice}: split it into parts that are, or use its convex hull or a smoothed remesh as reflector."
@@ -262,10 +262,6 @@ def _refuse_or_warn(name: str, multiple_hits: float, holes: float, limits: Limit
     if holes > 0.5 * limits.holes:
         warnings.append(f"{open_}: the gap is bridged smoothly, and reflections near its rim may be wrong.")
     return tuple(warnings)
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.3g} %"
 
 
 def _solid_angle_weights(resolution: int) -> Float64Array:

@@ -81,14 +81,16 @@ class ReflectorMap:
         return [
             f"{self.object_name}: star centre ({x:.6g}, {y:.6g}, {z:.6g}), {self.center_name}",
             f"radius {self.r_min:.6g} to {self.r_max:.6g} m, {self.resolution} x {self.resolution} x 6 texels",
-            f"directions that leave it more than once: {_percent(self.multiple_hits)}, never: {_percent(self.holes)}",
-            f"radius error: median {_percent(radius.median)}, 95 of 100 under {_percent(radius.p95)}, "
-            f"largest {_percent(radius.max)}",
-            f"normal error: median {angle.median:.3g} degrees, 95 of 100 under {angle.p95:.3g}, largest {angle.max:.3g}",
+            f"directions that leave it more than once: {percent(self.multiple_hits)}, never: {percent(self.holes)}",
+            f"radius error: median {percent(radius.median)}, 95 of 100 under {percent(radius.p95)}, "
+            f"largest {percent(radius.max)}",
+            f"normal error in degrees: median {angle.median:.3g}, 95 of 100 under {angle.p95:.3g}, "
+            f"largest {angle.max:.3g}",
         ]
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """A share as text."""
     return f"{100.0 * share:.3g} %"
 
 

@@ -15,7 +15,7 @@ import gpu
 
 from ...gpu_shaders.loader import load
 from .geometry import WorldGeometry
-from .gpu_objects import drawing_state
+from .gpu_objects import drawing_state, scissored
 from .materials import Materials
 from .solve import VertexSolution
 from .view_block import TYPEDEF
@@ -55,11 +55,6 @@ class BackFaces:
         self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.distance,))
         self.width, self.height = width, height
 
-    def clear(self) -> None:
-        """No back faces anywhere."""
-        with self.frame_buffer.bind():
-            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-
     def draw(self, geometry: WorldGeometry, view_uniforms: Any) -> None:
         """Fill from the reflector's triangles (closed, counter-clockwise from outside)."""
         shader = _back_faces_shader()
@@ -93,19 +88,23 @@ def draw_reflected(
     target: SurfaceBuffer,
     mirrors: SurfaceBuffer,
     mirror: int,
-    back_faces: BackFaces,
+    back_faces: BackFaces | None,
     geometry: WorldGeometry,
     solution: VertexSolution,
     materials: Materials,
     view_uniforms: Any,
     depth_scale: float,
+    window: tuple[int, int, int, int],
 ) -> None:
     """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
 
-    `depth_scale` is the distance that gets half of the depth range, metres.
+    `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth range, metres; `window` (x, y, width, height) holds all
+    of the mirror's pixels.
     """
-    shader = _reflected_shader()
-    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+    if window[2] <= 0 or window[3] <= 0:
+        return
+    shader = _reflected_shader(back_faces is not None)
+    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
         gpu.state.viewport_set(0, 0, target.width, target.height)
         shader.bind()
         shader.uniform_block("view", view_uniforms)
@@ -119,9 +118,10 @@ def draw_reflected(
             ("mirror_position", mirrors.position),
             ("mirror_normal", mirrors.normal),
             ("mirror_color", mirrors.color),
-            ("back_faces", back_faces.distance),
         ):
             shader.uniform_sampler(name, texture)
+        if back_faces is not None:
+            shader.uniform_sampler("back_faces", back_faces.distance)
         for material, batch in geometry.batches:
             materials.bind(shader, material)
             batch.draw(shader)
@@ -157,15 +157,17 @@ def _primary_shader() -> Any:
 
 
 @cache
-def _reflected_shader() -> Any:
+def _reflected_shader(with_back_faces: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     _geometry_inputs(info)
     Materials.declare(info, 2)
     info.push_constant("FLOAT", "mirror")
     info.push_constant("FLOAT", "depth_scale")
-    for slot, name in enumerate(
-        ("reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color", "back_faces"), 3
-    ):
+    names = ["reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"]
+    if with_back_faces:
+        info.define("BACK_FACES")
+        names.append("back_faces")
+    for slot, name in enumerate(names, 3):
         info.sampler(slot, "FLOAT_2D", name)
     interface = gpu.types.GPUStageInterfaceInfo("curvrefl_reflected")
     for kind, name in (

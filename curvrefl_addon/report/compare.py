@@ -35,7 +35,7 @@ from .display import inverse_display_transform
 from .geometry_reference import GeometryReference, render_geometry
 from .html import report_page
 from .images import save_png
-from .metrics import BoolArray, error_map, flip_in_mask, geometry_error, mask_mismatch, psnr_in_mask
+from .metrics import BoolArray, error_map, flip_in_mask, geometry_error, mask_mismatch, missing_flip, psnr_in_mask
 
 DEFAULT_METHODS = ("secant_star", "environment_cube")
 LARGEST_SIDE = 8192
@@ -215,6 +215,8 @@ def _run(
     warnings = list(dict.fromkeys(warning for frame in frames.values() for warning in frame.warnings))
     if not mask.any():
         warnings.append("No reflector is in view: there are no mirror pixels to compare.")
+    if missing := missing_flip():
+        warnings.append(missing)
     for method, frame in frames.items():
         save_png(folder / f"{method}.png", _opaque(frame.color))
         difference = inverse_display_transform(error_map(frame.color, reference.pixels))
@@ -299,7 +301,8 @@ def _measure(
 def _image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
     psnr = psnr_in_mask(test, reference, mask)
     # JSON has no infinity.
-    return {"flip": flip_in_mask(test, reference, mask), "psnr": None if psnr == math.inf else psnr}
+    flip = None if missing_flip() else flip_in_mask(test, reference, mask)
+    return {"flip": flip, "psnr": None if psnr == math.inf else psnr}
 
 
 def _geometry_error(frame: _MeasuredFrame, truth: GeometryReference) -> dict[str, Any]:

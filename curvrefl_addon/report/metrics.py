@@ -40,6 +40,18 @@ class GeometryError(TypedDict):
     wrong_object: float | None
 
 
+def missing_flip() -> str:
+    """Why FLIP cannot be measured, as one sentence; empty where it can."""
+    try:
+        import flip_evaluator  # noqa: F401
+    except ImportError:
+        return (
+            "FLIP is missing: it needs the Python package 'flip-evaluator', which this Python lacks; install it there, "
+            "for example with 'python -m pip install flip-evaluator'."
+        )
+    return ""
+
+
 def flip_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -> float | None:
     """Mean of the FLIP error (0..1, lower is better) over `mask` (h, w), or None for an empty mask.
 
@@ -49,13 +61,10 @@ def flip_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -
 
     Raises InputError when the package flip-evaluator is not installed.
     """
-    try:
-        import flip_evaluator
-    except ImportError as error:
-        raise InputError(
-            "The FLIP image error needs the Python package 'flip-evaluator': install it, for example with "
-            "'python -m pip install flip-evaluator' for the Python that runs this."
-        ) from error
+    if missing := missing_flip():
+        raise InputError(missing)
+    import flip_evaluator
+
     if not mask.any():
         return None
     shown_reference = display_transform(reference[..., :3])

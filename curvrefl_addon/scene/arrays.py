@@ -35,9 +35,9 @@ class MeshArrays:
     corner_normals: Float32Array
     """(corners, 3) unit shading normals"""
     corner_uv: Float32Array | None
-    """(corners, 2) of the active UV map"""
+    """(corners, 2) texture coordinates; None where no material needs them"""
     corner_color: Float32Array | None
-    """(corners, 4) scene-linear, of the active colour attribute"""
+    """(corners, 4) scene-linear vertex colours; None where no material needs them"""
     triangles: Int32Array
     """(triangles, 3) index into corners"""
     triangle_slot: Int32Array

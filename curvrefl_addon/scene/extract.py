@@ -15,7 +15,7 @@ from .arrays import Float64Array, InstanceArrays, LightArrays, MeshArrays, Scene
 from .images import ImageReader
 from .lights import read_light
 from .materials import MaterialReader, ReadMaterial
-from .meshes import MeshNeeds, mirrored, read_mesh
+from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
 from .visibility import Visibility
 from .world import read_world
 
@@ -110,7 +110,7 @@ class _Extraction:
         rays = self._visibility.rays(instance)
         key = obj.original.as_pointer()
         is_reflector = key in self._reflectors
-        if len(obj.data.polygons) == 0:
+        if len(obj.data.polygons) == 0 and not obj.data.is_editmode:
             return False
         if not rays.any and not is_reflector:
             return True
@@ -165,8 +165,7 @@ class _Extraction:
                 plain = self._mesh(obj, slots, is_mirrored=False)
                 arrays, dropped = mirrored(self._meshes[plain]), self._dropped[plain]
             else:
-                assert isinstance(obj.data, bpy.types.Mesh)
-                reading = read_mesh(obj.data, needs)
+                reading = _read_surface(obj, needs)
                 arrays, dropped = reading.mesh, reading.dropped
                 if dropped:
                     self._warnings.append(
@@ -186,6 +185,18 @@ class _Extraction:
             if len(set(wanted)) > 1:
                 self._warnings.append(f'"{obj.name}" has several materials; the {what} of the first serve all.')
         return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+
+
+def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:
+    assert isinstance(obj.data, bpy.types.Mesh)
+    if not obj.data.is_editmode:
+        return read_mesh(obj.data, needs)
+    # What is being edited has its evaluated arrays only in a copy.
+    mesh = obj.to_mesh()
+    try:
+        return read_mesh(mesh, needs)
+    finally:
+        obj.to_mesh_clear()
 
 
 def _is_singular(matrix: Float64Array) -> bool:

@@ -110,7 +110,7 @@ class ColorReader:
         color = self.color(source)
         if not color.is_constant:
             self._notes.append(f"its {what} varies, the mean is used")
-        return float(np.dot(color.mean(), LUMA))
+        return _luminance(color.mean())
 
     def _mix(self, source: Source, factor_name: str, a_name: str, b_name: str) -> NodeColor:
         node = source.node
@@ -199,7 +199,7 @@ class ColorReader:
         if operation is None or not all(color.is_constant for color in inputs):
             self._notes.append(f'node "{node.name}" is left out')
             return inputs[0]
-        a, b = (float(np.dot(color.factor, LUMA)) for color in inputs)
+        a, b = (_luminance(color.factor) for color in inputs)
         result = float(operation(np.float64(a), np.float64(b)))
         return gray(min(max(result, 0.0), 1.0) if node.use_clamp else result)
 
@@ -243,6 +243,11 @@ def _plain(value: Any) -> NodeColor:
 def _triple(values: Any) -> tuple[float, float, float]:
     r, g, b = (float(value) for value in values)
     return r, g, b
+
+
+def _luminance(color: tuple[float, float, float]) -> float:
+    """Exact for a grey."""
+    return color[0] if color[0] == color[1] == color[2] else float(np.dot(color, LUMA))
 
 
 def _apply(color: NodeColor, change: Change) -> NodeColor:

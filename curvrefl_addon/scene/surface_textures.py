@@ -102,8 +102,8 @@ class SurfaceTextureReader:
             pair = np.array([end.mean() for end in ends], np.float32)
         first, second = pair[0], pair[1]
         pixels = np.ones((2, 2, 4), np.float32)
-        pixels[0, 0, :3] = pixels[1, 1, :3] = first
-        pixels[0, 1, :3] = pixels[1, 0, :3] = second
+        pixels[0, 0, :3] = pixels[1, 1, :3] = second
+        pixels[0, 1, :3] = pixels[1, 0, :3] = first
         half = 0.5 * squares
         space = replace(
             space,

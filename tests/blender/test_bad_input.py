@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -17,51 +16,9 @@ from blender_process import run_script
 from curvrefl.curvrefl_addon import cli
 from curvrefl.curvrefl_addon.report.images import load_exr
 from mathutils import Matrix
-
-RUN_VERB = Path(__file__).resolve().parents[2] / "tools" / "run_verb.py"
-SIZE = (32, 24)
-
-type Change = Callable[[bpy.types.Object], None]
+from small_scene import RUN_VERB, SIZE, Change, saved
 
 pytestmark = pytest.mark.usefixtures("gpu")
-
-
-def build_scene() -> bpy.types.Object:
-    """A mirror ball of radius 1 at the origin, a red block beside it, a white world; returns the ball."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
-    scene.world = bpy.data.worlds.new("world")
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1.0)
-    ball = bpy.context.object
-    ball.name = "Mirror Ball"
-    bpy.ops.object.shade_smooth()
-    chrome = bpy.data.materials.new("chrome")
-    shader = chrome.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Metallic"].default_value = 1.0
-    shader.inputs["Roughness"].default_value = 0.0
-    ball.data.materials.append(chrome)
-    bpy.ops.mesh.primitive_cube_add(size=1.0, location=(2.0, -1.0, 0.0))
-    block = bpy.context.object
-    block.name = "Block"
-    camera = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
-    camera.location = (0.0, -6.0, 0.0)
-    camera.rotation_euler = (np.pi / 2.0, 0.0, 0.0)
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    return ball
-
-
-def saved(folder: Path, change: Change | None = None) -> Path:
-    """The scene with a change, as a file in a folder of its own."""
-    ball = build_scene()
-    if change:
-        change(ball)
-    path = folder / "files" / "scene.blend"
-    path.parent.mkdir(exist_ok=True)
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False)
-    return path
 
 
 def render(path: Path, *more: str, reflector: str = "Mirror Ball") -> tuple[int, Path]:
@@ -315,21 +272,3 @@ def test_a_reflector_out_of_view(tmp_path: Path, capfd: pytest.CaptureFixture[st
     code, output = render(saved(tmp_path, change))
     assert "in view" in warned(code, capfd)
     np.testing.assert_allclose(load_exr(output)[..., :3], 1.0, atol=1e-3)
-
-
-def test_passes_lie_beside_the_picture(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    code, output = render(saved(tmp_path), "--passes", "color,position,object,iterations", "--resolution", "40x30")
-    out, err = capfd.readouterr()
-    assert code == 0, err
-    assert "Warning" not in err
-    names = sorted(path.name for path in output.parent.iterdir())
-    assert names == ["picture.exr", "picture_iterations.exr", "picture_object.exr", "picture_position.exr"]
-    assert load_exr(output).shape == (30, 40, 4)
-    (block,) = [int(line.split()[1].rstrip(":")) for line in out.splitlines() if line.endswith(": Block")]
-    shown = load_exr(output.with_name("picture_object.exr"))[..., 0] == block
-    # The block is to the right of the ball and as near: it is seen in the right half of the mirror, and is there.
-    assert 0.005 < shown.mean() < 0.3
-    assert np.flatnonzero(shown.any(axis=0)).mean() > 20
-    position = load_exr(output.with_name("picture_position.exr"))[shown]
-    np.testing.assert_array_equal(position[:, 3], 1.0)
-    assert np.abs(position[:, :3] - (2.0, -1.0, 0.0)).max() < 0.5 + 0.05
