@@ -64,12 +64,12 @@ float lobe_window(float cosine)
   return cosine > 0.0 ? square * square : 0.0;
 }
 
-// Middle of the lobe: rough surfaces seen at a grazing angle reflect from nearer to the normal (Lagarde and
-// de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014, section 4.9.3).
-vec3 lobe_middle(vec3 to_viewer, vec3 normal, float alpha)
+// Mean direction of the lobe: at grazing angles and on rough surfaces nearer to the normal than the mirror's.
+vec3 lobe_middle(vec3 to_viewer, vec3 normal, float cos_normal)
 {
-  float smooth_share = 1.0 - alpha;
-  return normalize(mix(normal, reflect(-to_viewer, normal), smooth_share * (sqrt(smooth_share) + alpha)));
+  vec3 across = normal * dot(normal, to_viewer) - to_viewer;
+  float sine = sqrt(max(1.0 - cos_normal * cos_normal, 0.0));
+  return normal * cos_normal + across * (sine * inversesqrt(max(dot(across, across), 1e-12)));
 }
 
 // Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
@@ -79,7 +79,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
   vec3 sum = vec3(0.0);
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
-    vec3 middle = lobe_middle(to_viewer, s.normal, lobes.alpha);
+    vec2 shape = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES)).xy;
+    vec3 middle = lobe_middle(to_viewer, s.normal, shape.x);
     vec3 lost = vec3(0.0);
     float lobe_lost = 0.0;
     vec4 p = vec4(s.position, 1.0);
@@ -99,7 +100,7 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
       i++;
     } while (i < count);
     vec3 seen = world_map(place, 0).rgb - world_map(place, 1).rgb * lost;
-    vec4 lobe = world_lobe(middle, clamp(s.roughness, 0.0, 1.0));
+    vec4 lobe = world_lobe(middle, shape.y);
     sum = lobes.diffuse * seen / LIGHTING_PI +
           lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));
   }

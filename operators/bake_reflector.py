@@ -28,7 +28,11 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
         name="Resolution", description="Texels along an edge of a cube face", default=128, min=8, max=2048
     )
     folder: StringProperty(  # type: ignore[valid-type]
-        name="Folder", description="Where the maps go", subtype="DIR_PATH", default="//curvrefl_bake"
+        name="Folder",
+        description="Where the maps go",
+        subtype="DIR_PATH",
+        default="//curvrefl_bake",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
 
     @classmethod

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Safeguarded Newton descent on the optical path length over the sphere of directions.
 
-On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length E-P-V, so a descent that
- never accepts a longer path cannot cycle or wander off. Second derivatives come from differences of the
-gradient, because the map holds r and grad r only.
+On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length
+E-P-V, so a descent that never accepts a longer path cannot cycle or wander off. Second derivatives come from
+differences of the gradient, because the map holds r and grad r only.
 """
 
 from __future__ import annotations

@@ -13,8 +13,8 @@ def reflection_points(eye: Float64Array, vertices: Float64Array, radius: float) 
     """Outer reflection points (n, 3) on the sphere about the origin; NaN where the sphere hides the vertex.
 
     eye (3,) and vertices (n, 3) outside the sphere. In the plane of E, V and the centre let z = exp(i t) be the
-    direction of P, e and v the complex eye and vertex in units of the radius. The angles of incidence and reflection agree
-    where (e - z)(v - z) / z^2 is real, which is the quartic
+    direction of P, e and v the complex eye and vertex in units of the radius. The angles of incidence and reflection
+    agree where (e - z)(v - z) / z^2 is real, which is the quartic
     conj(e v) z^4 - conj(e + v) z^3 + (e + v) z - e v = 0; its roots on the unit circle that see both E and V on the
     outer side are reflections, and for a sphere there is at most one. The root is polished by Newton on the angle.
     """

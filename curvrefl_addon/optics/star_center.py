@@ -14,7 +14,7 @@ import numpy as np
 
 from .radial_surfaces import Float64Array
 
-MAX_TRIANGLES = 40_000
+MAX_TRIANGLES = 20_000
 """Of larger meshes an evenly spread subset of about so many triangles is looked at to choose the centre."""
 
 

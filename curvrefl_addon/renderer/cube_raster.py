@@ -48,15 +48,20 @@ class CubeRaster:
 
         w: 1 on the outside, -1 on the inside, 0 where there is no hit.
         """
-        return self._draw("GREATER", 0.0, outside_only=False)
+        position, normal = self._draw("GREATER", 0.0, outside_only=False, slots=2)
+        return position, normal
 
-    def nearest_outside(self) -> tuple[Float32Array, Float32Array]:
-        """As `farthest`, of the nearest hit on the outside of a triangle, which is where a ray first leaves."""
-        return self._draw("LESS", 1.0, outside_only=True)
+    def nearest_outside(self) -> Float32Array:
+        """Position (6, n, n, 4) of the nearest hit on the outside of a triangle, where a ray first leaves the mesh.
 
-    def _draw(self, depth_test: str, clear_depth: float, outside_only: bool) -> tuple[Float32Array, Float32Array]:
+        w: 1, or 0 where there is no hit.
+        """
+        return self._draw("LESS", 1.0, outside_only=True, slots=1)[0]
+
+    def _draw(self, depth_test: str, clear_depth: float, outside_only: bool, slots: int) -> Float32Array:
+        """Read back (slots, 6, n, n, 4) of position and normal."""
         size = self.resolution
-        faces = np.empty((2, 6, size, size, 4), np.float32)
+        faces = np.empty((slots, 6, size, size, 4), np.float32)
         shader = _shader()
         shader.bind()
         shader.uniform_float("near", NEAR * self.depth_range)
@@ -71,11 +76,11 @@ class CubeRaster:
                 shader.uniform_float("axis_t", axis_t)
                 shader.uniform_float("axis_forward", axis_forward)
                 self._batch.draw(shader)
-                for slot in range(2):
+                for slot in range(slots):
                     buffer = self._frame_buffer.read_color(0, 0, size, size, 4, slot, "FLOAT")
                     buffer.dimensions = size * size * 4
                     faces[slot, face] = np.array(buffer, np.float32).reshape(size, size, 4)
-        return faces[0], faces[1]
+        return faces
 
 
 @cache

@@ -150,9 +150,10 @@ class Renderer:
             return [cube_texture(np.zeros((6, 1, 1, 4), np.float32))] * len(self.mirrors)
         if self.settings.method != "environment_cube" or not self.mirrors:
             return None
-        return [cube.color for cube in self._environment_cubes()]
+        return [cube.color for cube in self.environment_cubes()]
 
-    def _environment_cubes(self) -> list[EnvironmentCube]:
+    def environment_cubes(self) -> list[EnvironmentCube]:
+        """One per mirror, drawn when first asked for."""
         if self._cubes is None:
             self._cubes = [
                 EnvironmentCube(
@@ -173,13 +174,9 @@ class Renderer:
         return self._targets
 
     def _solve(self, view: View) -> list[VertexSolution]:
-        return [
-            mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors
-        ]
+        return [mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors]
 
-    def _draw_surfaces(
-        self, targets: _Targets, view: View, solutions: list[VertexSolution], reflect: bool
-    ) -> Any:
+    def _draw_surfaces(self, targets: _Targets, view: View, solutions: list[VertexSolution], reflect: bool) -> Any:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
         draw_primary(targets.seen, self._seen_geometry, self._materials, uniforms)
@@ -246,7 +243,9 @@ class Frame:
         return statistics(self._solutions)
 
     @cached_property
-    def _geometry(self) -> dict[str, Float32Array]:
+    def surfaces(self) -> dict[str, Float32Array]:
+        """Surface buffers through the pixels' centres (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
+        seen_color and, where vertices are solved, reflected_position, reflected_color."""
         return self._renderer.geometry_of(self.view, self._solutions)
 
     def color(self) -> Float32Array:
@@ -255,12 +254,12 @@ class Frame:
 
     def mask(self) -> Int32Array:
         """(h, w) object_id of the reflector at the pixel's centre, 0 elsewhere."""
-        ids = np.rint(self._geometry["seen_position"][..., 3]).astype(np.int32)
-        return np.where(self._geometry["seen_color"][..., 3] > 0.5, ids, 0)
+        ids = np.rint(self.surfaces["seen_position"][..., 3]).astype(np.int32)
+        return np.where(self.surfaces["seen_color"][..., 3] > 0.5, ids, 0)
 
     def reflector_position(self) -> Float32Array:
         """(h, w, 3) world point P seen at the pixel's centre; meant for the pixels of `mask`."""
-        return self._geometry["seen_position"][..., :3]
+        return self.surfaces["seen_position"][..., :3]
 
     def reflected_position(self) -> Float32Array:
         """(h, w, 4) world point that the mirror shows there (w = 1), or the background's unit direction (w = 0)."""
@@ -272,20 +271,20 @@ class Frame:
 
     def iterations(self) -> Float32Array:
         """(h, w) solver iterations, interpolated over the reflected triangles."""
-        if "reflected_color" not in self._geometry:
+        if "reflected_color" not in self.surfaces:
             return np.zeros((self.view.height, self.view.width), np.float32)
-        return self._geometry["reflected_color"][..., 3]
+        return self.surfaces["reflected_color"][..., 3]
 
     @cached_property
     def _reflected(self) -> tuple[Float32Array, Int32Array]:
         mask = self.mask() > 0
-        seen, normal = self._geometry["seen_position"][..., :3], self._geometry["seen_normal"][..., :3]
+        seen, normal = self.surfaces["seen_position"][..., :3], self.surfaces["seen_normal"][..., :3]
         eye = self.view.eye
         to_eye = eye[:3] - seen * eye[3]
         to_eye /= np.maximum(np.linalg.norm(to_eye, axis=-1, keepdims=True), 1e-30)
         direction = 2.0 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
-        if "reflected_position" in self._geometry:
-            hits = self._geometry["reflected_position"]
+        if "reflected_position" in self.surfaces:
+            hits = self.surfaces["reflected_position"]
         elif self._renderer.settings.method == "environment_cube" and self._renderer.mirrors:
             hits = self._cube_hits(direction)
         else:
@@ -298,9 +297,9 @@ class Frame:
         return position, ids
 
     def _cube_hits(self, direction: Float32Array) -> Float32Array:
-        number = np.rint(self._geometry["seen_color"][..., 3]).astype(np.int32)
+        number = np.rint(self.surfaces["seen_color"][..., 3]).astype(np.int32)
         hits = np.zeros((*number.shape, 4), np.float32)
-        for mirror, cube in zip(self._renderer.mirrors, self._renderer._environment_cubes(), strict=True):
+        for mirror, cube in zip(self._renderer.mirrors, self._renderer.environment_cubes(), strict=True):
             here = number == mirror.number
             faces = cube.geometry()
             hits[here] = faces[nearest_texel(faces.shape[1], direction[here])]

@@ -93,7 +93,8 @@ def flatten(
     """Place every instance that `keep` accepts into world space.
 
     `mirror_of` numbers the reflectors (see `corner_mirror`). With `holdouts`, instances that hold out get that as their
-    material: the eye sees a hole there, a mirror sees the object. Normals go by the inverse transpose; a mirroring matrix (negative scale) keeps them pointing to the same side.
+    material: the eye sees a hole there, a mirror sees the object. Normals go by the inverse transpose; a mirroring
+    matrix (negative scale) keeps them pointing to the same side.
     """
     chosen = [instance for instance in scene.instances if keep(instance)]
     parts = [_place(scene.meshes[instance.mesh], instance) for instance in chosen]
@@ -109,9 +110,7 @@ def flatten(
 
     return WorldGeometry(
         positions=joined([part[0] for part in parts], (0, 3), np.float32),
-        position_object=np.repeat(
-            np.array([instance.object_id for instance in chosen], np.int32), position_counts
-        ),
+        position_object=np.repeat(np.array([instance.object_id for instance in chosen], np.int32), position_counts),
         corner_position=joined(
             [mesh.corner_vertex + start for mesh, start in zip(meshes, position_starts, strict=False)], (0,), np.int32
         ),

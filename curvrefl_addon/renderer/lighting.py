@@ -35,7 +35,7 @@ LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
 WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 32
 """World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
 DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
-"""World directions of one sub-frame (each costs as much as a tenth of all other shading), and of a picture of only one"""
+"""World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 LAMP_MAP_BYTES = 80 << 20

@@ -23,18 +23,19 @@ IOR_SLICES = 16
 
 @cache
 def ggx_table(strata: int = 24) -> Float32Array:
-    """(TABLE_SIZE, TABLE_SIZE * IOR_SLICES, 4): rows roughness, columns the viewer's cosine, once per IOR slice.
+    """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): rows roughness, columns the viewer's cosine, once per slice.
 
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
     (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
-    `strata` squared is the number of sampled normals per entry.
+    The slice after the last describes the lobe: x: cosine between its mean direction and the normal; y: roughness of
+    the lobe about its own normal, seen along it, that is spread as much. `strata` squared is the number of sampled normals per entry.
     """
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
-    table = np.zeros((TABLE_SIZE, IOR_SLICES, TABLE_SIZE, 4))
+    table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
     iors = _slice_iors()
     for row, rough in enumerate(roughness):
-        weight, cos_difference = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
+        weight, cos_difference, light = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
         albedo = weight.mean(axis=1)
         table[row, :, :, 0] = albedo
         total = np.maximum(weight.sum(axis=1), 1e-9)
@@ -42,8 +43,14 @@ def ggx_table(strata: int = 24) -> Float32Array:
             f0 = ((ior - 1.0) / (ior + 1.0)) ** 2
             share = np.maximum((fresnel_dielectric(cos_difference, ior) - f0) / (1.0 - f0), 0.0)
             table[row, index, :, 2] = (weight * share).sum(axis=1) / total
-        table[row, :-1, :, 3] = table[row, 1:, :, 2]
         table[row, :, :, 1] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
+        table[row, :-2, :, 3] = table[row, 1:-1, :, 2]
+        mean = (weight[..., None] * light).sum(axis=1) / total[:, None]
+        lengths = np.linalg.norm(mean, axis=1)
+        table[row, -1, :, 0] = mean[:, 2] / lengths
+        table[row, -1, :, 1] = lengths
+    own_lobes = _own_lobe_lengths(roughness)
+    table[:, -1, :, 1] = np.interp(-table[:, -1, :, 1], -own_lobes, roughness)
     return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
 
 
@@ -60,8 +67,19 @@ def _slice_iors() -> list[float]:
     return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
 
 
-def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array]:
-    """Weights G2 / G1 and cosines between viewer and microfacet, (cosines, strata^2), over visible normals."""
+def _own_lobe_lengths(roughness: Float64Array) -> Float64Array:
+    """Length of the mean direction of the lobe about its normal, seen along it, as `lighting_world` filters the sky."""
+    cosine = np.cos(0.5 * np.pi * np.linspace(0.0, 1.0, 4097) ** 3)
+    alpha2 = np.maximum(roughness, 0.02)[:, None] ** 4
+    kernel = cosine / ((0.5 + 0.5 * cosine) * (alpha2 - 1.0) + 1.0) ** 2
+    return np.trapezoid(kernel * cosine, cosine, axis=1) / np.trapezoid(kernel, cosine, axis=1)
+
+
+def _sample_lobe(
+    alpha: float, cosine: Float64Array, strata: int
+) -> tuple[Float64Array, Float64Array, Float64Array]:
+    """Over visible normals, (cosines, strata^2): weights G2 / G1, cosines between viewer and microfacet, and (.., 3)
+    the directions to the light in the frame where the viewer is at (sine, 0, cosine)."""
     steps = (np.arange(strata) + 0.5) / strata
     u1, u2 = (a.ravel()[None, :] for a in np.meshgrid(steps, steps, indexing="ij"))
     view = np.stack([np.sqrt(1.0 - cosine**2), np.zeros_like(cosine), cosine], axis=1)
@@ -77,11 +95,12 @@ def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float
     normal = np.stack(np.broadcast_arrays(alpha * (-z * t2 + x * t3), alpha * t1, np.maximum(x * t2 + z * t3, 1e-9)))
     normal /= np.linalg.norm(normal, axis=0)
     cos_difference = np.clip(normal[0] * view[:, 0:1] + normal[2] * view[:, 2:3], 0.0, 1.0)
-    light_z = 2.0 * cos_difference * normal[2] - view[:, 2:3]
+    light = 2.0 * cos_difference[..., None] * np.moveaxis(normal, 0, -1) - view[:, None, :]
+    light_z = light[..., 2]
     lambda_view = _smith_lambda(alpha, view[:, 2:3])
     lambda_light = _smith_lambda(alpha, np.maximum(light_z, 1e-9))
     weight = np.where(light_z > 0.0, (1.0 + lambda_view) / (1.0 + lambda_view + lambda_light), 0.0)
-    return weight, cos_difference
+    return weight, cos_difference, light
 
 
 def _smith_lambda(alpha: float, cosine: Float64Array) -> Float64Array:

@@ -24,7 +24,9 @@ class Materials:
         self._materials = scene.materials
         self._images = [
             texture_2d(
-                image.pixels, "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F", not image.nearest,
+                image.pixels,
+                "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F",
+                not image.nearest,
                 image.repeat,
             )
             for image in scene.images

@@ -65,7 +65,9 @@ class Mirror:
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
         low, high = self.surface.bounds
-        corners = np.array([[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        corners = np.array(
+            [[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+        )
         clip = corners @ view.world_to_clip.T
         if (clip[:, 3] <= 1e-6).any():
             return (0, 0, view.width, view.height)

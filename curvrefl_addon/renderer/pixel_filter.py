@@ -31,7 +31,7 @@ def offsets(samples: int) -> Float64Array:
         scale *= 0.5
     points = np.column_stack([(index + 0.5) / samples, bits + 0.5 / samples])
     position = np.linspace(-0.5, 0.5, 1025)
-    window = sum(c * np.cos(2 * np.pi * k * (position + 0.5)) for k, c in enumerate(_COEFFICIENTS))
+    window = np.cos(2 * np.pi * np.outer(position + 0.5, np.arange(4))) @ np.array(_COEFFICIENTS)
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (window[1:] + window[:-1]))])
     spread = np.interp(points, cumulative / cumulative[-1], position) * WIDTH
     return spread - spread.mean(axis=0)

@@ -62,6 +62,13 @@ class _PlacedMesh:
         """(triangles, 3, 3)"""
         return self.positions[self.corner_vertex[self.triangles]]
 
+    def from_world(self, point: ArrayLike) -> Float64Array:
+        """(3,) of a point in world space. Raises InputError when it is none."""
+        world = np.asarray(point, np.float64)
+        if world.shape != (3,) or not np.isfinite(world).all():
+            raise InputError("The star centre must be three finite numbers: its x, y and z in world space.")
+        return self.map_to_world[:3, :3].T @ (world - self.map_to_world[:3, 3])
+
 
 def bake_reflectors(
     scene: SceneArrays,
@@ -120,15 +127,15 @@ def bake_instance(
     require_gpu()
     instance = scene.instances[instance_index]
     placed = _place(scene.meshes[instance.mesh], instance)
+    corners = placed.triangle_positions()
+    if (corners == corners[0, 0]).all():
+        raise InputError(f'"{placed.name}" is a single point: choose a mesh with a surface as reflector.')
     if center is None:
-        found = find_star_center(placed.triangle_positions(), np.zeros(3))
+        found = find_star_center(corners, np.zeros(3))
         origin, center_name = found.position, found.name
     else:
-        world_center = np.asarray(center, np.float64)
-        if world_center.shape != (3,) or not np.isfinite(world_center).all():
-            raise InputError("The star centre must be three finite numbers: its x, y and z in world space.")
-        rotation, place = placed.map_to_world[:3, :3], placed.map_to_world[:3, 3]
-        origin, center_name = rotation.T @ (world_center - place), "given"
+        origin, center_name = placed.from_world(center), "given"
+    corners -= origin
 
     raster = CubeRaster(
         (placed.positions - origin)[placed.corner_vertex].astype(np.float32),
@@ -145,7 +152,7 @@ def bake_instance(
     weights = _solid_angle_weights(resolution)
     # An inverted mesh turns its inside outwards all around: then that counts as the outside.
     raster.inverted = float((weights * hits[..., 3]).sum()) < 0.0
-    first, _ = raster.nearest_outside()
+    first = raster.nearest_outside()
     directions = texel_directions(resolution)
     radii = np.einsum("...i,...i->...", hits[..., :3].astype(np.float64), directions)
     first_radii = np.einsum("...i,...i->...", first[..., :3].astype(np.float64), directions)
@@ -162,7 +169,7 @@ def bake_instance(
 
     map_to_world = placed.map_to_world.copy()
     map_to_world[:3, 3] += map_to_world[:3, :3] @ origin
-    radius_error, normal_error, error_points = _measure(placed, origin, raster.inverted, radial)
+    radius_error, normal_error, error_points = _measure(placed, corners, raster.inverted, radial)
     return ReflectorMap(
         object_name=placed.name,
         resolution=resolution,
@@ -210,9 +217,6 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
     map_to_world[:3, :3] = rotation
     map_to_world[:3, 3] = instance.matrix[:3, 3]
     positions = mesh.positions.astype(np.float64) @ stretch.T
-    used = positions[mesh.corner_vertex[mesh.triangles].ravel()]
-    if not np.ptp(used, axis=0).any():
-        raise InputError(f'"{name}" is a single point: choose a mesh with a surface as reflector.')
     return _PlacedMesh(
         name=name,
         map_to_world=map_to_world,
@@ -272,10 +276,12 @@ def _solid_angle_weights(resolution: int) -> Float64Array:
 
 
 def _measure(
-    placed: _PlacedMesh, origin: Float64Array, inverted: bool, radial: Float32Array
+    placed: _PlacedMesh, corners: Float64Array, inverted: bool, radial: Float32Array
 ) -> tuple[Spread, Spread, Float32Array]:
-    """Errors of the map against the mesh's outside, at points spread evenly over its area."""
-    corners = placed.triangle_positions() - origin
+    """Errors of the map against the mesh's outside, at points spread evenly over its area.
+
+    `corners` (triangles, 3, 3) are relative to the star centre.
+    """
     crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.sqrt(np.einsum("ij,ij->i", crossed, crossed))
     outward = np.einsum("ij,ij->i", crossed, corners[:, 0]) * (-1.0 if inverted else 1.0)

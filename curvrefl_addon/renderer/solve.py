@@ -119,9 +119,7 @@ def solve_vertices(
 @cache
 def _solver_shader(method: str) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(
-        "struct Solver { mat4 world_to_map; mat4 map_to_world; vec4 eye; ivec4 counts; vec4 screen; };"
-    )
+    info.typedef_source("struct Solver { mat4 world_to_map; mat4 map_to_world; vec4 eye; ivec4 counts; vec4 screen; };")
     info.uniform_buf(0, "Solver", "solver")
     info.sampler(0, "FLOAT_2D", "positions")
     info.sampler(1, "FLOAT_CUBE", "radial")

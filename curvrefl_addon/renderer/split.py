@@ -3,8 +3,8 @@
 """Splits triangles that are large as seen from a reflector, so that their curved reflections may be drawn straight.
 
 The papers tessellate their models when loading them. Here an edge is halved while it is longer than `angle` times
-its smallest distance to the star centre. That depends on the edge alone, so both its triangles agree and no crack opens,
-and not on the eye, so that an orbit splits nothing anew.
+its smallest distance to the star centre. That depends on the edge alone, so both its triangles agree and no crack
+opens, and not on the eye, so that an orbit splits nothing anew.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def _long_edges(relative: Float32Array, corner_position: Int32Array, corners: In
 
 
 def _number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[Int32Array, Int32Array]:
-    """New index (n,) from `start` on for each unordered pair, equal pairs sharing one, and the pairs (m, 2) in order."""
+    """New index (n,) from `start` on for each unordered pair, one for equal pairs, and the pairs (m, 2) in order."""
     low, high = np.minimum(first, second).astype(np.int64), np.maximum(first, second).astype(np.int64)
     keys, inverse = np.unique(low << 32 | high, return_inverse=True)
     pairs = np.column_stack([keys >> 32, keys & 0xFFFFFFFF]).astype(np.int32)

@@ -98,8 +98,8 @@ def draw_reflected(
 ) -> None:
     """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
 
-    `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth range, metres; `window` (x, y, width, height) holds all
-    of the mirror's pixels.
+    `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth
+    range, metres; `window` (x, y, width, height) holds all of the mirror's pixels.
     """
     if window[2] <= 0 or window[3] <= 0:
         return

@@ -140,7 +140,8 @@ def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
 
 def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
     """The view layer in use where `scene` is the open one, else its first."""
-    return bpy.context.view_layer if bpy.context.scene == scene else scene.view_layers[0]
+    in_use = bpy.context.view_layer
+    return in_use if in_use is not None and bpy.context.scene == scene else scene.view_layers[0]
 
 
 def _near(name: str, known: Iterable[str]) -> str:

@@ -48,11 +48,14 @@ class _Extraction:
         reflectors: Sequence[bpy.types.Object],
         for_render: bool,
     ) -> None:
+        view_layer = depsgraph.view_layer
+        assert view_layer is not None
         self._depsgraph = depsgraph
+        self._view_layer = view_layer
         self._scene = scene
         self._reflectors = {obj.original.as_pointer(): obj.name for obj in reflectors}
-        self._visibility = Visibility(depsgraph.view_layer, for_render)
-        self._override = depsgraph.view_layer.material_override
+        self._visibility = Visibility(view_layer, for_render)
+        self._override = view_layer.material_override
         self._warnings: list[str] = []
         self._images = ImageReader(self._warnings)
         self._materials = MaterialReader(self._images, self._warnings)
@@ -92,7 +95,7 @@ class _Extraction:
         )
 
     def _view_world(self) -> bpy.types.World | None:
-        override = self._depsgraph.view_layer.world_override
+        override = self._view_layer.world_override
         return override if override is not None else self._scene.world
 
     def _add_light(self, instance: Any) -> None:
@@ -193,6 +196,7 @@ def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:
         return read_mesh(obj.data, needs)
     # What is being edited has its evaluated arrays only in a copy.
     mesh = obj.to_mesh()
+    assert mesh is not None
     try:
         return read_mesh(mesh, needs)
     finally:

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -38,9 +40,10 @@ class ImageReader:
             what = "first tile" if image.source == "TILED" else "loaded frame"
             self._warnings.append(f'Of image "{image.name}" only the {what} is drawn.')
         width, height = image.size
+        image_pixels: Any = image.pixels
         pixels = np.empty(width * height * image.channels, np.float32)
-        if pixels.size and len(image.pixels) == pixels.size:
-            image.pixels.foreach_get(pixels)
+        if pixels.size and len(image_pixels) == pixels.size:
+            image_pixels.foreach_get(pixels)
         if pixels.size == 0 or not image.has_data:
             self._warnings.append(f'Image "{image.name}" has no pixels: it is drawn magenta, as in Blender.')
             return np.array([[MISSING_COLOR]], np.float32)

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .arrays import Float32Array, Int32Array, MeshArrays
+from .arrays import Float32Array, Float64Array, Int32Array, MeshArrays
 from .corners import merge_corners
 from .signature import array_signature
 
@@ -124,7 +124,7 @@ def mirrored(mesh: MeshArrays) -> MeshArrays:
 def _data(attribute: bpy.types.Attribute | None) -> Any:
     """The values of an attribute; every kind has `data`, their common base has not."""
     assert attribute is not None
-    return attribute.data  # type: ignore[attr-defined]
+    return attribute.data
 
 
 def _loop_triangles(mesh: bpy.types.Mesh) -> Int32Array:
@@ -134,7 +134,7 @@ def _loop_triangles(mesh: bpy.types.Mesh) -> Int32Array:
     of 32-bit integers, so it is copied as such once its first and last member and its extent say so.
     """
     mesh.calc_loop_triangles()
-    triangles = mesh.loop_triangles
+    triangles: Any = mesh.loop_triangles
     count = len(triangles)
     if count == 0:
         return np.empty((0, 3), np.int32)
@@ -175,7 +175,7 @@ def _uv(
     if name is None:
         return None
     if name in (GENERATED, OBJECT):
-        flat = positions[:, :2]
+        flat: Float64Array | Float32Array = positions[:, :2]
         if name == GENERATED:
             size = np.array(mesh.texspace_size[:2], np.float32)
             location = np.array(mesh.texspace_location[:2], np.float32)
@@ -234,5 +234,5 @@ def _repaired_normals(
     for k in range(3):
         np.add.at(own, triangles[:, k], faces)
     lengths = np.linalg.norm(own, axis=1, keepdims=True)
-    own = np.where(lengths > 0.0, own / np.where(lengths > 0.0, lengths, 1.0), np.float32([0.0, 0.0, 1.0]))
+    own = np.where(lengths > 0.0, own / np.where(lengths > 0.0, lengths, 1.0), np.array([0.0, 0.0, 1.0], np.float32))
     return np.where(np.isfinite(normals).all(axis=1, keepdims=True), normals, own).astype(np.float32)

@@ -68,7 +68,7 @@ def surface_source(tree: bpy.types.NodeTree | None) -> Source | None:
     """What is plugged into the Surface of a material's or world's output as Cycles sees it, or None."""
     if tree is None:
         return None
-    output: Any = tree.get_output_node("CYCLES")  # type: ignore[attr-defined]
+    output: Any = tree.get_output_node("CYCLES")
     if output is None:
         return None
     found = source_of(output.inputs["Surface"])

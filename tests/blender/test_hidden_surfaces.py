@@ -121,7 +121,7 @@ def test_reflector_over_itself(eye: tuple[float, float, float]) -> None:
     frame = render(room, view)
     mirror = room.arrays().meshes[0]
     itself = BVHTree.FromPolygons(mirror.positions.tolist(), mirror.triangles.tolist())
-    point, normal = frame._geometry["seen_position"][..., :3], frame._geometry["seen_normal"][..., :3]
+    point, normal = frame.surfaces["seen_position"][..., :3], frame.surfaces["seen_normal"][..., :3]
     to_eye = unit(view.eye[:3] - point)
     ray = 2 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
     truth, _ = room.cast(point.astype(float), ray.astype(float))
@@ -142,7 +142,7 @@ def test_visibility_flags() -> None:
     hidden_from_mirrors = room.add_ball((1.2, -1.5, 0.2), 0.3, visible_glossy=False)
     hidden_from_eye = room.add_ball((-0.9, -1.4, 0.4), 0.3, visible_camera=False)
     frame = render(room)
-    seen = np.rint(frame._geometry["seen_position"][..., 3])
+    seen = np.rint(frame.surfaces["seen_position"][..., 3])
     assert hidden_from_mirrors in seen and hidden_from_mirrors not in frame.reflected_object()
     assert hidden_from_eye not in seen and hidden_from_eye in frame.reflected_object()
 

@@ -14,7 +14,6 @@ from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, Rad
 from curvrefl.curvrefl_addon.renderer.reflector_bake import Limits, bake_instance, bake_reflector, bake_reflectors
 from curvrefl.curvrefl_addon.renderer.reflector_map import ReflectorMap, Spread, pixel_error
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
-
 from scenes.star_meshes import (
     centroids,
     corner_block,

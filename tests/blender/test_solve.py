@@ -11,7 +11,6 @@ from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_direct
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
 from curvrefl.curvrefl_addon.renderer.solve import solve_vertices, statistics
-
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")

@@ -90,9 +90,7 @@ class Room:
     def _add(self, shape: MeshArrays, matrix: np.ndarray, material: int, **flags: bool) -> int:
         self._meshes.append(shape)
         number = len(self._meshes)
-        self._instances.append(
-            InstanceArrays(f"object {number}", number, number - 1, matrix, (material,), **flags)
-        )
+        self._instances.append(InstanceArrays(f"object {number}", number, number - 1, matrix, (material,), **flags))
         return number
 
     def arrays(self) -> SceneArrays:
@@ -128,7 +126,9 @@ class Room:
         shows, and the point (h, w, 3) that it shows (for the background: the direction)."""
         y, x = np.mgrid[0 : view.height, 0 : view.width]
         near, far = (
-            np.stack([(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.full(x.shape, z), np.ones(x.shape)], -1)
+            np.stack(
+                [(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.full(x.shape, z), np.ones(x.shape)], -1
+            )
             @ np.linalg.inv(view.world_to_clip).T
             for z in (-1.0, 1.0)
         )
@@ -142,5 +142,7 @@ class Room:
         point = origin + t[..., None] * direction
         ray = direction - 2 * (direction * point).sum(-1, keepdims=True) * point
         hit, distance = self.cast(point, ray)
-        shown = np.where(np.isfinite(distance)[..., None], point + np.where(np.isfinite(distance), distance, 0)[..., None] * ray, ray)
+        shown = np.where(
+            np.isfinite(distance)[..., None], point + np.where(np.isfinite(distance), distance, 0)[..., None] * ray, ray
+        )
         return on_ball, hit, shown

@@ -36,5 +36,3 @@ def test_ellipsoid_is_convex() -> None:
 
 def test_bumpy_is_not() -> None:
     assert not is_convex(geometry(Bumpy(0.3)))
-
-
