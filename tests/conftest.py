@@ -17,6 +17,16 @@ except ImportError:
 else:
     HAS_BLENDER = True
 
+try:
+    from hypothesis import settings
+except ImportError:
+    # Tests that need it skip themselves.
+    pass
+else:
+    # The same cases every time, and no clock: a test fails for what changed, not for a busy machine.
+    settings.register_profile("repeatable", deadline=None, derandomize=True)
+    settings.load_profile("repeatable")
+
 TESTS = Path(__file__).resolve().parent
 # Helpers beside the tests that use them; tests/scenes is a package of scene builders.
 sys.path[:0] = [str(TESTS.parent / "tools"), str(TESTS), str(TESTS / "blender")]

@@ -28,7 +28,8 @@ def ggx_table(strata: int = 24) -> Float32Array:
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
     (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
     The slice after the last describes the lobe: x: cosine between its mean direction and the normal; y: roughness of
-    the lobe about its own normal, seen along it, that is spread as much. `strata` squared is the number of sampled normals per entry.
+    the lobe about its own normal, seen along it, that is spread as much.
+    `strata` squared is the number of sampled normals per entry.
     """
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
@@ -75,9 +76,7 @@ def _own_lobe_lengths(roughness: Float64Array) -> Float64Array:
     return np.trapezoid(kernel * cosine, cosine, axis=1) / np.trapezoid(kernel, cosine, axis=1)
 
 
-def _sample_lobe(
-    alpha: float, cosine: Float64Array, strata: int
-) -> tuple[Float64Array, Float64Array, Float64Array]:
+def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array, Float64Array]:
     """Over visible normals, (cosines, strata^2): weights G2 / G1, cosines between viewer and microfacet, and (.., 3)
     the directions to the light in the frame where the viewer is at (sine, 0, cosine)."""
     steps = (np.arange(strata) + 0.5) / strata

@@ -27,6 +27,8 @@ LEAST_COSINE = 0.05
 """Between direction and shading normal; at flatter angles the gradient is clamped to its length there (20 r)"""
 SAME_HIT = 1e-3
 """Two hits along a direction count as one when their radii differ by less than this share"""
+COARSE = 0.01
+"""Error of the radius (95 of 100 points) from which on a warning says that the map is too coarse"""
 ERROR_POINTS = 4096
 """The map is compared with the mesh at so many points"""
 
@@ -170,6 +172,12 @@ def bake_instance(
     map_to_world = placed.map_to_world.copy()
     map_to_world[:3, 3] += map_to_world[:3, :3] @ origin
     radius_error, normal_error, error_points = _measure(placed, corners, raster.inverted, radial)
+    # Where the mesh has a second surface under the first, that one is off at any resolution.
+    if radius_error.p95 > COARSE > multiple_hits:
+        warnings += (
+            f'"{placed.name}" is too long or too jagged for a map of {resolution} texels (5 of 100 points lie off by '
+            f"{percent(radius_error.p95)} or more): raise the map's resolution.",
+        )
     return ReflectorMap(
         object_name=placed.name,
         resolution=resolution,

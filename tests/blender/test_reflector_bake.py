@@ -363,6 +363,13 @@ def test_the_error_falls_with_the_resolution() -> None:
     assert 0.0 < fine.radius_error.median < fine.radius_error.p95 < fine.radius_error.max
 
 
+def test_a_needle_asks_for_a_finer_map() -> None:
+    mesh = star_mesh(Ellipsoid(40.0, 1.0, 1.0), 128)
+    (warning,) = bake(mesh, 32, center=ORIGIN).warnings
+    assert '"Ball"' in warning and "resolution" in warning
+    assert bake(mesh, 512, center=ORIGIN).warnings == ()
+
+
 def test_the_error_is_that_of_the_map() -> None:
     """The stored points, looked up again in the map, give the errors that are told."""
     baked = bake(star_mesh(Bumpy(0.3), 96), 32)
