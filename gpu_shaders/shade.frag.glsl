@@ -47,5 +47,6 @@ void main()
     radiance += lamps_seen(origin, direction, range).rgb;
 #endif
   }
-  color = is_holdout(normal) && !on_mirror ? vec4(0.0) : vec4(tint * radiance, 1.0) * weight;
+  bool blank = !on_mirror && (is_holdout(normal) || mirrors_only > 0.5);
+  color = blank ? vec4(0.0) : vec4(tint * radiance, 1.0) * weight;
 }

@@ -14,11 +14,12 @@ void main()
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
   vec3 radiance = vec3(0.0);
+  bool on_mirror = position.w > 0.0 && base.w > 0.5;
 #ifdef MIRROR_BASE
-  if (position.w > 0.0 && base.w > 0.5) {
+  if (on_mirror) {
     radiance = shade_under_mirror(surface_of(position, normal, base.rgb), -direction);
   }
 #endif
   radiance += lamps_seen(origin, direction, position.w > 0.0 ? distance(position.xyz, origin) : 2e30).rgb;
-  color = vec4(radiance * weight, 0.0);
+  color = on_mirror || mirrors_only < 0.5 ? vec4(radiance * weight, 0.0) : vec4(0.0);
 }

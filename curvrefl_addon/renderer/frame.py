@@ -62,6 +62,19 @@ class _Targets:
         self.back_faces = BackFaces(self.width, self.height)
 
 
+@dataclass(frozen=True)
+class Reflection:
+    """What the mirrors show in one view, before it is drawn."""
+
+    view: View
+    solutions: tuple[VertexSolution, ...]
+    """Per mirror, where vertices are solved"""
+    cubes: tuple[Any, ...] | None
+    """Per mirror the environment cube that stands for what it reflects; None where vertices are solved"""
+    warnings: tuple[str, ...]
+    """One sentence each"""
+
+
 class Renderer:
     """GPU resources of one scene; `free()` when done."""
 
@@ -99,9 +112,9 @@ class Renderer:
         self._lighting = Lighting(scene, flatten(scene), self.settings.samples)
         self.warnings += self._lighting.warnings
         self._shade = ShadePass(scene, self._lighting, self._materials)
+        self._jitter = offsets(self.settings.samples)
         self._targets: _Targets | None = None
         self._cubes: list[EnvironmentCube] | None = None
-        self._solved: tuple[View, list[VertexSolution]] | None = None
 
     def free(self) -> None:
         """Let go of all GPU resources; the renderer is of no use afterwards."""
@@ -109,48 +122,60 @@ class Renderer:
         for mirror in self.mirrors:
             mirror.free()
         self.mirrors = []
-        self._targets = self._cubes = self._solved = None
+        self._targets = self._cubes = None
 
     def render(self, view: View) -> Frame:
         """Draw the picture; its times have the GPU's work in them."""
-        targets = self._targets_for(view)
         color = gpu.types.GPUTexture((view.width, view.height), format="RGBA32F")
         color.filter_mode(False)
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
-        times = {"bake": self.bake_ms}
-        warnings = list(self.warnings)
         start = perf_counter()
-        solutions: list[VertexSolution] = []
-        environments = self._environments(view, warnings)
-        if environments is None:
-            solutions = self._solve(view)
-            for solution in solutions:
-                solution.wait()
-        times["solve"] = 1e3 * (perf_counter() - start)
-
-        start = perf_counter()
+        reflection = self.reflect(view)
+        for solution in reflection.solutions:
+            solution.wait()
+        solved = perf_counter()
         with canvas.bind():
             canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
-        jitter = offsets(self.settings.samples)
-        for i, (dx, dy) in enumerate(jitter):
-            uniforms = self._draw_surfaces(targets, view.jittered(-dx, -dy), solutions, environments is None)
-            self._lighting.prepare(i)
-            reflected = targets.reflected if environments is None else environments
-            self._shade.add(canvas, targets.seen, reflected, uniforms, 1.0 / len(jitter))
+        for index in range(self.settings.samples):
+            self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
         with canvas.bind():
             canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
-        times["draw"] = 1e3 * (perf_counter() - start)
-        times["frame"] = times["solve"] + times["draw"]
-        return Frame(self, view, color, solutions, times, tuple(warnings))
+        done = perf_counter()
+        times = {
+            "bake": self.bake_ms,
+            "solve": 1e3 * (solved - start),
+            "draw": 1e3 * (done - solved),
+            "frame": 1e3 * (done - start),
+        }
+        return Frame(self, reflection, color, times)
 
-    def _environments(self, view: View, warnings: list[str]) -> list[Any] | None:
-        """Per mirror the cube map that stands for what it reflects, or None where vertices are solved."""
+    def reflect(self, view: View) -> Reflection:
+        """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them."""
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
-            warnings.append("The eye is inside a reflector, which shows only itself there: its reflection is black.")
-            return [cube_texture(np.zeros((6, 1, 1, 4), np.float32))] * len(self.mirrors)
-        if self.settings.method != "environment_cube" or not self.mirrors:
-            return None
-        return [cube.color for cube in self.environment_cubes()]
+            black = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
+            warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
+            return Reflection(view, (), (black,) * len(self.mirrors), (*self.warnings, warning))
+        if self.settings.method == "environment_cube" and self.mirrors:
+            cubes = tuple(cube.color for cube in self.environment_cubes())
+            return Reflection(view, (), cubes, tuple(self.warnings))
+        solutions = tuple(
+            mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors
+        )
+        return Reflection(view, solutions, None, tuple(self.warnings))
+
+    def add_sub_frame(
+        self, canvas: Any, reflection: Reflection, index: int, weight: float, mirrors_only: bool = False
+    ) -> None:
+        """Add sub-frame `index` of `settings.samples` to the frame buffer `canvas`.
+
+        With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage.
+        """
+        targets = self._targets_for(reflection.view)
+        dx, dy = self._jitter[index]
+        uniforms = self._draw_surfaces(targets, reflection.view.jittered(-dx, -dy), reflection)
+        self._lighting.prepare(index)
+        shown = targets.reflected if reflection.cubes is None else reflection.cubes
+        self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -173,16 +198,13 @@ class Renderer:
             self._targets = _Targets(view.width, view.height)
         return self._targets
 
-    def _solve(self, view: View) -> list[VertexSolution]:
-        return [mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors]
-
-    def _draw_surfaces(self, targets: _Targets, view: View, solutions: list[VertexSolution], reflect: bool) -> Any:
+    def _draw_surfaces(self, targets: _Targets, view: View, reflection: Reflection) -> Any:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
         draw_primary(targets.seen, self._seen_geometry, self._materials, uniforms)
-        if reflect:
+        if reflection.cubes is None:
             targets.reflected.clear()
-            for mirror, solution in zip(self.mirrors, solutions, strict=True):
+            for mirror, solution in zip(self.mirrors, reflection.solutions, strict=True):
                 if mirror.may_hide_itself:
                     targets.back_faces.draw(mirror.surface, uniforms)
                 draw_reflected(
@@ -199,17 +221,16 @@ class Renderer:
                 )
         return uniforms
 
-    def geometry_of(self, view: View, solutions: list[VertexSolution]) -> dict[str, Float32Array]:
+    def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
         """Surface buffers through the pixel centres, read back (see `Frame`)."""
-        targets = self._targets_for(view)
-        vertices = self.settings.method != "environment_cube" and bool(solutions)
-        self._draw_surfaces(targets, view, solutions, vertices)
+        targets = self._targets_for(reflection.view)
+        self._draw_surfaces(targets, reflection.view, reflection)
         arrays = {
             "seen_position": read_texture(targets.seen.position),
             "seen_normal": read_texture(targets.seen.normal),
             "seen_color": read_texture(targets.seen.color),
         }
-        if vertices:
+        if reflection.cubes is None:
             arrays["reflected_position"] = read_texture(targets.reflected.position)
             arrays["reflected_color"] = read_texture(targets.reflected.color)
         return arrays
@@ -218,35 +239,27 @@ class Renderer:
 class Frame:
     """One picture and what is behind it. Arrays are copies, float32, row 0 at the bottom; valid until `free()`."""
 
-    def __init__(
-        self,
-        renderer: Renderer,
-        view: View,
-        color: Any,
-        solutions: list[VertexSolution],
-        times_ms: dict[str, float],
-        warnings: tuple[str, ...],
-    ) -> None:
+    def __init__(self, renderer: Renderer, reflection: Reflection, color: Any, times_ms: dict[str, float]) -> None:
         self._renderer = renderer
-        self.view = view
+        self._reflection = reflection
+        self.view = reflection.view
         self.color_texture = color
         """RGBA32F, scene-linear"""
-        self._solutions = solutions
         self.times_ms = times_ms
         """bake, solve, draw, frame = solve + draw"""
-        self.warnings = warnings
+        self.warnings = reflection.warnings
         """One sentence each"""
 
     @cached_property
     def solve(self) -> dict[str, Any]:
         """Counts and iterations over all mirrors, as `report.json` has them."""
-        return statistics(self._solutions)
+        return statistics(self._reflection.solutions)
 
     @cached_property
     def surfaces(self) -> dict[str, Float32Array]:
         """Surface buffers through the pixels' centres (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
         seen_color and, where vertices are solved, reflected_position, reflected_color."""
-        return self._renderer.geometry_of(self.view, self._solutions)
+        return self._renderer.surfaces_of(self._reflection)
 
     def color(self) -> Float32Array:
         """(h, w, 4) scene-linear picture, anti-aliased."""

@@ -134,10 +134,7 @@ def flatten(
         if any_color
         else None,
         triangles=joined(
-            [
-                _outward(mesh, instance) + start
-                for mesh, instance, start in zip(meshes, chosen, corner_starts, strict=False)
-            ],
+            [mesh.triangles + start for mesh, start in zip(meshes, corner_starts, strict=False)],
             (0, 3),
             np.int32,
         ),
@@ -167,12 +164,6 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> tuple[Float32Array, Fl
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals /= np.where(lengths > 0, lengths, 1)
     return positions.astype(np.float32), normals.astype(np.float32)
-
-
-def _outward(mesh: MeshArrays, instance: InstanceArrays) -> Int32Array:
-    """Triangles of an instance, counter-clockwise from outside also where a negative scale mirrors the mesh."""
-    mirrors = np.linalg.det(instance.matrix[:3, :3]) < 0.0
-    return mesh.triangles[:, ::-1] if mirrors else mesh.triangles
 
 
 def _pack_color(color: Float32Array) -> Float32Array:

@@ -73,7 +73,7 @@ def _own_lobe_lengths(roughness: Float64Array) -> Float64Array:
     cosine = np.cos(0.5 * np.pi * np.linspace(0.0, 1.0, 4097) ** 3)
     alpha2 = np.maximum(roughness, 0.02)[:, None] ** 4
     kernel = cosine / ((0.5 + 0.5 * cosine) * (alpha2 - 1.0) + 1.0) ** 2
-    return np.trapezoid(kernel * cosine, cosine, axis=1) / np.trapezoid(kernel, cosine, axis=1)
+    return np.asarray(np.trapezoid(kernel * cosine, cosine, axis=1) / np.trapezoid(kernel, cosine, axis=1))
 
 
 def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array, Float64Array]:

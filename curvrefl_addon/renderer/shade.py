@@ -44,28 +44,33 @@ class ShadePass:
         reflected: SurfaceBuffer | Sequence[Any],
         view_uniforms: Any,
         weight: float,
+        mirrors_only: bool = False,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
 
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment cube texture that stands
-        for it.
+        for it. With `mirrors_only` no other pixel is touched.
         """
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             if isinstance(reflected, SurfaceBuffer):
                 shader = self._bound(_shade_shader(False), seen, view_uniforms, weight)
+                shader.uniform_float("mirrors_only", float(mirrors_only))
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
                 full_screen_triangle().draw(shader)
             else:
                 shader = self._bound(_shade_shader(True), seen, view_uniforms, weight)
+                shader.uniform_float("mirrors_only", float(mirrors_only))
                 for number, cube in enumerate(reflected, 1):
                     shader.uniform_float("mirror", float(number))
                     shader.uniform_sampler("environment", cube)
                     full_screen_triangle().draw(shader)
-            if self._has_base or self._has_bodies:
-                full_screen_triangle().draw(self._bound(_front_shader(self._has_base), seen, view_uniforms, weight))
+            if self._has_base or (self._has_bodies and not mirrors_only):
+                shader = self._bound(_front_shader(self._has_base), seen, view_uniforms, weight)
+                shader.uniform_float("mirrors_only", float(mirrors_only))
+                full_screen_triangle().draw(shader)
 
     def _bound(self, shader: Any, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> Any:
         shader.bind()
@@ -85,6 +90,7 @@ def _info() -> Any:
     info.fragment_out(0, "VEC4", "color")
     info.uniform_buf(0, "ViewBlock", "view")
     info.push_constant("FLOAT", "weight")
+    info.push_constant("FLOAT", "mirrors_only")
     info.sampler(0, "FLOAT_2D", "materials")
     for slot, name in enumerate(_SEEN, 1):
         info.sampler(slot, "FLOAT_2D", name)

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from .arrays import Float32Array, Int32Array
 
+BLOCK = 1 << 16
+"""Corners at a time: temporary arrays of that many stay in the cache, and few new pages are asked for"""
+
 
 def merge_corners(
     corner_vertex: Int32Array, vertex_count: int, layers: Sequence[Float32Array]
@@ -25,17 +28,22 @@ def merge_corners(
     vertex needs as many rounds as it has distinct corners, and each round looks only at what is left.
     """
     columns = [column for layer in layers for column in _bits(layer)]
-    vertex = corner_vertex.astype(np.intp)
+    count = len(corner_vertex)
     model_of_vertex = np.empty(vertex_count, np.intp)
-    model_of_vertex[vertex] = np.arange(len(vertex), dtype=np.intp)
+    for start in range(0, count, BLOCK):
+        stop = min(start + BLOCK, count)
+        model_of_vertex[corner_vertex[start:stop]] = np.arange(start, stop)
     models = [model_of_vertex.astype(np.int32)]
-    alike = np.ones(len(vertex), bool)
+    alike = np.ones(count, bool)
     for column in columns:
-        # By way of the vertices: they are fewer, and memory likes it.
-        alike &= column[model_of_vertex][vertex] == column
+        of_model = column[model_of_vertex]
+        for start in range(0, count, BLOCK):
+            block = slice(start, start + BLOCK)
+            alike[block] &= of_model.take(corner_vertex[block]) == column[block]
     if alike.all():
         return corner_vertex, models[0]
 
+    vertex = corner_vertex.astype(np.intp)
     merged = corner_vertex.copy()
     number_of_vertex = np.empty(vertex_count, np.int32)
     count = vertex_count

@@ -75,6 +75,20 @@ def test_principled_lobes_match_in_a_white_world_and_under_a_sun(
             )
 
 
+@pytest.mark.parametrize(("metallic", "roughness"), [(0.0, 0.1), (0.0, 0.5), (1.0, 0.1), (1.0, 0.25), (1.0, 0.8)])
+def test_rough_reflection_of_an_image_world(metallic: float, roughness: float) -> None:
+    """One lobe about one direction stands for the real lobe, which grazing angles bend and cut: see the tolerances."""
+    color = (0.8, 0.4, 0.1) if metallic else (0.02, 0.02, 0.02)
+    material = MaterialArrays("m", color, metallic=metallic, roughness=roughness)
+    for angle, tolerance in ((5.0, 0.06), (50.0, 0.06), (80.0, 0.1)):
+        eye = (6 * np.sin(np.radians(angle)), 0.3, 6 * np.cos(np.radians(angle)))
+        world = WorldArrays((1.0, 1.0, 1.0), sky())
+        stage = Stage([plane(40.0, material=material)], world=world, eye=eye, width=1, pixels=4)
+        ours, _ = our_picture(stage)
+        ratio = ours.mean(axis=(0, 1)) / cycles_picture(stage, 1024).mean(axis=(0, 1))
+        assert np.allclose(ratio, 1.0, atol=tolerance), angle
+
+
 MIRRORS = {
     "metal": MaterialArrays("m", (0.8, 0.4, 0.1), metallic=1.0, roughness=0.0),
     "dielectric": MaterialArrays("m", (0.0, 0.0, 0.0), roughness=0.0, ior=1.5),

@@ -129,7 +129,7 @@ def test_depth_terms_are_the_projections() -> None:
 
 
 def test_ggx_table_at_its_known_ends() -> None:
-    table = ggx_table().reshape(TABLE_SIZE, IOR_SLICES, TABLE_SIZE, 4)
+    table = ggx_table().reshape(TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4)
     assert np.allclose(table[0, 0, 1:, 0], 1.0, atol=2e-3)  # a mirror loses nothing
     assert np.all(np.diff(table[:, 0, -1, 0]) < 1e-3)  # a rougher lobe loses more
     assert abs(float(table[-1, 0, -1, 0]) - (1.0 - np.log(2.0))) < 0.003  # roughness 1, head on: 1 - ln 2 remains
@@ -140,3 +140,8 @@ def test_ggx_table_at_its_known_ends() -> None:
     share = (fresnel_dielectric(cosine, ior) - f0) / (1 - f0)
     assert np.allclose(table[0, 6, 2:, 2], share[2:], atol=5e-3)
     assert np.allclose(table[:, 5, :, 3], table[:, 6, :, 2])
+    # the lobe of a mirror is its ray; head on a lobe keeps to the normal with its own roughness; at the rim it bends
+    assert np.allclose(table[0, -1, 1:, 0], cosine[1:], atol=0.01)
+    assert np.allclose(table[:, -1, -1, 0], 1.0, atol=0.01)
+    assert np.allclose(table[4:, -1, -1, 1], np.linspace(0.0, 1.0, TABLE_SIZE)[4:], atol=0.05)
+    assert np.all(table[16, -1, :24, 0] > cosine[:24])
