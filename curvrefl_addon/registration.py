@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from types import ModuleType
 from typing import Any
 
@@ -14,6 +15,8 @@ from .gpu_caches import clear_gpu_caches
 
 OPERATORS = ("bake_reflector", "compare_with_cycles")
 """Modules of `operators`; each lists its classes in CLASSES"""
+INTERFACE = ("properties", "panel")
+"""Modules of `ui`; the first also attaches settings to Blender's types"""
 
 _PACKAGE = __package__.rpartition(".")[0]
 _classes: list[type] = []
@@ -23,10 +26,13 @@ _commands: list[Any] = []
 def register() -> None:
     """Register everything, or nothing where a part fails."""
     try:
-        for name in OPERATORS:
-            for cls in _module(name).CLASSES:
+        modules = [_module(f"operators.{name}") for name in OPERATORS]
+        modules += [_module(f"curvrefl_addon.ui.{name}") for name in INTERFACE]
+        for module in modules:
+            for cls in module.CLASSES:
                 bpy.utils.register_class(cls)
                 _classes.append(cls)
+        _module("curvrefl_addon.ui.properties").add()
         _commands.append(bpy.utils.register_cli_command("curvrefl", _run_command))
     except BaseException:
         unregister()
@@ -35,6 +41,10 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo what `register` did, last first."""
+    if (viewport := sys.modules.get(f"{__package__}.viewport")) is not None:
+        viewport.unregister()
+    if (properties := sys.modules.get(f"{__package__}.ui.properties")) is not None:
+        properties.remove()
     while _commands:
         bpy.utils.unregister_cli_command(_commands.pop())
     while _classes:
@@ -43,7 +53,7 @@ def unregister() -> None:
 
 
 def _module(name: str) -> ModuleType:
-    return importlib.import_module(f"{_PACKAGE}.operators.{name}")
+    return importlib.import_module(f"{_PACKAGE}.{name}")
 
 
 def _run_command(arguments: list[str]) -> int:

@@ -84,8 +84,9 @@ def measure(side: int, repeats: int, kind: str) -> None:
         corners = len(arrays.meshes[0].corner_vertex)
     added = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0
     print(
-        f"{kind:22s} {len(obj.data.vertices):8d} vertices {corners:8d} corners"
-        f"   median {statistics.median(times):.3f} s   fastest {min(times):.3f} s   processors {statistics.median(cpu_times):.3f} s   peak memory +{added:.0f} MiB",
+        f"{kind:22s} {len(obj.data.vertices):8d} vertices {corners:8d} corners   "
+        f"median {statistics.median(times):.3f} s   fastest {min(times):.3f} s   "
+        f"processors {statistics.median(cpu_times):.3f} s   peak memory +{added:.0f} MiB",
         flush=True,
     )
 

@@ -15,8 +15,13 @@ from .images import ImageReader
 from .node_colors import Change, ColorReader, NodeColor
 from .node_links import Source, find_input, source_of, surface_source
 
-SKY_COLOR = (0.16, 0.24, 0.42)
-"""About the mean of Blender's sky textures at strength 1 with the sun well up, the sun's disc left out"""
+SKY_COLORS = {
+    "SINGLE_SCATTERING": (1.6, 2.0, 2.5),
+    "MULTIPLE_SCATTERING": (2.1, 3.2, 5.0),
+    "PREETHAM": (0.60, 0.64, 0.88),
+    "HOSEK_WILKIE": (0.11, 0.15, 0.17),
+}
+"""Mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, without its disc"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +88,10 @@ class _WorldReader:
         node = source.node
         assert node is not None
         if node.type == "TEX_SKY":
-            self._notes.append("its sky is drawn as an even blue; an environment image of it would be drawn in full")
-            return NodeColor(SKY_COLOR)
+            self._notes.append(
+                "its sky is drawn as an even colour without a sun; an image of it would be drawn in full"
+            )
+            return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
         if node.type != "TEX_ENVIRONMENT":
             return None
         if node.image is None:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.scene.arrays import WorldArrays
 from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.world import SKY_COLORS
 from extraction import cycles_picture, empty_scene, extracted, link
 
 SIZE = 24
@@ -133,14 +134,24 @@ def test_colors(world: bpy.types.World) -> None:
     assert extracted().world.color == (0.0, 0.0, 0.0)
 
 
-def test_a_sky_gets_a_color_and_a_warning(world: bpy.types.World) -> None:
+@pytest.mark.parametrize("kind", list(SKY_COLORS))
+def test_a_sky_gets_its_mean_and_a_warning(world: bpy.types.World, kind: str) -> None:
+    world.cycles.sampling_method = "NONE"
     tree = world.node_tree
-    sky = tree.nodes.new("ShaderNodeTexSky")
+    sky: Any = tree.nodes.new("ShaderNodeTexSky")
+    sky.sky_type, sky.sun_disc, sky.sun_elevation = kind, False, 0.8
+    sky.sun_direction = (0.0, math.cos(0.8), math.sin(0.8))
     tree.links.new(sky.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     read = extracted()
-    assert read.world.color[2] > read.world.color[0] > 0.0
     (warning,) = read.warnings
     assert '"world"' in warning and "sky" in warning
+    camera = bpy.data.cameras.new("camera")
+    camera.type, camera.panorama_type = "PANO", "EQUIRECTANGULAR"
+    bpy.context.scene.camera = link(bpy.data.objects.new("camera", camera))
+    bpy.context.scene.camera.rotation_euler = (math.pi / 2.0, 0.0, 0.0)
+    weights = np.cos((np.arange(16) + 0.5) / 16 * np.pi - 0.5 * np.pi)[:, None, None]
+    mean = (cycles_picture(32, 16, 8) * weights).sum(axis=(0, 1)) / weights.sum() / 32
+    np.testing.assert_allclose(read.world.color, mean, rtol=0.1)
 
 
 def test_two_backgrounds(world: bpy.types.World) -> None:
