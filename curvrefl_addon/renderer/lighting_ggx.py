@@ -68,12 +68,19 @@ def _slice_iors() -> list[float]:
     return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
 
 
+def own_lobe(cosine: np.ndarray, roughness: float) -> np.ndarray:
+    """The lobe about its own normal seen along it, up to a factor, at these cosines to it; float32 stays float32."""
+    alpha2 = cosine.dtype.type(max(roughness, 0.02) ** 4)
+    above = np.maximum(cosine, 0.0)
+    spread = cosine * (0.5 * (alpha2 - 1.0)) + 0.5 * (alpha2 + 1.0)
+    return above / ((above + np.sqrt(above * above * (1.0 - alpha2) + alpha2)) * spread * spread)
+
+
 def _own_lobe_lengths(roughness: Float64Array) -> Float64Array:
-    """Length of the mean direction of the lobe about its normal, seen along it, as `lighting_world` filters the sky."""
+    """Length of the mean direction of `own_lobe`, per roughness."""
     cosine = np.cos(0.5 * np.pi * np.linspace(0.0, 1.0, 4097) ** 3)
-    alpha2 = np.maximum(roughness, 0.02)[:, None] ** 4
-    kernel = cosine / ((0.5 + 0.5 * cosine) * (alpha2 - 1.0) + 1.0) ** 2
-    return np.asarray(np.trapezoid(kernel * cosine, cosine, axis=1) / np.trapezoid(kernel, cosine, axis=1))
+    lobes = [own_lobe(cosine, float(rough)) for rough in roughness]
+    return np.array([np.trapezoid(lobe * cosine, cosine) / np.trapezoid(lobe, cosine) for lobe in lobes])
 
 
 def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array, Float64Array]:

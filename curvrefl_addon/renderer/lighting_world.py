@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, WorldArrays
+from .lighting_ggx import own_lobe
 
 MAP_SIZE = 64
 """Texels along an octahedral map, as WORLD_MAP_SIZE in world_light.glsl"""
@@ -229,14 +230,9 @@ def _lobe_radiance(sky: _Sky, roughness: float, reflected: Float32Array) -> Floa
 
     The split-sum's first factor (Karis, "Real Shading in Unreal Engine 4", 2013).
     """
-    alpha2 = np.float32(roughness**4)
     power = np.column_stack([sky.power, sky.solid_angles]).astype(np.float32)
     directions = sky.directions.T.astype(np.float32)
     result = np.empty((len(reflected), 4), np.float32)
     for start in range(0, len(reflected), 256):
-        cosine = reflected[start : start + 256] @ directions
-        kernel = cosine * (np.float32(0.5) * (alpha2 - np.float32(1.0))) + np.float32(0.5) * (alpha2 + np.float32(1.0))
-        np.square(kernel, out=kernel)
-        np.divide(np.maximum(cosine, 0.0, out=cosine), kernel, out=kernel)
-        result[start : start + 256] = kernel @ power
+        result[start : start + 256] = own_lobe(reflected[start : start + 256] @ directions, roughness) @ power
     return (result[:, :3] / np.maximum(result[:, 3:], 1e-30)).astype(np.float64)

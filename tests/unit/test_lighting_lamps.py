@@ -140,9 +140,9 @@ def test_ggx_table_at_its_known_ends() -> None:
     share = (fresnel_dielectric(cosine, ior) - f0) / (1 - f0)
     assert np.allclose(table[0, 6, 2:, 2], share[2:], atol=5e-3)
     assert np.allclose(table[:, 5, :, 3], table[:, 6, :, 2])
-    # the lobe of a mirror is its ray; head on a lobe is about the normal, little but for masking apart from the
-    # roughness it is compared with; at the rim it bends to the normal
+    # the lobe of a mirror is its ray; head on a lobe is about the normal and of its own roughness, as near as the
+    # sampled normals give its long tails; at the rim it bends to the normal
     assert np.allclose(table[0, -1, 1:, 0], cosine[1:], atol=0.01)
     assert np.allclose(table[:, -1, -1, 0], 1.0, atol=0.01)
-    assert np.allclose(table[4:, -1, -1, 1], np.linspace(0.0, 1.0, TABLE_SIZE)[4:], atol=0.1)
+    assert np.allclose(table[4:, -1, -1, 1], np.linspace(0.0, 1.0, TABLE_SIZE)[4:], atol=0.04)
     assert np.all(table[16, -1, :24, 0] > cosine[:24])
