@@ -128,8 +128,7 @@ def _add_handlers() -> None:
 
 
 def _stop() -> None:
-    for handler, function in zip(_state.handlers, ("PRE_VIEW", "POST_VIEW"), strict=False):
-        del function
+    for handler in _state.handlers:
         bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
     _state.handlers = []
     for handlers, function in _app_handlers():
@@ -240,17 +239,14 @@ def _renderer_for(context: bpy.types.Context) -> Renderer | None:
 def _new_renderer(context: bpy.types.Context) -> Renderer | None:
     """A renderer with all mirrors that can be drawn; the others are named in the messages."""
     depsgraph = context.evaluated_depsgraph_get()
-    settings = context.scene.curvrefl
+    scene = context.scene
+    assert scene is not None
+    settings = scene.curvrefl
     chosen = Settings(method=settings.method, samples=settings.samples, pixel_tolerance=settings.pixel_tolerance)
-    mirrors = mirrors_of(context.scene)
-    usable = []
-    for mirror in mirrors:
-        if not mirror.visible_get(view_layer=context.view_layer):
-            continue
-        usable.append(mirror)
+    usable = [mirror for mirror in mirrors_of(scene) if mirror.visible_get(view_layer=context.view_layer)]
     while usable:
         try:
-            arrays = extract_scene(depsgraph, context.scene, usable, for_render=False)
+            arrays = extract_scene(depsgraph, scene, usable, for_render=False)
             renderer = Renderer(arrays, chosen)
         except InputError as error:
             _state.messages.append(str(error))

@@ -7,6 +7,7 @@
 #define SMALLEST_DIFFERENCE 1e-5
 #define FLATTEST 1e-5
 #define LONGEST_NEWTON_STEP 0.3
+#define LONGEST_LAST_STEP 0.005
 #define TRIALS 6
 #define SHORTENING 0.35
 #define SUFFICIENT 1e-4
@@ -40,7 +41,11 @@ vec3 newton_step(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 g, out bo
 {
   vec3 first, second;
   tangent_frame(u, first, second);
-  float delta = DIFFERENCE * min(1.0, 3.0 * length(vertex - at.position) / at.radius) + SMALLEST_DIFFERENCE;
+  float nearest = length(vertex - at.position);
+  if (eye.w > 0.0) {
+    nearest = min(nearest, length(eye.xyz - at.position));
+  }
+  float delta = DIFFERENCE * min(1.0, 3.0 * nearest / at.radius) + SMALLEST_DIFFERENCE;
   vec3 by_first = gradient_difference(eye, vertex, u, first, delta, g);
   vec3 by_second = gradient_difference(eye, vertex, u, second, delta, g);
   float gx = dot(g, first);
@@ -73,7 +78,8 @@ bool minimise(vec4 eye, float focal, vec3 vertex, int steps, float tolerance, in
   for (int i = 0; i < steps; i++) {
     bool regular;
     vec3 step_taken = newton_step(eye, vertex, u, at, g, regular);
-    bool done = regular && length(in_pixels(eye, focal, at.position, at.radius * step_taken)) < tolerance;
+    bool done = regular && length(step_taken) < LONGEST_LAST_STEP &&
+                length(in_pixels(eye, focal, at.position, at.radius * step_taken)) < tolerance;
     iterations++;
     float slope = dot(g, step_taken);
     float gradient_length = length(g);

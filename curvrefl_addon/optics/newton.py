@@ -20,12 +20,14 @@ if TYPE_CHECKING:
     from .secant_star import Screen
 
 DIFFERENCE = 1e-3
-"""Angle for second derivatives, radians; shrinks with the distance of a vertex in contact."""
+"""Angle for second derivatives, radians; shrinks with the distance of a vertex or an eye in contact."""
 SMALLEST_DIFFERENCE = 1e-5
 FLATTEST = 1e-5
 """Smallest eigenvalue of the second derivative, relative to the largest, that is not shifted."""
 LONGEST_STEP = 0.3
 """Radians"""
+LONGEST_LAST_STEP = 0.005
+"""Radians: at the silhouette a long step along the line of sight covers few pixels, and leaves more"""
 TRIALS = 6
 """Lengths of one step that are tried"""
 SHORTENING = 0.35
@@ -97,7 +99,7 @@ def minimise(
         g = path_gradient(eye, target, here, at)
         step, regular = _newton_step(surface, eye, target, here, at, g)
         pixels = np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
-        done = (pixels < tolerance) & regular
+        done = (pixels < tolerance) & (np.linalg.norm(step, axis=1) < LONGEST_LAST_STEP) & regular
         iterations[active] += 1
 
         slope = _dot(g, step)
@@ -134,8 +136,10 @@ def _newton_step(
 ) -> tuple[Float64Array, np.ndarray]:
     """Tangent step (n, 3), and whether the second derivative was positive as it was, without a shift."""
     first, second = tangent_frame(u)
-    to_vertex = np.linalg.norm(vertices - at.position, axis=1)
-    delta = DIFFERENCE * np.minimum(1.0, 3.0 * to_vertex / at.radius) + SMALLEST_DIFFERENCE
+    nearest = np.linalg.norm(vertices - at.position, axis=1)
+    if eye[3]:
+        nearest = np.minimum(nearest, np.linalg.norm(eye[:3] - at.position, axis=1))
+    delta = DIFFERENCE * np.minimum(1.0, 3.0 * nearest / at.radius) + SMALLEST_DIFFERENCE
 
     def difference(direction: Float64Array) -> Float64Array:
         moved = unit(u + delta[:, None] * direction)

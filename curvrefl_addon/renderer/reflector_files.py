@@ -72,15 +72,16 @@ def load(folder: Path | str) -> ReflectorMap:
         error_points = load_exr(points)[0] if points.is_file() else np.zeros((0, 4), np.float32)
         spreads = {name: Spread(**description.pop(name)) for name in _SPREADS}
         numbers = {name: float(description.pop(name)) for name in _NUMBERS}
-        reflector = ReflectorMap(
-            world_to_map=_rigid(description.pop("world_to_map")),
-            warnings=tuple(description.pop("warnings")),
-            error_points=error_points,
+        fields: dict[str, Any] = {
+            "world_to_map": _rigid(description.pop("world_to_map")),
+            "warnings": tuple(description.pop("warnings")),
+            "error_points": error_points,
             **{name: _cube(name, picture, resolution) for name, picture in pictures.items()},
             **spreads,
             **numbers,
             **description,
-        )
+        }
+        reflector = ReflectorMap(**fields)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f'The baked reflector in "{folder}" is damaged ({error}): bake it again.') from error
     return reflector

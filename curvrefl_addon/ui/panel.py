@@ -37,7 +37,8 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         else:
             layout.prop(item.curvrefl, "is_mirror", text=f"{item.name} is a Mirror")
         messages = viewport.messages()
-        if not mirrors_of(context.scene):
+        scene = context.scene
+        if scene is not None and not mirrors_of(scene):
             messages = ["No object is marked as a mirror", *messages]
         for message in messages:
             _wrapped(layout, message, context.region.width)

@@ -9,7 +9,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics import fermat, newton, secant_star, sphere, status
 from curvrefl.curvrefl_addon.optics.pierce import pierce
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 SURFACES = {"sphere": Ellipsoid(), "ellipsoid": Ellipsoid(1.0, 0.5, 0.25), "bumpy": Bumpy(0.15)}
@@ -88,6 +88,7 @@ def test_quartic_reflects(distance: float, scale: float, seed: int) -> None:
 
 
 @given(distance=st.floats(1.05, 50.0), seed=st.integers(0, 10_000))
+@example(distance=1.05078125, seed=2989)
 @settings(max_examples=25, deadline=None)
 def test_secant_star_finds_the_quartics_point(distance: float, seed: int) -> None:
     eye = eye_at(distance, seed)
