@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .scene.arrays import SceneArrays
     from .scene.view import View
 
-DEMO_SAMPLES = 128
+DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent

@@ -61,7 +61,8 @@ vec3 schlick(vec3 f0, float edge, float cosine)
 
 // x: albedo of the lobe with Fresnel 1; y: mean over it of Schlick's (1 - cos)^5; z, w: mean share of a dielectric's
 // Fresnel term between F0 and 1, of this slice's IOR and the next's. In the slice after the last, x: cosine between the
-// lobe's mean direction and the normal, y: roughness of the lobe that is spread as much about its own normal.
+// lobe's mean direction and the normal, y: roughness of the lobe that is spread as much about its own normal; z, w: of a
+// dielectric.
 vec4 ggx_table(float roughness, float cosine, float slice)
 {
   vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;

@@ -4,7 +4,8 @@
 // Needs the samplers and the uniform block of renderer/lighting.py (Lighting.declare).
 //
 // lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
-//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour; 2..4: rows of the rotation
+//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour, brightest that
+//   is no sun; 2..4: rows of the rotation
 //   from world to image directions. Without lamps or directions the first record is dark: the loops over them run at
 //   least once, as a software renderer runs the body of a `for` once more than it needs.
 #define HEADER_RECORDS 8

@@ -52,7 +52,10 @@ vec4 world_lobe(vec3 direction, float roughness)
   int layer = WORLD_MAP_LOBES + int(below);
   vec4 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
   if (roughness < 0.2) {
-    radiance.rgb = mix(world_radiance(direction), radiance.rgb, roughness / 0.2);
+    // the image's suns are lamps to glossy surfaces
+    vec3 sharp = world_radiance(direction);
+    sharp *= min(1.0, lighting_data[1].w / max(sharp.r + sharp.g + sharp.b, 1e-9));
+    radiance.rgb = mix(sharp, radiance.rgb, roughness / 0.2);
   }
   return radiance;
 }
@@ -79,7 +82,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
   vec3 sum = vec3(0.0);
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
-    vec2 shape = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES)).xy;
+    vec4 shapes = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES));
+    vec2 shape = lobes.dielectric_weight > 0.0 ? mix(shapes.zw, shapes.xy, clamp(s.metallic, 0.0, 1.0)) : shapes.xy;
     vec3 middle = lobe_middle(to_viewer, s.normal, shape.x);
     vec3 lost = vec3(0.0);
     float lobe_lost = 0.0;

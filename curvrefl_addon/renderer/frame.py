@@ -36,8 +36,8 @@ class Settings:
 
     method: str = "secant_star"
     """A name of `optics.catalogue.METHODS`"""
-    samples: int = 16
-    """Jittered sub-frames of an anti-aliased picture; 1: pixel centres only"""
+    samples: int = 2
+    """Jittered sub-frames of an anti-aliased picture; 1: pixel centres only, 16: a still"""
     pixel_tolerance: float = 0.5
     """Largest error of a reflected chord in pixels; the solver goes to a tenth of it"""
     map_resolution: int = 128

@@ -21,6 +21,7 @@ from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .lighting_shadow_maps import BORDER, MANY_TRIANGLES, ShadowCasters, ShadowMaps, window_rows
 from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
+from .lighting_suns import split_suns
 from .lighting_world import world_light
 
 HEADER_RECORDS = 8
@@ -38,7 +39,7 @@ DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
-LAMP_MAP_BYTES = 80 << 20
+LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
 
 
@@ -56,7 +57,8 @@ class Lighting:
         casts = _casting_triangles(scene, geometry, triangles)
         self._extent = SceneExtent(geometry.positions, triangles, casts)
         self._casters = ShadowCasters(geometry.positions, self._extent)
-        self._lights = self._chosen_lights(scene.lights)
+        self._sky = split_suns(scene.world)
+        self._lights = self._chosen_lights(scene.lights + self._sky.suns)
         many = len(triangles) > MANY_TRIANGLES
         self._samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if many else LAMP_SAMPLES)
         self._most_directions = WORLD_DIRECTIONS_OF_MANY if many else WORLD_DIRECTIONS
@@ -155,7 +157,7 @@ class Lighting:
         lit = max(world.color) > 0.0
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         self._directions_at_once = min(-(-self._most_directions // self.sub_frames), at_once) if lit else 0
-        self._world_light = light = world_light(world, max(self._directions_at_once * self.sub_frames, 1))
+        self._world_light = light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         views: list[ShadowView] = []
         self._world_layers = np.full(len(light.directions), -1)
         for index, direction in enumerate(light.directions if lit else ()):
@@ -201,7 +203,7 @@ class Lighting:
             records[start + 2 : start + 5] = window_rows(view, self._world_maps.resolution)[:3]
             world_layers.append(layer)
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
-        records[1, :3] = self._world.color
+        records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
         records[2:5, :3] = self._world.rotation
         return lamp_layers, world_layers, records
 

@@ -28,7 +28,8 @@ def ggx_table(strata: int = 24) -> Float32Array:
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
     (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
     The slice after the last describes the lobe: x: cosine between its mean direction and the normal; y: roughness of
-    the lobe about its own normal, seen along it, that is spread as much.
+    the lobe about its own normal, seen along it, that is spread as much; z, w: the same of a dielectric's lobe
+    (IOR 1.5), whose Fresnel term draws it to the rim.
     `strata` squared is the number of sampled normals per entry.
     """
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
@@ -46,12 +47,13 @@ def ggx_table(strata: int = 24) -> Float32Array:
             table[row, index, :, 2] = (weight * share).sum(axis=1) / total
         table[row, :, :, 1] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
         table[row, :-2, :, 3] = table[row, 1:-1, :, 2]
-        mean = (weight[..., None] * light).sum(axis=1) / total[:, None]
-        lengths = np.linalg.norm(mean, axis=1)
-        table[row, -1, :, 0] = mean[:, 2] / lengths
-        table[row, -1, :, 1] = lengths
+        for channel, part in ((0, weight), (2, weight * fresnel_dielectric(cos_difference, 1.5))):
+            mean = (part[..., None] * light).sum(axis=1) / np.maximum(part.sum(axis=1), 1e-9)[:, None]
+            lengths = np.linalg.norm(mean, axis=1)
+            table[row, -1, :, channel] = mean[:, 2] / lengths
+            table[row, -1, :, channel + 1] = lengths
     own_lobes = _own_lobe_lengths(roughness)
-    table[:, -1, :, 1] = np.interp(-table[:, -1, :, 1], -own_lobes, roughness)
+    table[:, -1, :, 1::2] = np.interp(-table[:, -1, :, 1::2], -own_lobes, roughness)
     return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
 
 

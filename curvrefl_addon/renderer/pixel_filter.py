@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where in a pixel the sub-frames of an anti-aliased picture look.
 
-Sub-frames have equal weights; their offsets are spread as Cycles' pixel filter is, a Blackman-Harris window of 1.5
-pixels, so that the average converges to the same picture.
+Sub-frames have equal weights; their offsets are spread as Cycles' pixel filter is, a Blackman-Harris window, so that
+the average converges to the same picture.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import numpy as np
 
 from ..scene.arrays import Float64Array
 
-WIDTH = 1.5
-"""Pixels, Cycles' default"""
+WIDTH = 3.0
+"""Pixels from end to end: Cycles' default filter width of 1.5 is half of a Blackman-Harris window's"""
 _COEFFICIENTS = (0.35875, -0.48829, 0.14128, -0.01168)
 
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.renderer.lighting_suns import split_suns
 from curvrefl.curvrefl_addon.renderer.lighting_world import (
     MAP_SIZE,
     ROUGHNESS_LEVELS,
@@ -117,3 +118,33 @@ def test_dark_world_image_has_no_wild_values() -> None:
     for array in (light.maps, light.weights, light.directions):
         assert np.isfinite(array).all()
     assert np.all(light.weights == 0.0)
+
+
+def test_a_sun_leaves_the_image_as_a_lamp_and_no_light_is_lost() -> None:
+    image, sun = sky_with_sun(256)
+    rotation = rotation_about_x(0.7)
+    world = WorldArrays((2.0, 1.0, 1.0), image, rotation)
+    sky = split_suns(world)
+    (lamp,) = sky.suns
+    towards = lamp.matrix[:3, 2]
+    assert towards @ (sun @ rotation) > np.cos(0.005)
+    assert np.isclose(lamp.angle, 2 * 0.05, rtol=0.1)
+    assert not lamp.visible_glossy
+    assert sky.world.image is not None
+    assert (sky.world.image @ np.array([2.0, 1.0, 1.0])).max() <= sky.limit * 1.0001
+    _, solid_angles = image_directions(*image.shape[:2])
+
+    def light_of(pixels: np.ndarray) -> np.ndarray:
+        return (pixels * solid_angles[:, None, None]).sum(axis=(0, 1), dtype=np.float64) * np.array([2.0, 1.0, 1.0])
+
+    assert np.allclose(light_of(sky.world.image) + lamp.color, light_of(image), rtol=1e-3)
+    assert split_suns(world).world is sky.world
+
+
+def test_skies_without_a_sun_stay_whole() -> None:
+    directions, _ = image_directions(64, 128)
+    gradient = np.repeat(1.0 + directions[..., 2:], 3, axis=-1).astype(np.float32)
+    for world in (WorldArrays((1.0, 1.0, 1.0)), WorldArrays((1.0, 1.0, 1.0), gradient)):
+        sky = split_suns(world)
+        assert sky.world is world
+        assert sky.suns == ()
