@@ -45,7 +45,6 @@ class _Region:
     texture: Any
     canvas: Any
     sub_frames: int = 0
-    previous_frame_buffer: Any = None
 
 
 @dataclass
