@@ -28,9 +28,9 @@ from .errors import InputError
 from .renderer.frame import Reflection, Renderer, Settings
 from .renderer.gpu_objects import drawing_state, full_screen_triangle
 from .renderer.solve import statistics as solve_statistics
+from .scene.blend_file import SURFACE_TYPES
 from .scene.extract import extract_scene
 from .scene.view import View
-from .ui.properties import mirrors_of
 
 IDLE_SECONDS = 0.02
 """Between the sub-frames of a view that rests"""
@@ -71,6 +71,11 @@ def switch(on: bool) -> None:
         _state.messages.clear()
         _add_handlers()
     _redraw_all()
+
+
+def mirrors_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Objects of the scene that are marked as mirrors."""
+    return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
 
 
 def messages() -> list[str]:

@@ -9,15 +9,11 @@ differences of the gradient, because the map holds r and grad r only.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from .fermat import SurfaceSample, path_gradient, sample
 from .radial_surfaces import Float64Array, RadialSurface, unit
-
-if TYPE_CHECKING:
-    from .secant_star import Screen
+from .screen import Screen
 
 DIFFERENCE = 1e-3
 """Angle for second derivatives, radians; shrinks with the distance of a vertex or an eye in contact."""

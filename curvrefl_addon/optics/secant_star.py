@@ -29,10 +29,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import status
-from .fermat import SurfaceSample, is_reflection_side, path_gradient, sample, towards_eye
+from .fermat import SurfaceSample, is_reflection_side, path_gradient, sample
 from .newton import guess, minimise, tangent_frame
 from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
+from .screen import Screen
 
 SMALL_DETERMINANT = 1e-5
 """Relative to a'^2 b'^2: gradient differences closer to parallel than about 0.2 degrees are ill-conditioned."""
@@ -45,22 +46,6 @@ SEARCH_STEPS = 6
 NEWTON_STEPS = 20
 SMALLEST_START = 0.01
 """Half the start edge AB in radians where A and B (nearly) coincide."""
-
-
-@dataclass(frozen=True)
-class Screen:
-    """What turns lengths at the reflector into pixels: `focal` pixels per radian, or per metre for w = 0 eyes."""
-
-    eye: Float64Array
-    """(4,) homogeneous, relative to the star centre"""
-    focal: float
-
-    def pixels(self, points: Float64Array, offsets: Float64Array) -> Float64Array:
-        """Offsets (n, 3) at points (n, 3) as seen from the eye: perpendicular part in pixels, (n, 3)."""
-        direction = towards_eye(self.eye, points)
-        across = offsets - np.einsum("ij,ij->i", offsets, direction)[:, None] * direction
-        distance = np.linalg.norm(self.eye[:3] - points, axis=1) if self.eye[3] else np.ones(len(points))
-        return across * (self.focal / np.maximum(distance, 1e-30))[:, None]
 
 
 @dataclass(frozen=True)

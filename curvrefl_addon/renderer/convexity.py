@@ -10,7 +10,7 @@ from .geometry import WorldGeometry
 
 DENT = 1e-3
 """Relative to the size: what stands out less far over a tangent plane hides nothing that can be seen"""
-TANGENT_PLANES = 1024
+TANGENT_PLANES = 256
 
 
 def is_convex(geometry: WorldGeometry) -> bool:

@@ -89,12 +89,10 @@ class Renderer:
         require_gpu()
         self.scene = scene
         self.warnings: list[str] = list(scene.warnings)
-        start = perf_counter()
         chosen = [i for i, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
         self.mirrors = [
             Mirror(scene, index, number, self.settings.map_resolution) for number, index in enumerate(chosen, 1)
         ]
-        self.bake_ms = 1e3 * (perf_counter() - start)
         for mirror in self.mirrors:
             self.warnings += mirror.map.warnings
         if self.mirrors and not any(len(mirror.whole_scenery.triangles) for mirror in self.mirrors):
@@ -142,7 +140,7 @@ class Renderer:
             canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
         done = perf_counter()
         times = {
-            "bake": self.bake_ms,
+            "bake": sum(mirror.bake_ms for mirror in self.mirrors),
             "solve": 1e3 * (solved - start),
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),

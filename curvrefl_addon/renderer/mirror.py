@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,9 @@ class Mirror:
     def __init__(self, scene: SceneArrays, instance_index: int, number: int, map_resolution: int) -> None:
         """Bakes the radial map. Raises InputError where the shape cannot be one."""
         self.number = number
+        start = perf_counter()
         self.map = bake_instance(scene, instance_index, map_resolution)
+        self.bake_ms = 1e3 * (perf_counter() - start)
         self.radial = cube_texture(self.map.radial)
         own = scene.instances[instance_index]
 

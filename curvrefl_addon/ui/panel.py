@@ -8,8 +8,6 @@ from typing import Any
 
 import bpy
 
-from .properties import mirrors_of
-
 
 class _Tab:
     bl_space_type = "VIEW_3D"
@@ -38,7 +36,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
             layout.prop(item.curvrefl, "is_mirror", text=f"{item.name} is a Mirror")
         messages = viewport.messages()
         scene = context.scene
-        if scene is not None and not mirrors_of(scene):
+        if scene is not None and not viewport.mirrors_of(scene):
             messages = ["No object is marked as a mirror", *messages]
         for message in messages:
             _wrapped(layout, message, context.region.width)

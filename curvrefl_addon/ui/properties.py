@@ -10,7 +10,6 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..optics.catalogue import METHODS
-from ..scene.blend_file import SURFACE_TYPES
 
 
 def _is_switched(_self: Any, context: bpy.types.Context) -> None:
@@ -91,8 +90,3 @@ def remove() -> None:
     ):
         if hasattr(owner, name):
             delattr(owner, name)
-
-
-def mirrors_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Objects of the scene that are marked as mirrors."""
-    return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]

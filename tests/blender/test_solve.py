@@ -9,6 +9,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics import secant_star, status
 from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
 from curvrefl.curvrefl_addon.renderer.solve import solve_vertices, statistics
 from scenes.views import look_at
@@ -53,7 +54,7 @@ def test_shader_follows_the_reference(name: str, orthographic: bool) -> None:
     points, code, iterations, virtual = solution.read()
 
     eye = world_to_map @ view.eye
-    reference = secant_star.solve(surface, secant_star.Screen(eye, view.focal_pixels), vertices)
+    reference = secant_star.solve(surface, Screen(eye, view.focal_pixels), vertices)
     assert (code == reference.status).mean() > 0.998
     both = (code == status.REFLECTED) & (reference.status == status.REFLECTED)
     assert both.mean() > 0.5

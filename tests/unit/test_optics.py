@@ -9,6 +9,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics import fermat, newton, secant_star, sphere, status
 from curvrefl.curvrefl_addon.optics.pierce import pierce
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.screen import Screen
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -93,7 +94,7 @@ def test_quartic_reflects(distance: float, scale: float, seed: int) -> None:
 def test_secant_star_finds_the_quartics_point(distance: float, seed: int) -> None:
     eye = eye_at(distance, seed)
     # The mirror is 200 pixels in radius whatever the distance, as a user would frame it.
-    screen = secant_star.Screen(eye, 200.0 * distance)
+    screen = Screen(eye, 200.0 * distance)
     vertices = around(Ellipsoid(), 400, seed + 1)
     truth = sphere.reflection_points(eye[:3], vertices, 1.0)
     solution = secant_star.solve(Ellipsoid(), screen, vertices)
@@ -112,7 +113,7 @@ def test_secant_star_converges(name: str, distance: float) -> None:
     """At most 1 percent unconverged; what it calls reflected obeys the mirror law."""
     surface = SURFACES[name]
     eye = eye_at(distance, 5)
-    screen = secant_star.Screen(eye, 200.0 * distance)
+    screen = Screen(eye, 200.0 * distance)
     solution = secant_star.solve(surface, screen, around(surface, 5000, 6))
     assert (solution.status == status.UNSOLVED).mean() <= 0.005
     reflected = solution.status == status.REFLECTED
@@ -129,8 +130,8 @@ def test_secant_star_converges(name: str, distance: float) -> None:
 def test_orthographic_eye_is_the_limit_of_a_far_one() -> None:
     surface, vertices = SURFACES["ellipsoid"], around(SURFACES["ellipsoid"], 1000, 8)
     axis = unit(np.array([1.0, -2.0, 0.7]))
-    far = secant_star.solve(surface, secant_star.Screen(np.append(1e6 * axis, 1.0), 2e8), vertices)
-    infinite = secant_star.solve(surface, secant_star.Screen(np.append(axis, 0.0), 200.0), vertices)
+    far = secant_star.solve(surface, Screen(np.append(1e6 * axis, 1.0), 2e8), vertices)
+    infinite = secant_star.solve(surface, Screen(np.append(axis, 0.0), 200.0), vertices)
     assert (far.status == infinite.status).mean() > 0.998
     both = (far.status == status.REFLECTED) & (infinite.status == status.REFLECTED)
     assert np.linalg.norm(far.at.position - infinite.at.position, axis=1)[both].max() < 1e-3
@@ -143,7 +144,7 @@ def test_vertices_on_the_axis_and_at_special_directions(name: str) -> None:
     eye = np.array([0.0, 0.0, 4.0, 1.0])
     u = unit(np.array([[0, 0, 1], [0, 0, -1], [1, 0, 0], [1, 1, 1], [1, 1, 0], [-1, 1, -1], [0, 1e-9, 1]], float))
     vertices = 2.0 * u
-    solution = secant_star.solve(surface, secant_star.Screen(eye, 800.0), vertices)
+    solution = secant_star.solve(surface, Screen(eye, 800.0), vertices)
     assert np.isfinite(solution.at.position).all()
     assert solution.status[1] == status.HIDDEN
     assert (solution.status != status.UNSOLVED).all()
@@ -167,10 +168,10 @@ def test_eye_at_infinity_pierces() -> None:
 @settings(max_examples=10, deadline=None)
 def test_scale_does_not_matter(scale: float, seed: int) -> None:
     vertices, eye = around(Ellipsoid(1, 0.5, 0.25), 300, seed), eye_at(4.0, seed)
-    one = secant_star.solve(Ellipsoid(1, 0.5, 0.25), secant_star.Screen(eye, FOCAL), vertices)
+    one = secant_star.solve(Ellipsoid(1, 0.5, 0.25), Screen(eye, FOCAL), vertices)
     scaled_eye = np.append(scale * eye[:3], 1.0)
     scaled_surface = Ellipsoid(scale, 0.5 * scale, 0.25 * scale)
-    other = secant_star.solve(scaled_surface, secant_star.Screen(scaled_eye, FOCAL), scale * vertices)
+    other = secant_star.solve(scaled_surface, Screen(scaled_eye, FOCAL), scale * vertices)
     assert (one.status == other.status).mean() > 0.99
     both = (one.status == status.REFLECTED) & (other.status == status.REFLECTED)
     error = np.linalg.norm(one.at.position - other.at.position / scale, axis=1)[both]

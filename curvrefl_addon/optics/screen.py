@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lengths at the reflector in pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .fermat import towards_eye
+from .radial_surfaces import Float64Array
+
+
+@dataclass(frozen=True)
+class Screen:
+    """What turns lengths at the reflector into pixels: `focal` pixels per radian, or per metre for w = 0 eyes."""
+
+    eye: Float64Array
+    """(4,) homogeneous, relative to the star centre"""
+    focal: float
+
+    def pixels(self, points: Float64Array, offsets: Float64Array) -> Float64Array:
+        """Offsets (n, 3) at points (n, 3) as seen from the eye: perpendicular part in pixels, (n, 3)."""
+        direction = towards_eye(self.eye, points)
+        across = offsets - np.einsum("ij,ij->i", offsets, direction)[:, None] * direction
+        distance = np.linalg.norm(self.eye[:3] - points, axis=1) if self.eye[3] else np.ones(len(points))
+        return across * (self.focal / np.maximum(distance, 1e-30))[:, None]
