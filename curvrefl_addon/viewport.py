@@ -161,12 +161,18 @@ def _app_handlers() -> list[tuple[list[Any], Callable[..., None]]]:
 
 @persistent
 def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    # Selecting and the like update the scene's datablock alone and change nothing that is drawn.
-    if any(
-        update.is_updated_geometry or update.is_updated_transform or update.is_updated_shading
-        for update in depsgraph.updates
-    ):
+    if any(_changes_picture(update) for update in depsgraph.updates):
         forget_scene(scene)
+
+
+def _changes_picture(update: bpy.types.DepsgraphUpdate) -> bool:
+    """Whether what is drawn may change: not by selecting, and not by moving a camera, which is only another view."""
+    changed = update.id
+    if isinstance(changed, bpy.types.Camera) or (
+        isinstance(changed, bpy.types.Object) and changed.type in {"CAMERA", "SPEAKER", "LIGHT_PROBE"}
+    ):
+        return False
+    return update.is_updated_geometry or update.is_updated_transform or update.is_updated_shading
 
 
 @persistent

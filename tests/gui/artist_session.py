@@ -95,8 +95,14 @@ def orbit():
     return RESTING
 
 
-def move():
+def move_camera():
     note("moved the view again")
+    bpy.context.scene.camera.location.x += 0.01
+    return 3.0
+
+
+def move():
+    note("moved the camera")
     bpy.data.objects["Ball"].location.z += 0.01
     return RESTING
 
@@ -118,7 +124,7 @@ def end() -> None:
     bpy.ops.wm.quit_blender()
 
 
-steps = [prepare, enable, look, orbit, move, disable, finish]
+steps = [prepare, enable, look, orbit, move_camera, move, disable, finish]
 
 
 def advance():

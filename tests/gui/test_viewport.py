@@ -78,6 +78,7 @@ def test_orbit_reads_nothing_and_a_move_reads_once(session: Path) -> None:
     assert reads == [1, 1, 1]
     solves = [steps[name]["counters"]["solves"] for name in ("enabled", "moved the view", "moved the view again")]
     assert solves == [1, 2, 3]
+    assert steps["moved the camera"]["counters"]["scene reads"] == 1
     assert steps["moved an object"]["counters"]["scene reads"] == 2
     assert steps["enabled"]["counters"]["sub-frames"] >= 2
 
