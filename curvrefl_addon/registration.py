@@ -13,10 +13,10 @@ import bpy
 
 from .gpu_caches import clear_gpu_caches
 
-OPERATORS = ("bake_reflector", "compare_with_cycles")
+OPERATORS = ("bake_reflector", "compare_with_cycles", "mirror_settings")
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("properties", "panel")
-"""Modules of `ui`; the first also attaches settings to Blender's types"""
+INTERFACE = ("preferences", "properties", "panel", "menus")
+"""Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 _PACKAGE = __package__.rpartition(".")[0]
 _classes: list[type] = []
@@ -32,7 +32,9 @@ def register() -> None:
             for cls in module.CLASSES:
                 bpy.utils.register_class(cls)
                 _classes.append(cls)
-        _module("curvrefl_addon.ui.properties").add()
+        for module in modules:
+            if hasattr(module, "add"):
+                module.add()
         _commands.append(bpy.utils.register_cli_command("curvrefl", _run_command))
     except BaseException:
         unregister()
@@ -43,8 +45,10 @@ def unregister() -> None:
     """Undo what `register` did, last first."""
     if (viewport := sys.modules.get(f"{__package__}.viewport")) is not None:
         viewport.unregister()
-    if (properties := sys.modules.get(f"{__package__}.ui.properties")) is not None:
-        properties.remove()
+    for name in reversed(INTERFACE):
+        module = sys.modules.get(f"{__package__}.ui.{name}")
+        if module is not None and hasattr(module, "remove"):
+            module.remove()
     while _commands:
         bpy.utils.unregister_cli_command(_commands.pop())
     while _classes:

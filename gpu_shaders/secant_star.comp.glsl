@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Secant search on a star-shaped reflector (Roger & Holzschuch 2006, section 3.3), one invocation per vertex;
 // mirrors optics/secant_star.py step for step.
+#include "invocation.glsl"
 #include "solver.glsl"
 
 #define SMALL_DETERMINANT 1e-5
@@ -118,7 +119,7 @@ vec3 secant_search(vec4 eye, float focal, vec3 vertex, int steps, inout int iter
 
 void main()
 {
-  int index = int(gl_GlobalInvocationID.x);
+  int index = invocation();
   if (index >= solver.counts.x) {
     return;
   }

@@ -8,6 +8,7 @@ background and wrong for what is near.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import gpu
@@ -15,7 +16,7 @@ import numpy as np
 
 from ..scene.arrays import Float32Array
 from ..scene.view import View
-from .geometry import WorldGeometry
+from .chunk import Batches, Chunk
 from .gpu_objects import read_texture
 from .lighting import Lighting
 from .materials import Materials
@@ -34,14 +35,14 @@ class EnvironmentCube:
     def __init__(
         self,
         mirror: Mirror,
-        scenery: WorldGeometry,
+        scenery: Sequence[tuple[Chunk, Batches]],
+        reach: float,
         materials: Materials,
         lighting: Lighting,
         shade: ShadePass,
         resolution: int,
     ) -> None:
-        low, high = scenery.bounds
-        reach = float(np.linalg.norm(np.maximum(np.abs(low - mirror.map.center), np.abs(high - mirror.map.center))))
+        """`reach`: distance from the mirror's centre to the farthest point of the scenery, metres, or more."""
         near = 0.05 * mirror.map.r_min
         self._views = faces_views(mirror.map.center, near, max(2.0 * reach, 10.0 * near), resolution)
         self._scenery, self._materials = scenery, materials

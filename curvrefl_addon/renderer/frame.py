@@ -12,18 +12,20 @@ from typing import Any
 import gpu
 import numpy as np
 
+from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..optics.cube_map import nearest_texel
-from ..scene.arrays import Float32Array, InstanceArrays, Int32Array, SceneArrays
+from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
+from .diagnostics import DiagnosticPass
 from .environment_cube import EnvironmentCube
-from .geometry import flatten
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
-from .mirror import Mirror
+from .mirror import Mirror, SolvedChunk
 from .pixel_filter import offsets
+from .scene_geometry import Difference, SceneGeometry
 from .shade import ShadePass
 from .solve import VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, draw_primary, draw_reflected
@@ -46,6 +48,10 @@ class Settings:
     """Texels along an edge of `environment_cube`"""
 
 
+MOST_TARGETS = 3
+"""Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
+
+
 @dataclass
 class _Targets:
     """Everything that has the size of the picture."""
@@ -62,21 +68,41 @@ class _Targets:
         self.back_faces = BackFaces(self.width, self.height)
 
 
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """A view that shows how the picture comes about in place of the picture."""
+
+    mode: str
+    """A name of `diagnostic_colors.MODES`"""
+    options: DiagnosticOptions = field(default_factory=DiagnosticOptions)
+    colors: DiagnosticColors = field(default_factory=DiagnosticColors)
+
+    @property
+    def needs_solve(self) -> bool:
+        """Whether it shows what the mirrors show, not their surface alone."""
+        return self.mode in SOLVED_MODES
+
+
 @dataclass(frozen=True)
 class Reflection:
     """What the mirrors show in one view, before it is drawn."""
 
     view: View
-    solutions: tuple[VertexSolution, ...]
-    """Per mirror, where vertices are solved"""
+    parts: tuple[tuple[SolvedChunk, ...], ...]
+    """Per mirror, where vertices are solved, its scenery with the reflection points"""
     cubes: tuple[Any, ...] | None
     """Per mirror the environment cube that stands for what it reflects; None where vertices are solved"""
     warnings: tuple[str, ...]
     """One sentence each"""
 
+    @property
+    def solutions(self) -> tuple[VertexSolution, ...]:
+        """Of all mirrors and chunks."""
+        return tuple(part.solution for parts in self.parts for part in parts)
+
 
 class Renderer:
-    """GPU resources of one scene; `free()` when done."""
+    """GPU resources of one scene, which may change: `update()`; `free()` when done."""
 
     def __init__(self, scene: SceneArrays, settings: Settings | None = None) -> None:
         """Upload the scene and bake its reflectors.
@@ -87,40 +113,101 @@ class Renderer:
         self.settings = settings or Settings()
         _check(self.settings)
         require_gpu()
-        self.scene = scene
-        self.warnings: list[str] = list(scene.warnings)
-        chosen = [i for i, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
-        self.mirrors = [
-            Mirror(scene, index, number, self.settings.map_resolution) for number, index in enumerate(chosen, 1)
-        ]
-        for mirror in self.mirrors:
-            self.warnings += mirror.map.warnings
-        if self.mirrors and not any(len(mirror.whole_scenery.triangles) for mirror in self.mirrors):
-            self.warnings.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        numbers = {id(scene.instances[index]): number for number, index in enumerate(chosen, 1)}
-
-        def is_seen(instance: InstanceArrays) -> bool:
-            return instance.visible_camera
-
-        def mirror_of(instance: InstanceArrays) -> int:
-            return numbers.get(id(instance), 0)
-
-        self._seen_geometry = flatten(scene, is_seen, mirror_of, holdouts=True)
-        self._materials = Materials(scene)
-        self._lighting = Lighting(scene, flatten(scene), self.settings.samples)
-        self.warnings += self._lighting.warnings
-        self._shade = ShadePass(scene, self._lighting, self._materials)
-        self._jitter = offsets(self.settings.samples)
-        self._targets: _Targets | None = None
+        self.counters = {"maps baked": 0}
+        """How often something was made, since the start; those of `geometry` and `lighting` beside it"""
+        self.revision = 0
+        """Another one when pictures are not the same any more"""
+        self.mirrors: list[Mirror] = []
+        self.geometry = SceneGeometry()
+        self._targets: dict[tuple[int, int], _Targets] = {}
         self._cubes: list[EnvironmentCube] | None = None
+        self._position_cubes: tuple[Any, ...] | None = None
+        self._diagnostics: DiagnosticPass | None = None
+        self._jitter = offsets(self.settings.samples)
+        self._follow_scene(scene)
+        self._materials = Materials(scene)
+        self._lighting = Lighting(scene, self.geometry, self.settings.samples)
+        self._shade = ShadePass(scene, self._lighting, self._materials)
+
+    def update(self, scene: SceneArrays) -> None:
+        """Show another state of the scene: does again only what depends on arrays that are other objects than before.
+
+        Raises as the constructor; the renderer is of no use then.
+        """
+        before = self.scene
+        if scene is before:
+            return
+        difference = self._follow_scene(scene)
+        if scene.materials is not before.materials or scene.images is not before.images:
+            self._materials.follow(scene)
+        self._lighting.follow(scene, difference)
+        self._shade.follow(scene)
+        self._cubes = self._position_cubes = None
+        self.revision += 1
+
+    def configure(self, settings: Settings) -> None:
+        """Render otherwise from now on. Raises as the constructor; then nothing has changed."""
+        _check(settings)
+        before, self.settings = self.settings, settings
+        try:
+            if settings.map_resolution != before.map_resolution:
+                self._bake_mirrors(self.scene, keep=False)
+        except InputError:
+            self.settings = before
+            raise
+        if settings.samples != before.samples:
+            self._jitter = offsets(settings.samples)
+            self._lighting.free()
+            self._lighting = Lighting(self.scene, self.geometry, settings.samples)
+            self._shade = ShadePass(self.scene, self._lighting, self._materials)
+        self._cubes = self._position_cubes = None
+        self.revision += 1
+
+    @property
+    def warnings(self) -> list[str]:
+        """One sentence each."""
+        found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.map.warnings)]
+        if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
+            found.append("There is nothing to reflect: no other object is visible to glossy rays.")
+        return [*found, *self._lighting.warnings]
+
+    @property
+    def bytes(self) -> int:
+        """GPU memory of meshes and pictures, about; shadow maps and textures come on top."""
+        pixels = sum(width * height for width, height in self._targets)
+        return self.geometry.bytes + 100 * pixels
 
     def free(self) -> None:
         """Let go of all GPU resources; the renderer is of no use afterwards."""
         self._lighting.free()
-        for mirror in self.mirrors:
-            mirror.free()
         self.mirrors = []
-        self._targets = self._cubes = None
+        self.geometry = SceneGeometry()
+        self._targets.clear()
+        self._cubes = self._position_cubes = self._diagnostics = None
+
+    def _follow_scene(self, scene: SceneArrays) -> Difference:
+        """Mirrors and geometry."""
+        self._bake_mirrors(scene, keep=True)
+        self.scene = scene
+        return self.geometry.update(scene, {mirror.index: mirror.number for mirror in self.mirrors})
+
+    def _bake_mirrors(self, scene: SceneArrays, keep: bool) -> None:
+        """Reflectors of the scene; with `keep`, those that only moved keep their maps."""
+        chosen = [index for index, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
+        before: dict[int, list[Mirror]] = {}
+        for old in self.mirrors if keep else ():
+            before.setdefault(old.object_id, []).append(old)
+        mirrors = []
+        for number, index in enumerate(chosen, 1):
+            instance = scene.instances[index]
+            known = before.get(instance.object_id)
+            mirror: Mirror | None = known.pop(0) if known else None
+            if mirror is None or not mirror.follow(scene, index, number):
+                facts = self.geometry.facts.of(scene.meshes[instance.mesh])
+                mirror = Mirror(scene, index, number, facts, self.settings.map_resolution)
+                self.counters["maps baked"] += 1
+            mirrors.append(mirror)
+        self.mirrors = mirrors
 
     def render(self, view: View) -> Frame:
         """Draw the picture; its times have the GPU's work in them."""
@@ -147,8 +234,13 @@ class Renderer:
         }
         return Frame(self, reflection, color, times)
 
-    def reflect(self, view: View) -> Reflection:
-        """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them."""
+    def reflect(self, view: View, solve: bool = True) -> Reflection:
+        """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
+
+        Without `solve`, for diagnostic views of the mirrors' surface alone.
+        """
+        if not solve:
+            return Reflection(view, (), (), tuple(self.warnings))
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
             black = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
             warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
@@ -156,32 +248,80 @@ class Renderer:
         if self.settings.method == "environment_cube" and self.mirrors:
             cubes = tuple(cube.color for cube in self.environment_cubes())
             return Reflection(view, (), cubes, tuple(self.warnings))
-        solutions = tuple(
-            mirror.solve(view, self.settings.method, self.settings.pixel_tolerance) for mirror in self.mirrors
+        tolerance = self.settings.pixel_tolerance
+        self.geometry.refine([mirror.sight(view, tolerance) for mirror in self.mirrors])
+        parts = tuple(
+            mirror.solve(view, self.settings.method, tolerance, self.geometry.scenery(mirror.index))
+            for mirror in self.mirrors
         )
-        return Reflection(view, solutions, None, tuple(self.warnings))
+        return Reflection(view, parts, None, tuple(self.warnings))
 
     def add_sub_frame(
-        self, canvas: Any, reflection: Reflection, index: int, weight: float, mirrors_only: bool = False
+        self,
+        canvas: Any,
+        reflection: Reflection,
+        index: int,
+        weight: float,
+        mirrors_only: bool = False,
+        diagnostic: Diagnostic | None = None,
     ) -> None:
         """Add sub-frame `index` of `settings.samples` to the frame buffer `canvas`.
 
-        With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage.
+        With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage; so it is
+        with a `diagnostic` view.
         """
         targets = self._targets_for(reflection.view)
         dx, dy = self._jitter[index]
         uniforms = self._draw_surfaces(targets, reflection.view.jittered(-dx, -dy), reflection)
+        if diagnostic is not None:
+            self._add_diagnostic(canvas, reflection, targets, uniforms, weight, diagnostic)
+            return
         self._lighting.prepare(index)
         shown = targets.reflected if reflection.cubes is None else reflection.cubes
         self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
 
+    def _add_diagnostic(
+        self,
+        canvas: Any,
+        reflection: Reflection,
+        targets: _Targets,
+        uniforms: Any,
+        weight: float,
+        diagnostic: Diagnostic,
+    ) -> None:
+        if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
+            self._diagnostics = DiagnosticPass(diagnostic.colors)
+        shown = targets.reflected if reflection.cubes is None else self._cubes_of_positions(reflection.cubes)
+        methods = (self.settings.method,) * len(self.mirrors)
+        self._diagnostics.add(
+            canvas,
+            targets.seen,
+            shown,
+            uniforms,
+            weight,
+            diagnostic.mode,
+            diagnostic.options,
+            methods,
+            reflection.parts,
+        )
+
+    def _cubes_of_positions(self, cubes: tuple[Any, ...]) -> tuple[Any, ...]:
+        """World position and object by direction, where the cubes have radiance; black ones hold "nothing" already."""
+        if not cubes or self._cubes is None or cubes[0] is not self._cubes[0].color:
+            return cubes
+        if self._position_cubes is None:
+            self._position_cubes = tuple(cube_texture(cube.geometry(), linear=False) for cube in self._cubes)
+        return self._position_cubes
+
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
         if self._cubes is None:
+            centers, radii = self.geometry.balls()
             self._cubes = [
                 EnvironmentCube(
                     mirror,
-                    mirror.whole_scenery,
+                    self.geometry.scenery(mirror.index),
+                    float((np.linalg.norm(centers - mirror.map.center, axis=1) + radii).max()),
                     self._materials,
                     self._lighting,
                     self._shade,
@@ -192,26 +332,28 @@ class Renderer:
         return self._cubes
 
     def _targets_for(self, view: View) -> _Targets:
-        if self._targets is None or (self._targets.width, self._targets.height) != (view.width, view.height):
-            self._targets = _Targets(view.width, view.height)
-        return self._targets
+        size = (view.width, view.height)
+        if size not in self._targets:
+            while len(self._targets) >= MOST_TARGETS:
+                del self._targets[next(iter(self._targets))]
+            self._targets[size] = _Targets(*size)
+        return self._targets[size]
 
     def _draw_surfaces(self, targets: _Targets, view: View, reflection: Reflection) -> Any:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
-        draw_primary(targets.seen, self._seen_geometry, self._materials, uniforms)
+        draw_primary(targets.seen, self.geometry.seen(), self._materials, uniforms)
         if reflection.cubes is None:
             targets.reflected.clear()
-            for mirror, solution in zip(self.mirrors, reflection.solutions, strict=True):
+            for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):
                 if mirror.may_hide_itself:
-                    targets.back_faces.draw(mirror.surface, uniforms)
+                    targets.back_faces.draw(self.geometry.of_instance(mirror.index), uniforms)
                 draw_reflected(
                     targets.reflected,
                     targets.seen,
                     mirror.number,
                     targets.back_faces if mirror.may_hide_itself else None,
-                    mirror.scenery(view, self.settings.pixel_tolerance),
-                    solution,
+                    parts,
                     self._materials,
                     uniforms,
                     depth_scale=mirror.map.r_max,

@@ -24,6 +24,8 @@ from .gpu_probe import headless_gpu_fails
 TEXTURE_WIDTH = 2048
 """Width of the 2D textures that hold per-vertex records (there are no storage buffers)."""
 
+MOST_GROUPS = 1 << 15
+
 
 class GpuUnavailableError(RuntimeError):
     """No GL context can be had; the message says how to get one."""
@@ -87,6 +89,17 @@ def empty_record_texture(count: int) -> Any:
     texture = gpu.types.GPUTexture((TEXTURE_WIDTH, rows), format="RGBA32F")
     texture.filter_mode(False)
     return texture
+
+
+def dispatch(shader: Any, count: int, group: int) -> None:
+    """Run a bound compute shader for at least `count` invocations in groups of (group, 1, 1).
+
+    Drivers need not take more than 65,535 groups along an axis: invocation i is at (i % width, i / width), with the
+    width of a row of groups (`invocation.glsl`).
+    """
+    groups = max(-(-count // group), 1)
+    rows = -(-groups // MOST_GROUPS)
+    gpu.compute.dispatch(shader, -(-groups // rows), rows, 1)
 
 
 def read_texture(texture: Any, channels: int = 4) -> Float32Array:

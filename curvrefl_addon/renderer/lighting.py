@@ -14,15 +14,15 @@ from typing import Any
 import gpu
 import numpy as np
 
-from ..scene.arrays import Float64Array, Int32Array, LightArrays, SceneArrays
-from .geometry import WorldGeometry
+from ..scene.arrays import Float64Array, LightArrays, SceneArrays
 from .gpu_objects import buffer_of, texture_2d, uniform_block
 from .lighting_ggx import ggx_table
 from .lighting_lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
-from .lighting_shadow_maps import BORDER, MANY_TRIANGLES, ShadowCasters, ShadowMaps, window_rows
-from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
+from .lighting_shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .lighting_shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
 from .lighting_suns import split_suns
 from .lighting_world import world_light
+from .scene_geometry import Difference, SceneGeometry
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
@@ -31,6 +31,7 @@ MAX_DIRECTIONS = 32
 DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
 """vec4 records of the uniform block; as in lighting.glsl"""
 SAMPLER_COUNT = 5
+MANY_TRIANGLES = 300_000
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
 """Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
 WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 32
@@ -46,27 +47,89 @@ LAMP_MAP_BYTES = 160 << 20
 class Lighting:
     """GPU resources that light one scene; `free()` when done."""
 
-    warnings: tuple[str, ...]
-    """What could not be represented, one sentence each"""
-
-    def __init__(self, scene: SceneArrays, geometry: WorldGeometry, sub_frames: int = 16) -> None:
+    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, sub_frames: int = 16) -> None:
         """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
         self.sub_frames = max(sub_frames, 1)
-        self.warnings = ()
-        triangles = geometry.corner_position[geometry.triangles].reshape(-1, 3)
-        casts = _casting_triangles(scene, geometry, triangles)
-        self._extent = SceneExtent(geometry.positions, triangles, casts)
-        self._casters = ShadowCasters(geometry.positions, self._extent)
-        self._sky = split_suns(scene.world)
-        self._lights = self._chosen_lights(scene.lights + self._sky.suns)
-        many = len(triangles) > MANY_TRIANGLES
-        self._samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if many else LAMP_SAMPLES)
-        self._most_directions = WORLD_DIRECTIONS_OF_MANY if many else WORLD_DIRECTIONS
-        self._plan_lamps()
-        self._plan_world(scene)
+        self._geometry = geometry
         self._ggx = texture_2d(ggx_table(), linear=True)
+        self._lamp_maps = ShadowMaps(LAMP_MAP_RESOLUTIONS[0], bias_texels=1.0)
+        self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
+        self._lamp_warnings: tuple[str, ...] = ()
+        self._scene = scene
+        self._read_geometry()
+        self._read_world()
+        self._plan_lamps()
+        self._plan_world_shadows()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What could not be represented, one sentence each."""
+        return self._lamp_warnings
+
+    def follow(self, scene: SceneArrays, difference: Difference) -> None:
+        """Light another state of the scene, whose geometry the `difference` has changed."""
+        before, self._scene = self._scene, scene
+        moved = difference.moved
+        planned = difference.structure or (bool(moved) and not self._holds(moved))
+        if planned:
+            self._read_geometry()
+        if scene.world is not before.world:
+            self._read_world()
+        if planned or scene.lights is not before.lights or scene.world is not before.world:
+            self._plan_lamps()
+        elif moved:
+            self._lamp_maps.forget()
+        if planned or scene.world is not before.world:
+            self._plan_world_shadows()
+        elif moved:
+            self._world_maps.forget()
+        self._blocks.clear()
+
+    def _read_geometry(self) -> None:
+        facts = self._geometry.facts
+        self._extent = SceneExtent(
+            [
+                (facts.of(item.mesh).pieces, item.instance.matrix, item.instance.visible_shadow)
+                for item in self._geometry.placed
+            ]
+        )
+        self._casters = ShadowCasters(self._geometry, self._extent)
+        self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
+
+    def _holds(self, moved: list[int]) -> bool:
+        """Whether the maps' views serve for the scene with these instances where they are now."""
+        corners = self._geometry.box_corners(moved)
+        balls = self._geometry.balls(np.array(moved))
+        if not self._extent.spares(moved, corners):
+            return False
+        lamps = [
+            view
+            for light, planned in zip(self._lights, self._lamp_places, strict=True)
+            if light.casts_shadow
+            for view in planned
+        ]
+        # Where nothing could be in shadow there is no map, and now something may.
+        if any(len(layers) == 0 or layers == (-1,) for _, layers in lamps) or -1 in self._world_layers:
+            return False
+        if not self._lamp_maps.hold([layers[0] for _, layers in lamps if len(layers) == 1], corners):
+            return False
+        if not self._world_maps.hold(range(len(self._world_maps.views)), corners):
+            return False
+        cubes = [(place, layers) for place, layers in lamps if len(layers) == 6]
+        return all(self._cube_holds(place[:3], layers, *balls) for place, layers in cubes)
+
+    def _cube_holds(
+        self, place: Float64Array, layers: tuple[int, ...], centers: Float64Array, radii: Float64Array
+    ) -> bool:
+        """Whether balls are within a cube map's reach, and no face that has no map sees one."""
+        near_term, far_term = self._lamp_maps.views[max(layers)].depth_terms
+        farthest = far_term / (1.0 - near_term)
+        if (np.linalg.norm(centers - place, axis=1) + radii).max() > farthest:
+            return False
+        met = meets_faces(place, centers, radii)
+        return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))
 
     @staticmethod
     def declare(info: Any, first_sampler: int, uniform_slot: int = 1) -> None:
@@ -91,8 +154,8 @@ class Lighting:
         index = sub_frame % self.sub_frames
         if index not in self._blocks:
             lamp_layers, world_layers, records = self._records(index)
-            self._lamp_maps.draw(lamp_layers)
-            self._world_maps.draw(world_layers)
+            self._lamp_maps.draw(lamp_layers, self._casters)
+            self._world_maps.draw(world_layers, self._casters)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
@@ -114,19 +177,23 @@ class Lighting:
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if max(light.color) > 0.0]
         if len(shining) > MAX_LAMPS:
-            self.warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            self._lamp_warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
             shining.sort(key=lambda light: -sum(light.color))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        points = [lamp_points(light, self._samples, index) for index, light in enumerate(self._lights)]
+        self._lamp_warnings = ()
+        self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
+        samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
+        points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
         resolution = LAMP_MAP_RESOLUTIONS[0]
+        views: list[ShadowView] = []
         for resolution in LAMP_MAP_RESOLUTIONS:
             self._lamp_places, views = self._lamp_views(points, resolution)
             if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
                 break
-        self._lamp_maps = ShadowMaps(self._casters, resolution, views, bias_texels=1.0)
+        self._lamp_maps.plan(views, resolution)
 
     def _lamp_views(
         self, points: list[Float64Array], resolution: int
@@ -151,21 +218,16 @@ class Lighting:
             lamps.append(planned)
         return lamps, views
 
-    def _plan_world(self, scene: SceneArrays) -> None:
-        """Choose the world's directions and their shadow views; fill its textures."""
-        world = self._world = scene.world
+    def _read_world(self) -> None:
+        """Choose the world's directions; fill its textures."""
+        world = self._world = self._scene.world
+        self._sky = split_suns(world)
         lit = max(world.color) > 0.0
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
-        self._directions_at_once = min(-(-self._most_directions // self.sub_frames), at_once) if lit else 0
-        self._world_light = light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
-        views: list[ShadowView] = []
-        self._world_layers = np.full(len(light.directions), -1)
-        for index, direction in enumerate(light.directions if lit else ()):
-            view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
-            if view is not None:
-                self._world_layers[index] = len(views)
-                views.append(view)
-        self._world_maps = ShadowMaps(self._casters, WORLD_MAP_RESOLUTION, views, bias_texels=0.5)
+        most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
+        self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
+        light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
+        self._world_light, self._world_is_lit = light, lit
         maps = light.maps
         self._world_textures = gpu.types.GPUTexture(
             (maps.shape[2], maps.shape[1]), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
@@ -176,6 +238,18 @@ class Lighting:
             image = np.ones((*world.image.shape[:2], 4), np.float32)
             image[..., :3] = world.image
             self._world_image = texture_2d(image, linear=True, repeat=True)
+
+    def _plan_world_shadows(self) -> None:
+        """Shadow views of the world's directions."""
+        views: list[ShadowView] = []
+        directions = self._world_light.directions
+        self._world_layers = np.full(len(directions), -1)
+        for index, direction in enumerate(directions if self._world_is_lit else ()):
+            view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
+            if view is not None:
+                self._world_layers[index] = len(views)
+                views.append(view)
+        self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
         """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
@@ -220,15 +294,3 @@ class Lighting:
             block[8] = [layers[4], layers[5], near_term, far_term]
             half = 0.5 * maps.resolution - BORDER
             block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
-
-
-def _casting_triangles(scene: SceneArrays, geometry: WorldGeometry, triangles: Int32Array) -> np.ndarray:
-    """(triangles,) bool: the object casts shadows."""
-    highest = int(geometry.position_object.max()) if len(geometry.position_object) else 0
-    casts = np.ones(highest + 1, bool)
-    for instance in scene.instances:
-        if instance.object_id <= highest:
-            casts[instance.object_id] = instance.visible_shadow
-    if len(triangles) == 0:
-        return np.zeros(0, bool)
-    return casts[geometry.position_object[triangles[:, 0]]]

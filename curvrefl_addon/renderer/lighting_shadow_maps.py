@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
 
@@ -12,63 +12,79 @@ import gpu
 import numpy as np
 
 from ...gpu_shaders.loader import load
-from ..scene.arrays import Float32Array, Float64Array
+from ..scene.arrays import Float64Array
 from .gpu_objects import drawing_state
 from .lighting_shadow_views import SceneExtent, ShadowView
+from .scene_geometry import SceneGeometry
 
 SLOPE_LIMIT_TEXELS = 20.0
 """Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
 
 
-MANY_TRIANGLES = 300_000
-"""More than these are drawn into every map rather than sorted for each"""
 BORDER = 1
 """Texels round a map that stay empty: they stand for all that lies outside of it"""
 
 
 class ShadowCasters:
-    """Positions and triangles on the GPU, nothing else."""
+    """What is drawn into the maps: the scene's chunks without what casts on nothing."""
 
-    def __init__(self, positions: Float32Array, extent: SceneExtent) -> None:
-        """`positions` (n, 3), those of `extent`, whose triangles are drawn."""
+    def __init__(self, geometry: SceneGeometry, extent: SceneExtent) -> None:
+        self._geometry = geometry
         self._extent = extent
-        self._batches: dict[frozenset[int], Any] = {}
-        layout = gpu.types.GPUVertFormat()
-        layout.attr_add(id="pos", comp_type="F32", len=3, fetch_mode="FLOAT")
-        self._vertices = gpu.types.GPUVertBuf(format=layout, len=max(len(positions), 1))
-        if len(positions):
-            self._vertices.attr_fill("pos", np.ascontiguousarray(positions, np.float32))
+        self._idle: dict[frozenset[int], dict[int, frozenset[tuple[int, int]]]] = {}
+        self._revision = geometry.revision
 
-    def batch(self, idle_planes: frozenset[int]) -> Any:
-        """GPUBatch of the casting triangles outside these planes of the hull, None when there are none."""
-        if len(self._extent.triangles) > MANY_TRIANGLES:
-            idle_planes = frozenset()
-        if idle_planes not in self._batches:
-            chosen = self._extent.triangles[self._extent.casts & ~self._extent.in_planes(idle_planes)]
-            made = None
-            if len(chosen):
-                elements = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(chosen, np.int32))
-                made = gpu.types.GPUBatch(type="TRIS", buf=self._vertices, elem=elements)
-            self._batches[idle_planes] = made
-        return self._batches[idle_planes]
+    def draw(self, shader: Any, idle_planes: frozenset[int]) -> None:
+        """All that casts, outside these planes of the extent's hull, with a bound shader."""
+        if self._revision != self._geometry.revision:
+            self._revision = self._geometry.revision
+            self._idle.clear()
+        if idle_planes not in self._idle:
+            self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
+        idle = self._idle[idle_planes]
+        for chunk in self._geometry.chunks:
+            batch = chunk.casters(idle.get(id(chunk), frozenset()))
+            if batch is not None:
+                shader.uniform_sampler("positions", chunk.positions)
+                batch.draw(shader)
+
+    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, frozenset[tuple[int, int]]]:
+        """By a chunk's id, pairs (instance in the chunk, piece)."""
+        found: dict[int, set[tuple[int, int]]] = {}
+        for index, piece in self._extent.pieces_in_planes(planes):
+            chunk, local = self._geometry.place_of(int(index))
+            found.setdefault(id(chunk), set()).add((local, int(piece)))
+        return {key: frozenset(pairs) for key, pairs in found.items()}
 
 
 class ShadowMaps:
     """Square depth maps of `resolution`, one layer per view."""
 
-    def __init__(self, casters: ShadowCasters, resolution: int, views: list[ShadowView], bias_texels: float) -> None:
+    def __init__(self, resolution: int, bias_texels: float) -> None:
         """`bias_texels`: how far from its middle a texel counts: 1 in bilinear comparison, 0.5 for the nearest."""
-        self.casters = casters
         self.resolution = resolution
-        self.views = views
-        self.bias_texels = bias_texels
-        self.texture = gpu.types.GPUTexture(
-            (resolution, resolution) if views else (1, 1), layers=max(len(views), 1), format="DEPTH_COMPONENT32F"
-        )
-        self.texture.filter_mode(False)
-        self._drawn = [False] * len(views)
+        self.views: list[ShadowView] = []
+        self._bias_texels = bias_texels
+        self.texture: Any = None
+        self._size = (0, 0)
+        self._drawn: list[bool] = []
 
-    def draw(self, layers: Iterable[int]) -> None:
+    def plan(self, views: list[ShadowView], resolution: int | None = None) -> None:
+        """Hold these views from now on."""
+        self.views = views
+        self.resolution = resolution or self.resolution
+        size = (self.resolution if views else 1, max(len(views), 1))
+        if self.texture is None or size != self._size:
+            self._size = size
+            self.texture = gpu.types.GPUTexture((size[0], size[0]), layers=size[1], format="DEPTH_COMPONENT32F")
+            self.texture.filter_mode(False)
+        self.forget()
+
+    def forget(self) -> None:
+        """What casts has moved: all are drawn again when needed."""
+        self._drawn = [False] * len(self.views)
+
+    def draw(self, layers: Iterable[int], casters: ShadowCasters) -> None:
         """Make sure that these layers are there; restores the frame buffer and the state."""
         missing = [layer for layer in layers if not self._drawn[layer]]
         if not missing:
@@ -76,18 +92,24 @@ class ShadowMaps:
         shader = shadow_depth_shader()
         for layer in missing:
             view = self.views[layer]
-            batch = self.casters.batch(view.idle_planes)
             target = gpu.types.GPUFrameBuffer(depth_slot={"texture": self.texture, "layer": layer})
             with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
                 gpu.state.viewport_set(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 gpu.state.viewport_set(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
-                if batch is not None:
-                    shader.bind()
-                    shader.uniform_float("world_to_clip", _matrix(view))
-                    shader.uniform_float("bias", (self.bias_texels, *_slope_limit(view)))
-                    batch.draw(shader)
+                shader.bind()
+                shader.uniform_float("world_to_clip", _matrix(view))
+                shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
+                casters.draw(shader, view.idle_planes)
             self._drawn[layer] = True
+
+    def hold(self, layers: Sequence[int], points: Float64Array) -> bool:
+        """Whether all world points (n, 3) are inside of every one of these maps."""
+        if not layers:
+            return True
+        matrices = np.array([self.views[layer].world_to_clip for layer in layers])
+        clip = np.einsum("vij,nj->vni", matrices[:, :, :3], points) + matrices[:, None, :, 3]
+        return bool((np.abs(clip[..., :3]) <= clip[..., 3:]).all())
 
 
 def _slope_limit(view: ShadowView) -> tuple[float, float]:
@@ -119,7 +141,7 @@ def window_rows(view: ShadowView, resolution: int) -> Float64Array:
 @cache
 def shadow_depth_shader() -> Any:
     info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC3", "pos")
+    info.sampler(0, "FLOAT_2D", "positions")
     info.push_constant("MAT4", "world_to_clip")
     info.push_constant("VEC3", "bias")
     info.depth_write("ANY")

@@ -9,21 +9,25 @@ cast on nothing; lit from behind they receive nothing. So a floor does not sprea
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..scene.arrays import Float64Array, Int32Array
+from ..scene.arrays import Float64Array
+from .mesh_pieces import OUTLINE_SLACK, MeshPieces, outline
 
 HULL_PLANES = 16
 """How many of the largest planes are tested for lying on the hull"""
+SMALLEST_PLANE = 1e-3
+"""Area of a plane's triangles over the scene's squared size"""
+FLAT = 1e-4
+"""Distance from a plane, over the scene's size, that counts as none"""
+LOOSE = 0.02
+"""Distance over the scene's size that the box of something that moves may reach through a plane of the hull"""
 WIDEST_TANGENT = 2.5
 """A lamp whose receivers and casters lie within this slope of one axis gets one map instead of the six of a cube"""
-LARGEST_TRIANGLES = 50_000
-"""How many triangles, the largest ones, are searched for such planes"""
-OUTLINE_DIRECTIONS = 128
-OUTLINE_SLACK = 1.01
-"""Grows an outline of many positions, which may lie inside of the true one by half the directions' spacing squared"""
 MARGIN_TEXELS = 2.0
 """Free border of a fitted map"""
 
@@ -45,27 +49,40 @@ class ShadowView:
 
 @dataclass(frozen=True, slots=True)
 class HullPlane:
-    """A plane with the whole scene on its positive side, and the triangles that lie in it."""
+    """A plane with the whole scene on its positive side."""
 
     normal: Float64Array
     offset: float
-    triangles: Int32Array
+    pieces: tuple[tuple[int, int], ...]
+    """(instance, piece of its mesh) for all that lies in the plane"""
 
 
 class SceneExtent:
     """What casts and what receives, seen from any light."""
 
-    def __init__(self, positions: np.ndarray, triangles: Int32Array, casts: np.ndarray) -> None:
-        """`positions` (n, 3), `triangles` (t, 3) into them, `casts` (t,) bool."""
-        self.positions = np.asarray(positions, np.float64)
-        self.triangles = triangles
-        self.casts = casts
-        self.size = float(np.linalg.norm(np.ptp(self.positions, axis=0))) if len(positions) else 0.0
-        self.hull = _hull_planes(self.positions, triangles, self.size)
-        free = ~self.in_planes(frozenset(range(len(self.hull))))
-        groups: list[np.ndarray] = [np.flatnonzero(free), *(plane.triangles for plane in self.hull)]
+    def __init__(self, placed: Sequence[tuple[MeshPieces, Float64Array, bool]]) -> None:
+        """Per instance the pieces of its mesh, its matrix (4, 4), and whether it casts shadows."""
+        points, owner, piece = _placed_outlines(placed)
+        self.size = float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
+        self.hull = _hull_planes(placed, points, owner, piece, self.size)
+        casts = np.array([item[2] for item in placed], bool)[owner] if len(points) else np.zeros(0, bool)
+        # 0: in no plane of the hull, k: in plane k - 1
+        group = np.zeros(len(points), np.int64)
+        for number, plane in enumerate(self.hull, 1):
+            for instance, part in plane.pieces:
+                start, stop = np.searchsorted(owner, (instance, instance + 1))
+                group[start:stop][piece[start:stop] == part] = number
         # outlines of what casts and of everything: first of what lies in no plane of the hull, then per plane
-        self._outlines = [(self._outline(group[casts[group]]), self._outline(group)) for group in groups]
+        groups = [group == number for number in range(len(self.hull) + 1)]
+        self._outlines = [(outline(points[chosen & casts]), outline(points[chosen])) for chosen in groups]
+        self._caster_balls = _balls(points[casts], group[casts], owner[casts])
+
+    def spares(self, moved: Sequence[int], corners: Float64Array) -> bool:
+        """Whether the hull stays what it is when these instances move into boxes with the `corners` (n, 3)."""
+        in_hull = {instance for plane in self.hull for instance, _ in plane.pieces}
+        if not in_hull.isdisjoint(moved):
+            return False
+        return all(bool((corners @ plane.normal - plane.offset >= -LOOSE * self.size).all()) for plane in self.hull)
 
     def split_by(self, light: Float64Array) -> tuple[frozenset[int], Float64Array, Float64Array]:
         """For a light (homogeneous place, w = 0: direction to it) the planes that cast on nothing, and outlines
@@ -83,29 +100,9 @@ class SceneExtent:
                 casters.append(self._outlines[1 + index][0])
         return idle, np.concatenate(casters), np.concatenate(receivers)
 
-    def _outline(self, chosen: np.ndarray) -> Float64Array:
-        """(n, 3) positions of the chosen triangles; of many those farthest out in OUTLINE_DIRECTIONS directions."""
-        used = np.zeros(len(self.positions), bool)
-        used[self.triangles[chosen].ravel()] = True
-        points = self.positions[used]
-        if len(points) <= 4 * OUTLINE_DIRECTIONS:
-            return points
-        index = np.arange(OUTLINE_DIRECTIONS) + 0.5
-        height = 1.0 - 2.0 * index / OUTLINE_DIRECTIONS
-        turn = np.pi * (1.0 + np.sqrt(5.0)) * index
-        flat = np.sqrt(1.0 - height**2)
-        directions = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height]).astype(np.float32)
-        small = points.astype(np.float32)
-        farthest = {int(np.argmax(small @ direction)) for direction in directions}
-        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-        return middle + (points[sorted(farthest)] - middle) * OUTLINE_SLACK
-
-    def in_planes(self, planes: frozenset[int]) -> np.ndarray:
-        """(triangles,) bool: lies in one of these planes of the hull."""
-        mask = np.zeros(len(self.triangles), bool)
-        for index in planes:
-            mask[self.hull[index].triangles] = True
-        return mask
+    def pieces_in_planes(self, planes: Iterable[int]) -> set[tuple[int, int]]:
+        """(instance, piece of its mesh) for all that lies in one of these planes of the hull."""
+        return {pair for index in planes for pair in self.hull[index].pieces}
 
     def parallel_view(self, to_light: Float64Array, resolution: int) -> ShadowView | None:
         """Map of parallel light from the unit direction `to_light`; None where nothing can be in shadow."""
@@ -154,13 +151,12 @@ class SceneExtent:
             low, high = _widened(low, high, resolution, 1e-3)
             return (_perspective(place, axes, low, high, near, far, resolution, idle),)
         low, high = _widened(np.array([-1.0, -1.0]), np.array([1.0, 1.0]), resolution, 0.0)
-        casting = self.casts & ~self.in_planes(idle)
-        cast_triangles = self.positions[self.triangles[casting]] - place
+        centers, radii, groups = self._caster_balls
+        casting = ~np.isin(groups, [index + 1 for index in idle])
+        met = meets_faces(place, centers[casting], radii[casting])
         return tuple(
-            _perspective(place, axes, low, high, near, far, resolution, idle)
-            if _meets_pyramid(cast_triangles, axes)
-            else None
-            for axes in CUBE_AXES
+            _perspective(place, axes, low, high, near, far, resolution, idle) if here else None
+            for axes, here in zip(CUBE_AXES, met, strict=True)
         )
 
 
@@ -228,48 +224,107 @@ def _perspective(
     return ShadowView(clip @ view, True, float(np.max(high - low)) / resolution, terms, idle)
 
 
-def _meets_pyramid(triangles: Float64Array, axes: Float64Array) -> bool:
-    """Whether any of the (t, 3, 3) triangles, relative to the apex, may lie in the 90 degree pyramid along -axes[2]."""
-    points = triangles @ axes.T
-    depth = -points[..., 2] * 1.02
-    outside = np.zeros(len(triangles), bool)
-    for side in (points[..., 0], -points[..., 0], points[..., 1], -points[..., 1]):
-        outside |= np.all(side > depth, axis=1)
+def meets_faces(place: Float64Array, centers: Float64Array, radii: Float64Array) -> list[bool]:
+    """Whether any of the balls (n, 3), (n,) may be in each of the six faces of a cube map about `place`."""
+    return [_meet_pyramid(centers - place, radii, axes) for axes in CUBE_AXES]
+
+
+def _meet_pyramid(centers: Float64Array, radii: Float64Array, axes: Float64Array) -> bool:
+    """Whether any of the balls, about centres (n, 3) relative to the apex, may meet the 90 degree pyramid along
+    -axes[2]."""
+    points = centers @ axes.T
+    outside = np.zeros(len(centers), bool)
+    for side in (points[:, 0], -points[:, 0], points[:, 1], -points[:, 1]):
+        outside |= side + points[:, 2] > np.sqrt(2.0) * radii
     return bool(np.any(~outside))
 
 
-def _hull_planes(positions: Float64Array, triangles: Int32Array, size: float) -> tuple[HullPlane, ...]:
-    """The largest planes that have the whole scene on one side."""
-    if len(triangles) == 0 or size == 0.0:
+def _placed_outlines(
+    placed: Sequence[tuple[MeshPieces, Float64Array, bool]],
+) -> tuple[Float64Array, NDArray[np.int64], NDArray[np.int64]]:
+    """World points (n, 3) of all outlines in the order of the instances, and the instance and the piece of each."""
+    if not placed:
+        return np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64)
+    meshes = {id(pieces): pieces for pieces, _, _ in placed}
+    number = {key: index for index, key in enumerate(meshes)}
+    local = [np.concatenate(pieces.outlines) for pieces in meshes.values()]
+    local_piece = [
+        np.repeat(np.arange(len(pieces.outlines)), [len(part) for part in pieces.outlines])
+        for pieces in meshes.values()
+    ]
+    sizes = np.array([len(part) for part in local])
+    starts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    mesh_of = np.array([number[id(pieces)] for pieces, _, _ in placed])
+    counts = sizes[mesh_of]
+    owner = np.repeat(np.arange(len(placed)), counts)
+    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    rows = np.arange(counts.sum()) - first[owner] + starts[mesh_of][owner]
+    matrices = np.array([matrix for _, matrix, _ in placed])[owner]
+    points = np.concatenate(local)[rows]
+    world = np.einsum("nij,nj->ni", matrices[:, :3, :3], points) + matrices[:, :3, 3]
+    return world, owner, np.concatenate(local_piece)[rows]
+
+
+def _hull_planes(
+    placed: Sequence[tuple[MeshPieces, Float64Array, bool]],
+    points: Float64Array,
+    owner: NDArray[np.int64],
+    piece: NDArray[np.int64],
+    size: float,
+) -> tuple[HullPlane, ...]:
+    """The largest planes of the instances' meshes that have the whole scene on one side."""
+    with_planes = [index for index, (pieces, _, _) in enumerate(placed) if len(pieces.areas)]
+    if not with_planes or size == 0.0:
         return ()
-    a, b, c = (positions[triangles[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    doubled_area = np.linalg.norm(normals, axis=1)
-    if len(triangles) > LARGEST_TRIANGLES:
-        largest = np.argpartition(doubled_area, -LARGEST_TRIANGLES)[-LARGEST_TRIANGLES:]
-        a, normals, doubled_area = a[largest], normals[largest], doubled_area[largest]
-    normals /= np.maximum(doubled_area, 1e-300)[:, None]
-    # both sides of a triangle are one plane
-    lead = np.argmax(np.abs(normals) > 0.5, axis=1)
-    normals *= np.where(normals[np.arange(len(normals)), lead] < 0.0, -1.0, 1.0)[:, None]
-    offsets = (normals * a).sum(axis=1) / size
-    steps = np.rint(np.column_stack([normals, offsets]) * 4096.0).astype(np.int64) + 8192
-    keys = ((steps[:, 0] * 16384 + steps[:, 1]) * 16384 + steps[:, 2]) * 16384 + steps[:, 3] % 16384
-    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
-    areas = np.bincount(inverse, doubled_area)
-    tolerance = 1e-4 * size
-    planes = []
-    for group in np.argsort(areas)[::-1][:HULL_PLANES]:
-        if areas[group] < 1e-3 * size * size:
+    counts = [len(placed[index][0].areas) for index in with_planes]
+    instance = np.repeat(with_planes, counts)
+    part = np.concatenate([np.arange(1, count + 1) for count in counts])
+    normals = np.concatenate([placed[index][0].normals for index in with_planes])
+    areas = np.concatenate([placed[index][0].areas for index in with_planes])
+    linear = np.array([placed[index][1][:3, :3] for index in with_planes])
+    # A plane's normal goes by the inverse transpose, its area by that and the determinant.
+    turned = np.repeat(np.linalg.inv(linear).transpose(0, 2, 1), counts, axis=0)
+    normals = np.einsum("nij,nj->ni", turned, normals)
+    lengths = np.linalg.norm(normals, axis=1)
+    areas = areas * lengths * np.abs(np.repeat(np.linalg.det(linear), counts))
+    normals /= lengths[:, None]
+    key = owner * 256 + piece
+    order = np.searchsorted(key, instance * 256 + part)
+    through = points[order]
+    planes: list[HullPlane] = []
+    free = np.ones(len(areas), bool)
+    for _ in range(HULL_PLANES):
+        if not free.any():
             break
-        normal = normals[first[group]]
-        heights = positions @ normal
-        offset = float(normal @ a[first[group]])
-        sides = (heights.min() >= offset - tolerance, heights.max() <= offset + tolerance)
-        if not any(sides):
+        largest = int(np.argmax(np.where(free, areas, -1.0)))
+        normal, offset = normals[largest], float(normals[largest] @ through[largest])
+        alike = free & (np.abs(normals @ normal) > 1.0 - FLAT**2) & (np.abs(through @ normal - offset) <= FLAT * size)
+        free &= ~alike
+        free[largest] = False
+        if areas[alike].sum() < SMALLEST_PLANE * size * size:
+            if areas[largest] < 1e-2 * SMALLEST_PLANE * size * size:
+                break
             continue
-        inside = np.all(np.abs(heights[triangles] - offset) <= tolerance, axis=1)
-        members = np.flatnonzero(inside).astype(np.int32)
-        sign = 1.0 if sides[0] else -1.0
+        heights = points @ normal - offset
+        if heights.min() >= -FLAT * size:
+            sign = 1.0
+        elif heights.max() <= FLAT * size:
+            sign = -1.0
+        else:
+            continue
+        members = tuple(zip(instance[alike].tolist(), part[alike].tolist(), strict=True))
         planes.append(HullPlane(sign * normal, sign * offset, members))
     return tuple(planes)
+
+
+def _balls(
+    points: Float64Array, group: NDArray[np.int64], owner: NDArray[np.int64]
+) -> tuple[Float64Array, Float64Array, NDArray[np.int64]]:
+    """Balls (centres (n, 3), radii (n,), groups (n,)) around the points of each instance in each group."""
+    if len(points) == 0:
+        return np.zeros((0, 3)), np.zeros(0), np.zeros(0, np.int64)
+    order = np.lexsort((group, owner))
+    points, group, owner = points[order], group[order], owner[order]
+    starts = np.flatnonzero(np.r_[True, (np.diff(owner) != 0) | (np.diff(group) != 0)])
+    low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1) * OUTLINE_SLACK, group[starts]

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..scene.arrays import MaterialArrays, SceneArrays
-from .geometry import HOLDOUT
+from ..scene.arrays import ImageArrays, MaterialArrays, SceneArrays
+from .chunk import HOLDOUT
 from .gpu_objects import record_texture, texture_2d
 
 RECORDS = 2
@@ -21,17 +21,15 @@ class Materials:
     """GPU side of `SceneArrays.materials` and `.images`."""
 
     def __init__(self, scene: SceneArrays) -> None:
-        self._materials = scene.materials
-        self._images = [
-            texture_2d(
-                image.pixels,
-                "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F",
-                not image.nearest,
-                image.repeat,
-            )
-            for image in scene.images
-        ]
         self._white = texture_2d(np.ones((1, 1, 4), np.float32))
+        self._images: list[tuple[ImageArrays, Any]] = []
+        self.follow(scene)
+
+    def follow(self, scene: SceneArrays) -> None:
+        """Take over the materials of another state of the scene; images that were there are not uploaded again."""
+        known = {id(image): texture for image, texture in self._images}
+        self._images = [(image, known.get(id(image)) or _texture(image)) for image in scene.images]
+        self._materials = scene.materials
         records = np.zeros((len(scene.materials), RECORDS, 4), np.float32)
         for record, material in zip(records, scene.materials, strict=True):
             record[0] = (material.metallic, material.roughness, material.ior, material.specular_level)
@@ -54,4 +52,9 @@ class Materials:
         shader.uniform_float("material", float(index))
         shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
         shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
-        shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image])
+        shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image][1])
+
+
+def _texture(image: ImageArrays) -> Any:
+    fmt = "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F"
+    return texture_2d(image.pixels, fmt, not image.nearest, image.repeat)

@@ -1,49 +1,79 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One reflector of a scene: its map, what it can show, and the solve for a view."""
+"""One reflector of a scene: its map, where it is, and the solve for a view."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from ..optics.cube_map import CubeMapSurface
-from ..scene.arrays import InstanceArrays, SceneArrays
+from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
-from .convexity import is_convex
-from .geometry import WorldGeometry, flatten
+from .chunk import Batches, Chunk
 from .gpu_objects import cube_texture
-from .reflector_bake import bake_instance
+from .mesh_facts import MeshFacts
+from .reflector_bake import bake_instance, polar
+from .scene_geometry import Sight
 from .solve import VertexSolution, solve_vertices
-from .split import split_angle, split_for_reflection
+from .split import split_angle
+
+SAME_STRETCH = 1e-6
+"""Relative: a matrix whose stretch differs less only moves and turns"""
+
+
+@dataclass(frozen=True)
+class SolvedChunk:
+    """A part of a mirror's scenery with its reflection points."""
+
+    chunk: Chunk
+    batches: Batches
+    solution: VertexSolution
 
 
 class Mirror:
-    """A placed reflector. `number` is 1, 2, ... in the order of the scene's instances."""
+    """A placed reflector."""
 
-    def __init__(self, scene: SceneArrays, instance_index: int, number: int, map_resolution: int) -> None:
-        """Bakes the radial map. Raises InputError where the shape cannot be one."""
-        self.number = number
+    def __init__(self, scene: SceneArrays, index: int, number: int, facts: MeshFacts, map_resolution: int) -> None:
+        """Bakes the radial map of the instance `index`. `number` is 1, 2, ... in the order of the scene's instances.
+
+        Raises InputError where the shape cannot be one.
+        """
         start = perf_counter()
-        self.map = bake_instance(scene, instance_index, map_resolution)
+        self.map = bake_instance(scene, index, map_resolution)
         self.bake_ms = 1e3 * (perf_counter() - start)
         self.radial = cube_texture(self.map.radial)
-        own = scene.instances[instance_index]
+        self._instance = scene.instances[index]
+        self._mesh = facts.mesh
+        self._box = facts.box
+        self.may_hide_itself = not facts.is_convex
+        self.index, self.number = index, number
 
-        def is_own(instance: InstanceArrays) -> bool:
-            return instance is own
+    def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
+        """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
+        instance = scene.instances[index]
+        if scene.meshes[instance.mesh] is not self._mesh:
+            return False
+        if instance is not self._instance:
+            placed = _moved_map(self.map.world_to_map, self._instance, instance)
+            if placed is None:
+                return False
+            self.map = replace(self.map, world_to_map=placed, object_name=instance.object_name)
+        self._instance, self.index, self.number = instance, index, number
+        return True
 
-        def is_reflected(instance: InstanceArrays) -> bool:
-            return instance is not own and instance.visible_glossy
+    @property
+    def mesh(self) -> MeshArrays:
+        """What was baked."""
+        return self._mesh
 
-        self.surface = flatten(scene, is_own)
-        """The reflector's own triangles"""
-        self.may_hide_itself = not is_convex(self.surface)
-        self.whole_scenery = flatten(scene, is_reflected)
-        """All that it may show, unsplit"""
-        self._split: tuple[float, WorldGeometry] | None = None
+    @property
+    def object_id(self) -> int:
+        return self._instance.object_id
 
     def radius_pixels(self, view: View) -> float:
         """Size of the reflector's bounding ball in the picture."""
@@ -67,10 +97,11 @@ class Mirror:
 
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
-        low, high = self.surface.bounds
+        low, high = self._box
         corners = np.array(
             [[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
         )
+        corners = corners @ self._instance.matrix.T
         clip = corners @ view.world_to_clip.T
         if (clip[:, 3] <= 1e-6).any():
             return (0, 0, view.width, view.height)
@@ -80,31 +111,46 @@ class Mirror:
         last = np.clip(np.ceil(pixels.max(axis=0)) + 1, 0, size).astype(int)
         return (int(first[0]), int(first[1]), int(last[0] - first[0]), int(last[1] - first[1]))
 
-    def scenery(self, view: View, tolerance: float) -> WorldGeometry:
-        """What this mirror shows, split as finely as `tolerance` pixels need at the mirror's size in this view."""
-        angle = split_angle(self.radius_pixels(view), tolerance)
-        if self._split is None or self._split[0] != angle:
-            self._split = (angle, split_for_reflection(self.whole_scenery, self.map.center, angle))
-        return self._split[1]
+    def sight(self, view: View, tolerance: float) -> Sight:
+        """How finely `tolerance` pixels want the scenery split at the mirror's size in this view."""
+        x, y, z = self.map.center.tolist()
+        return Sight((x, y, z), split_angle(self.radius_pixels(view), tolerance), self.index)
 
-    def solve(self, view: View, method: str, tolerance: float) -> VertexSolution:
+    def solve(
+        self, view: View, method: str, tolerance: float, scenery: Sequence[tuple[Chunk, Batches]]
+    ) -> tuple[SolvedChunk, ...]:
         """Reflection points of all vertices of the scenery."""
-        geometry = self.scenery(view, tolerance)
-        return solve_vertices(
-            method,
-            view,
-            self.map.world_to_map,
-            self.radial,
-            self.map.r_max,
-            geometry.position_texture,
-            len(geometry.positions),
-            tolerance=0.1 * tolerance,
+        return tuple(
+            SolvedChunk(
+                chunk,
+                batches,
+                solve_vertices(
+                    method,
+                    view,
+                    self.map.world_to_map,
+                    self.radial,
+                    self.map.r_max,
+                    chunk.positions,
+                    chunk.position_count,
+                    tolerance=0.1 * tolerance,
+                ),
+            )
+            for chunk, batches in scenery
         )
 
-    def free(self) -> None:
-        """Let go of what is on the GPU."""
-        self._split = None
-        del self.radial
+
+def _moved_map(world_to_map: Float64Array, before: InstanceArrays, after: InstanceArrays) -> Float64Array | None:
+    """The map's frame after its instance has moved or turned; None where it has been stretched."""
+    old_rotation, old_stretch = polar(before.matrix[:3, :3])
+    rotation, stretch = polar(after.matrix[:3, :3])
+    if np.abs(stretch - old_stretch).max() > SAME_STRETCH * np.abs(old_stretch).max():
+        return None
+    map_to_world = np.linalg.inv(world_to_map)
+    offset = old_rotation.T @ (map_to_world[:3, 3] - before.matrix[:3, 3])
+    moved = np.eye(4)
+    moved[:3, :3] = rotation.T
+    moved[:3, 3] = -rotation.T @ (after.matrix[:3, 3] + rotation @ offset)
+    return moved
 
 
 def faces_views(center: np.ndarray, near: float, far: float, resolution: int) -> list[View]:

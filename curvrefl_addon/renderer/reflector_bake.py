@@ -212,15 +212,11 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
     linear = np.asarray(instance.matrix[:3, :3], np.float64)
     if not np.isfinite(instance.matrix).all():
         raise InputError(f'"{name}" has a transform that is not finite: reset its location, rotation and scale.')
-    left, scales, right = np.linalg.svd(linear)
+    scales = np.linalg.svd(linear, compute_uv=False)
     if scales[2] <= 1e-9 * scales[0]:
         raise InputError(f'"{name}" is scaled to zero along an axis: give it a scale other than 0.')
-    # Polar decomposition: linear = rotation @ stretch, with a proper rotation and a stretch that may mirror.
-    rotation = left @ right
-    mirrored = bool(np.linalg.det(rotation) < 0.0)
-    if mirrored:
-        rotation = -rotation
-    stretch = rotation.T @ linear
+    rotation, stretch = polar(linear)
+    mirrored = bool(np.linalg.det(stretch) < 0.0)
     map_to_world = np.eye(4)
     map_to_world[:3, :3] = rotation
     map_to_world[:3, 3] = instance.matrix[:3, 3]
@@ -233,6 +229,15 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
         corner_vertex=mesh.corner_vertex,
         triangles=mesh.triangles[:, ::-1] if mirrored else mesh.triangles,
     )
+
+
+def polar(linear: Float64Array) -> tuple[Float64Array, Float64Array]:
+    """The proper rotation and the stretch (3, 3), which may mirror, whose product is `linear`."""
+    left, _, right = np.linalg.svd(np.asarray(linear, np.float64))
+    rotation = left @ right
+    if np.linalg.det(rotation) < 0.0:
+        rotation = -rotation
+    return rotation, rotation.T @ linear
 
 
 def _gradients(

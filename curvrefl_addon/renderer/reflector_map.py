@@ -88,6 +88,21 @@ class ReflectorMap:
             f"largest {angle.max:.3g}",
         ]
 
+    def rows(self) -> list[tuple[str, str]]:
+        """The same for a panel: label and value."""
+        return [
+            ("Star Center", self.center_name),
+            ("Radius", f"{self.r_min:.4g} to {self.r_max:.4g} m"),
+            ("Map Size", f"{self.resolution} x {self.resolution} x 6"),
+            ("Not Star-Shaped", percent(self.multiple_hits)),
+            ("Holes", percent(self.holes)),
+            ("Radius Error", f"{percent(self.radius_error.median)}, 95th {percent(self.radius_error.p95)}"),
+            (
+                "Normal Error",
+                f"{self.normal_error_degrees.median:.2g}\u00b0, 95th {self.normal_error_degrees.p95:.2g}\u00b0",
+            ),
+        ]
+
 
 def percent(share: float) -> str:
     """A share as text."""

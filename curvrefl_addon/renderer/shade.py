@@ -28,6 +28,10 @@ class ShadePass:
     def __init__(self, scene: SceneArrays, lighting: Lighting, materials: Materials) -> None:
         self._lighting = lighting
         self._materials = materials
+        self.follow(scene)
+
+    def follow(self, scene: SceneArrays) -> None:
+        """Know another state of the scene."""
         self._has_bodies = any(light.radius > 0.0 or light.kind in ("AREA", "SUN") for light in scene.lights)
         self._has_base = any(
             not scene.materials[index].glossy_only

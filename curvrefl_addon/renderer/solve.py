@@ -20,7 +20,7 @@ from ...gpu_shaders.loader import load
 from ..optics import secant_star, status
 from ..scene.arrays import Float64Array
 from ..scene.view import View
-from .gpu_objects import empty_record_texture, read_records, uniform_block
+from .gpu_objects import dispatch, empty_record_texture, read_records, uniform_block
 
 GROUP = 64
 _BLOCK = np.dtype(
@@ -111,8 +111,7 @@ def solve_vertices(
     shader.uniform_sampler("radial", radial)
     shader.image("reflection_points", solution.reflection_points)
     shader.image("virtual_positions", solution.virtual_positions)
-    groups = -(-count // GROUP)
-    gpu.compute.dispatch(shader, max(groups, 1), 1, 1)
+    dispatch(shader, count, GROUP)
     return solution
 
 

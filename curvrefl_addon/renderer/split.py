@@ -13,8 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..scene.arrays import Float32Array, Float64Array, Int32Array
-from .geometry import WorldGeometry
+from ..scene.arrays import Float32Array, Int32Array, MeshArrays
 
 MOST_ROUNDS = 14
 """Halvings of one edge: a floor 16,000 times wider than the distance to the mirror's centre."""
@@ -33,66 +32,89 @@ def split_angle(radius_pixels: float, tolerance_pixels: float) -> float:
     return float(np.clip(np.sqrt(8.0 * tolerance_pixels / quantised), 0.02, 0.5))
 
 
-def split_for_reflection(
-    geometry: WorldGeometry, center: Float64Array, angle: float, most_triangles: int = 4_000_000
-) -> WorldGeometry:
-    """The geometry with long edges halved; `center` (3,) is the star centre in world space.
+def longest_edge(mesh: MeshArrays) -> float:
+    """Length of the mesh's longest edge, object space."""
+    longest = 0.0
+    for start in range(0, len(mesh.triangles), _BLOCK):
+        places = mesh.positions[mesh.corner_vertex[mesh.triangles[start : start + _BLOCK]]]
+        for k in range(3):
+            edges = places[:, k] - places[:, k - 1]
+            longest = max(longest, float(np.einsum("ij,ij->i", edges, edges).max()))
+    return float(np.sqrt(longest))
 
-    Stops early before it would pass `most_triangles`.
+
+_BLOCK = 1 << 15
+"""Triangles at a time: their places stay in the cache"""
+
+
+def has_long_edges(mesh: MeshArrays, relative: Float32Array, angle: float) -> bool:
+    """Whether `split_mesh` would split anything; `relative` as there."""
+    return any(
+        _long_edges(relative, mesh.corner_vertex, mesh.triangles[start : start + _BLOCK], angle).any()
+        for start in range(0, len(mesh.triangles), _BLOCK)
+    )
+
+
+def split_mesh(
+    mesh: MeshArrays, relative: Float32Array, angle: float, most_triangles: int = 4_000_000
+) -> tuple[MeshArrays, Int32Array]:
+    """The mesh with long edges halved, and (triangles,) for each of its triangles the mesh's that it is a part of.
+
+    `relative` (vertices, 3): the mesh's vertices in world axes about the star centre. Stops early before it would
+    pass `most_triangles`.
     """
-    relative = geometry.positions - center.astype(np.float32)
-    corners = geometry.triangles
-    material = geometry.triangle_material
-    corner_position = geometry.corner_position
-    attributes = [geometry.corner_normals, geometry.corner_uv]
-    if geometry.corner_color is not None:
-        attributes.append(geometry.corner_color)
-    owner = geometry.position_object
-    mirror = geometry.corner_mirror
+    corners, corner_vertex = mesh.triangles, mesh.corner_vertex
+    parents = np.arange(len(corners), dtype=np.int32)
+    vertex_layers = [relative, mesh.positions]
+    corner_layers = [mesh.corner_normals]
+    corner_layers += [layer for layer in (mesh.corner_uv, mesh.corner_color) if layer is not None]
 
     # Only triangles that were just made, or not yet looked at, can have long edges.
     settled: list[tuple[Int32Array, Int32Array]] = []
     count = len(corners)
     for _ in range(MOST_ROUNDS):
-        long_edge = _long_edges(relative, corner_position, corners, angle)
+        long_edge = _long_edges(vertex_layers[0], corner_vertex, corners, angle)
         touched = long_edge.any(axis=1)
-        settled.append((corners[~touched], material[~touched]))
-        corners, material, long_edge = corners[touched], material[touched], long_edge[touched]
+        settled.append((corners[~touched], parents[~touched]))
+        corners, parents, long_edge = corners[touched], parents[touched], long_edge[touched]
         if len(corners) == 0 or count + 3 * len(corners) > most_triangles:
             break
         start = corners
         end = corners[:, [1, 2, 0]]
-        middle, pairs = _number_pairs(start[long_edge], end[long_edge], len(corner_position))
-        first, second = corner_position[pairs[:, 0]], corner_position[pairs[:, 1]]
-        position_middle, position_pairs = _number_pairs(first, second, len(relative))
-        relative = np.concatenate([relative, 0.5 * (relative[position_pairs[:, 0]] + relative[position_pairs[:, 1]])])
-        owner = np.concatenate([owner, owner[position_pairs[:, 0]]])
+        middle, pairs = _number_pairs(start[long_edge], end[long_edge], len(corner_vertex))
+        first, second = corner_vertex[pairs[:, 0]], corner_vertex[pairs[:, 1]]
+        vertex_middle, vertex_pairs = _number_pairs(first, second, len(vertex_layers[0]))
+        vertex_layers = [_with_middles(layer, vertex_pairs) for layer in vertex_layers]
         # Halves of interpolated attributes are kept as they are: normals not renormalised, so that the fragment's
         # interpolation is the unsplit triangle's.
-        attributes = [np.concatenate([a, 0.5 * (a[pairs[:, 0]] + a[pairs[:, 1]])]) for a in attributes]
-        if mirror is not None:
-            mirror = np.concatenate([mirror, mirror[pairs[:, 0]]])
-        corner_position = np.concatenate([corner_position, position_middle])
+        corner_layers = [_with_middles(layer, pairs) for layer in corner_layers]
+        corner_vertex = np.concatenate([corner_vertex, vertex_middle])
         middles = np.full(corners.shape, -1, np.int32)
         middles[long_edge] = middle
-        corners, parents = _subdivide(corners, middles)
-        material = material[parents]
+        corners, rows = _subdivide(corners, middles)
+        parents = parents[rows]
         count = sum(len(part[0]) for part in settled) + len(corners)
-    settled.append((corners, material))
-    if len(corner_position) == len(geometry.corner_position):
-        return geometry
-    return replace(
-        geometry,
-        positions=(relative + center.astype(np.float32)).astype(np.float32),
-        position_object=owner,
-        corner_position=corner_position,
-        corner_normals=attributes[0],
-        corner_uv=attributes[1],
-        corner_color=attributes[2] if geometry.corner_color is not None else None,
-        corner_mirror=mirror,
+    settled.append((corners, parents))
+    if len(corner_vertex) == len(mesh.corner_vertex):
+        return mesh, np.arange(len(mesh.triangles), dtype=np.int32)
+    parents = np.concatenate([part[1] for part in settled])
+    rest = iter(corner_layers[1:])
+    result = replace(
+        mesh,
+        positions=vertex_layers[1],
+        corner_vertex=corner_vertex,
+        corner_normals=corner_layers[0],
+        corner_uv=None if mesh.corner_uv is None else next(rest),
+        corner_color=None if mesh.corner_color is None else next(rest),
         triangles=np.concatenate([part[0] for part in settled]),
-        triangle_material=np.concatenate([part[1] for part in settled]),
+        triangle_slot=mesh.triangle_slot[parents],
     )
+    return result, parents
+
+
+def _with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
+    """The layer (n, k) with the means of the rows `pairs` (m, 2) added."""
+    return np.concatenate([layer, np.float32(0.5) * (layer[pairs[:, 0]] + layer[pairs[:, 1]])])
 
 
 def _long_edges(relative: Float32Array, corner_position: Int32Array, corners: Int32Array, angle: float) -> np.ndarray:

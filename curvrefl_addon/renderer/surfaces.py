@@ -8,16 +8,17 @@ material, base colour. Lighting is done once per pixel afterwards (`shade.py`), 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
 import gpu
 
 from ...gpu_shaders.loader import load
-from .geometry import WorldGeometry
+from .chunk import Batches, Chunk
 from .gpu_objects import drawing_state, scissored
 from .materials import Materials
-from .solve import VertexSolution
+from .mirror import SolvedChunk
 from .view_block import TYPEDEF
 
 
@@ -55,21 +56,24 @@ class BackFaces:
         self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.distance,))
         self.width, self.height = width, height
 
-    def draw(self, geometry: WorldGeometry, view_uniforms: Any) -> None:
+    def draw(self, surface: tuple[Chunk, Batches], view_uniforms: Any) -> None:
         """Fill from the reflector's triangles (closed, counter-clockwise from outside)."""
+        chunk, batches = surface
         shader = _back_faces_shader()
         with drawing_state("LESS_EQUAL", depth_write=True), self.frame_buffer.bind():
             gpu.state.viewport_set(0, 0, self.width, self.height)
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
-            shader.uniform_sampler("positions", geometry.position_texture)
-            shader.uniform_sampler("corners", geometry.corner_texture)
-            for _, batch in geometry.batches:
+            shader.uniform_sampler("positions", chunk.positions)
+            shader.uniform_sampler("corners", chunk.corners)
+            for _, batch in batches:
                 batch.draw(shader)
 
 
-def draw_primary(target: SurfaceBuffer, geometry: WorldGeometry, materials: Materials, view_uniforms: Any) -> None:
+def draw_primary(
+    target: SurfaceBuffer, seen: Sequence[tuple[Chunk, Batches]], materials: Materials, view_uniforms: Any
+) -> None:
     """Fill `target` with what the eye sees directly."""
     shader = _primary_shader()
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
@@ -77,11 +81,12 @@ def draw_primary(target: SurfaceBuffer, geometry: WorldGeometry, materials: Mate
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         shader.bind()
         shader.uniform_block("view", view_uniforms)
-        shader.uniform_sampler("positions", geometry.position_texture)
-        shader.uniform_sampler("corners", geometry.corner_texture)
-        for material, batch in geometry.batches:
-            materials.bind(shader, material)
-            batch.draw(shader)
+        for chunk, batches in seen:
+            shader.uniform_sampler("positions", chunk.positions)
+            shader.uniform_sampler("corners", chunk.corners)
+            for material, batch in batches:
+                materials.bind(shader, material)
+                batch.draw(shader)
 
 
 def draw_reflected(
@@ -89,8 +94,7 @@ def draw_reflected(
     mirrors: SurfaceBuffer,
     mirror: int,
     back_faces: BackFaces | None,
-    geometry: WorldGeometry,
-    solution: VertexSolution,
+    scenery: Sequence[SolvedChunk],
     materials: Materials,
     view_uniforms: Any,
     depth_scale: float,
@@ -111,10 +115,6 @@ def draw_reflected(
         shader.uniform_float("mirror", float(mirror))
         shader.uniform_float("depth_scale", depth_scale)
         for name, texture in (
-            ("positions", geometry.position_texture),
-            ("corners", geometry.corner_texture),
-            ("reflection_points", solution.reflection_points),
-            ("virtual_positions", solution.virtual_positions),
             ("mirror_position", mirrors.position),
             ("mirror_normal", mirrors.normal),
             ("mirror_color", mirrors.color),
@@ -122,9 +122,14 @@ def draw_reflected(
             shader.uniform_sampler(name, texture)
         if back_faces is not None:
             shader.uniform_sampler("back_faces", back_faces.distance)
-        for material, batch in geometry.batches:
-            materials.bind(shader, material)
-            batch.draw(shader)
+        for part in scenery:
+            shader.uniform_sampler("positions", part.chunk.positions)
+            shader.uniform_sampler("corners", part.chunk.corners)
+            shader.uniform_sampler("reflection_points", part.solution.reflection_points)
+            shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
+            for material, batch in part.batches:
+                materials.bind(shader, material)
+                batch.draw(shader)
 
 
 def _surface_outputs(info: Any) -> None:

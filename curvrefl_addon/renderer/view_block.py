@@ -22,6 +22,6 @@ def view_block(view: View) -> Any:
     block = np.zeros(1, _BLOCK)
     block["world_to_view"] = view.world_to_view.T
     block["view_to_clip"] = view.view_to_clip.T
-    block["clip_to_world"] = np.linalg.inv(view.world_to_clip).T
+    block["clip_to_world"] = view.clip_to_world.T
     block["eye"] = view.eye
     return uniform_block(block)

@@ -1,26 +1,38 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The evaluated Blender scene to frozen arrays: the only place that walks the depsgraph."""
+"""The evaluated Blender scene to frozen arrays: the only place that walks the depsgraph.
+
+A `SceneReader` reads a scene again and again and does only what the changes ask for: what did not change is the same
+object as in the last `SceneArrays`, and the renderer goes by that.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from operator import is_
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..errors import InputError
-from .arrays import Float64Array, InstanceArrays, LightArrays, MeshArrays, SceneArrays
+from .arrays import Float64Array, InstanceArrays, LightArrays, MaterialArrays, SceneArrays, WorldArrays
+from .changes import Changes
 from .images import ImageReader
 from .lights import read_light
 from .materials import MaterialReader, ReadMaterial
-from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
+from .mesh_store import MeshStore
+from .meshes import MeshNeeds
 from .visibility import Visibility
 from .world import read_world
 
 SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
+SURELY_REGULAR = 1e-4
+"""Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
+SHOWN = ("LIGHT", "MESH")
+"""Curves, texts, surfaces, metaballs and what geometry nodes make come as instances of meshes, too"""
 
 
 def extract_scene(
@@ -35,172 +47,369 @@ def extract_scene(
     depsgraph. Instances of one mesh share its arrays. Raises InputError where a reflector cannot be one: hidden,
     no faces, coordinates that are not finite, a singular matrix. Elsewhere such parts are left out with a warning.
     """
-    return _Extraction(depsgraph, scene, reflectors, for_render).run()
+    return SceneReader(for_render).read(depsgraph, scene, reflectors, Changes(everything=True))
 
 
-class _Extraction:
-    """One walk through the depsgraph."""
+@dataclass(frozen=True, slots=True)
+class _Plain:
+    """An object as an instance of itself, as `DepsgraphObjectInstance`."""
 
-    def __init__(
+    object: Any
+    matrix_world: Any
+    show_self: bool = True
+    is_instance: bool = False
+    parent: Any = None
+
+
+@dataclass(slots=True)
+class _Shown:
+    """What one object of the scene, or one that instances it, shows: in the order of the depsgraph."""
+
+    instance: InstanceArrays | None = None
+    light: LightArrays | None = None
+    warnings: tuple[str, ...] = ()
+    has_faces: bool = True
+    made_of: tuple[Any, ...] = ()
+    """All that `instance` is made of"""
+    error: str = ""
+    """Why it cannot be a reflector"""
+    is_visible: bool = False
+    """Anything can see it"""
+    name: str = ""
+    """Of the object"""
+
+
+class SceneReader:
+    """Reads one scene, one view layer."""
+
+    def __init__(self, for_render: bool = False) -> None:
+        self._for_render = for_render
+        self.counters = {"walks": 0, "objects read": 0, "worlds read": 0}
+        self._images = ImageReader()
+        self._materials = MaterialReader(self._images)
+        self._meshes = MeshStore()
+        self._shown: dict[tuple[int, int, int], _Shown] = {}
+        """By (object, what instances it or 0, which of these)"""
+        self._instancers: set[int] = set()
+        self._ids: dict[int, int] = {}
+        self._world = WorldArrays()
+        self._world_warnings: list[str] = []
+        self._listing: tuple[Any, ...] = ()
+        self._overrides: dict[int, MaterialArrays] = {}
+        self._last: SceneArrays | None = None
+
+    @property
+    def reads(self) -> dict[str, int]:
+        """How often what was read."""
+        return {
+            **self.counters,
+            "meshes read": self._meshes.reads,
+            "materials read": self._materials.reads,
+            "images read": self._images.reads,
+        }
+
+    def read(
         self,
         depsgraph: bpy.types.Depsgraph,
         scene: bpy.types.Scene,
         reflectors: Sequence[bpy.types.Object],
-        for_render: bool,
-    ) -> None:
+        changes: Changes,
+        overrides: Mapping[int, MaterialArrays] | None = None,
+    ) -> SceneArrays:
+        """The scene's present state, of which only the `changes` are looked at; errors as in `extract_scene`.
+
+        `overrides`: materials in place of all of an object's own, by its session_uid.
+        """
         view_layer = depsgraph.view_layer
         assert view_layer is not None
-        self._depsgraph = depsgraph
-        self._view_layer = view_layer
-        self._scene = scene
-        self._reflectors = {obj.original.as_pointer(): obj.name for obj in reflectors}
-        self._visibility = Visibility(view_layer, for_render)
-        self._override = view_layer.material_override
-        self._warnings: list[str] = []
-        self._images = ImageReader(self._warnings)
-        self._materials = MaterialReader(self._images, self._warnings)
-        self._meshes: list[MeshArrays] = []
-        self._mesh_numbers: dict[tuple[int, MeshNeeds, bool], int] = {}
-        self._dropped: dict[int, int] = {}
-        """Triangles left out of each mesh"""
-        self._instances: list[InstanceArrays] = []
-        self._lights: list[LightArrays] = []
-        self._ids: dict[int, int] = {}
+        if dict(overrides or {}) != self._overrides:
+            self._overrides = dict(overrides or {})
+            changes.instances = True
+        if changes.everything:
+            self._images = ImageReader()
+            self._materials = MaterialReader(self._images)
+            self._meshes = MeshStore()
+        if self._last is None or changes.everything:
+            changes.world = changes.instances = True
+        if changes.images:
+            self._images.forget(changes.images)
+            changes.all_materials = changes.world = True
+        if changes.all_materials:
+            self._materials.forget_all()
+        self._materials.forget(changes.materials)
+        self._meshes.forget(changes.geometry)
+        walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)
+        if not walk and changes.listing:
+            listing = _listing(depsgraph, scene, view_layer)
+            walk = listing != self._listing
+        visibility = Visibility(view_layer, self._for_render)
+        objects = self._plain_objects(changes) if not walk else None
+        if objects is None:
+            self._listing = _listing(depsgraph, scene, view_layer)
+            self._walk(depsgraph, visibility, view_layer.material_override)
+        else:
+            for uid, obj in objects:
+                evaluated = obj.evaluated_get(depsgraph)
+                placed = _Plain(evaluated, evaluated.matrix_world)
+                self._shown[uid, 0, 0] = self._read_instance(
+                    placed, uid, 0, visibility, view_layer.material_override, self._shown[uid, 0, 0]
+                )
+        if changes.world:
+            self._read_world(view_layer.world_override or scene.world)
+        self._last = self._arrays(reflectors)
+        return self._last
 
-    def run(self) -> SceneArrays:
-        found_without_faces: set[int] = set()
-        for instance in self._depsgraph.object_instances:
-            kind = instance.object.type
-            if kind not in ("LIGHT", "MESH") or not self._visibility.is_there(instance):
-                continue
-            if kind == "LIGHT":
-                self._add_light(instance)
-            elif not self._add_surface(instance):
-                found_without_faces.add(instance.object.original.as_pointer())
-        for key, name in self._reflectors.items():
-            if key not in self._ids:
-                if key in found_without_faces:
-                    raise InputError(f'"{name}" has no faces: choose a reflector with a surface.')
-                raise InputError(f'"{name}" is hidden or has no surface: show it or choose another reflector.')
-        world = read_world(self._view_world(), self._images, self._warnings)
-        return SceneArrays(
-            meshes=tuple(self._meshes),
-            instances=tuple(self._instances),
-            materials=tuple(self._materials.materials),
-            images=tuple(self._materials.images),
-            lights=tuple(self._lights),
-            world=world,
-            reflectors=tuple(self._ids[key] for key in self._reflectors),
-            warnings=tuple(dict.fromkeys(self._warnings)),
+    def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
+        """What these objects (session_uid) show of the scene last read, themselves or by instancing."""
+        kept = {id(item.instance) for key, item in self._shown.items() if (key[1] or key[0]) in objects}
+        lights = {id(item.light) for key, item in self._shown.items() if (key[1] or key[0]) in objects}
+        instances = tuple(instance for instance in scene.instances if id(instance) in kept)
+        ids = {instance.object_id for instance in instances}
+        return replace(
+            scene,
+            instances=instances,
+            lights=tuple(light for light in scene.lights if id(light) in lights),
+            reflectors=tuple(number for number in scene.reflectors if number in ids),
         )
 
-    def _view_world(self) -> bpy.types.World | None:
-        override = self._view_layer.world_override
-        return override if override is not None else self._scene.world
+    def _plain_objects(self, changes: Changes) -> list[tuple[int, bpy.types.Object]] | None:
+        """The changed objects, where it is enough to look at them alone."""
+        if not changes.objects.isdisjoint(self._instancers):
+            return None
+        found = []
+        for uid in changes.objects:
+            shown = self._shown.get((uid, 0, 0))
+            obj = _object(uid, "" if shown is None else shown.name)
+            if obj is None:
+                return None
+            if shown is not None:
+                found.append((uid, obj))
+            elif uid in changes.shading and obj.type in SHOWN:
+                return None
+        return found
 
-    def _add_light(self, instance: Any) -> None:
+    def _walk(
+        self, depsgraph: bpy.types.Depsgraph, visibility: Visibility, override: bpy.types.Material | None
+    ) -> None:
+        self.counters["walks"] += 1
+        self._meshes.begin()
+        before, self._shown = self._shown, {}
+        self._instancers = set()
+        counts: dict[tuple[int, int], int] = {}
+        for instance in depsgraph.object_instances:
+            if instance.object.type not in SHOWN or not visibility.is_there(instance):
+                continue
+            uid = instance.object.original.session_uid
+            parent = 0
+            if instance.is_instance:
+                parent = instance.parent.original.session_uid
+                self._instancers.add(parent)
+            number = counts.get((uid, parent), 0)
+            counts[uid, parent] = number + 1
+            key = (uid, parent, number)
+            self._shown[key] = self._read_instance(instance, uid, parent, visibility, override, before.get(key))
+        self._meshes.end()
+
+    def _read_instance(
+        self,
+        instance: Any,
+        uid: int,
+        parent: int,
+        visibility: Visibility,
+        override: bpy.types.Material | None,
+        before: _Shown | None,
+    ) -> _Shown:
+        self.counters["objects read"] += 1
+        if instance.object.type == "LIGHT":
+            return self._read_light(instance, visibility, before)
+        return self._read_surface(instance, uid, parent, visibility, override, before)
+
+    def _read_light(self, instance: Any, visibility: Visibility, before: _Shown | None) -> _Shown:
         obj = instance.object
+        warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        visible_glossy = self._visibility.rays(instance).glossy
-        light = read_light(obj.data, obj.name, matrix, visible_glossy, self._warnings)
-        if light is not None:
-            self._lights.append(light)
+        light = read_light(obj.data, obj.name, matrix, visibility.rays(instance).glossy, warnings)
+        if light is not None and before is not None and before.light is not None and _is_same(light, before.light):
+            light = before.light
+        return _Shown(light=light, warnings=tuple(warnings), name=obj.original.name)
 
-    def _add_surface(self, instance: Any) -> bool:
-        """False for a mesh without faces."""
-        # Curves, texts, surfaces, metaballs and what geometry nodes make come as instances of meshes, too.
+    def _read_surface(
+        self,
+        instance: Any,
+        uid: int,
+        parent: int,
+        visibility: Visibility,
+        override: bpy.types.Material | None,
+        before: _Shown | None,
+    ) -> _Shown:
         obj = instance.object
-        rays = self._visibility.rays(instance)
-        key = obj.original.as_pointer()
-        is_reflector = key in self._reflectors
+        rays = visibility.rays(instance)
         if len(obj.data.polygons) == 0 and not obj.data.is_editmode:
-            return False
-        if not rays.any and not is_reflector:
-            return True
+            return _Shown(has_faces=False)
+        name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        if _is_singular(matrix):
-            if is_reflector:
-                raise InputError(f'"{obj.name}" is flattened by a zero or endless scale: clear the scale.')
-            self._warnings.append(f'"{obj.name}" is flattened by a zero or endless scale and left out.')
-            return True
-        slots = [self._materials.read(material) for material in self._slot_materials(obj)]
-        number = self._mesh(obj, slots, is_mirrored=bool(np.linalg.det(matrix[:3, :3]) < 0.0))
-        if is_reflector and self._dropped[number]:
-            raise InputError(f'"{obj.name}" has vertices at no finite place: repair its mesh or choose another.')
-        if len(self._meshes[number].triangles) == 0:
-            return False
+        # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
+        determinant = instance.matrix_world.to_3x3().determinant()
+        squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
+        if not abs(determinant) > SURELY_REGULAR * squared**1.5 and _is_singular(matrix):
+            return _Shown(
+                warnings=(f'"{name}" is flattened by a zero or endless scale and left out.',) if rays.any else (),
+                error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
+            )
+        slots = self._slots(obj, uid, override)
+        warnings: list[str] = [slot.warning for slot in slots if slot.warning]
+        needs = _needs(name, slots, warnings)
+        stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
+        warnings += stored.warnings
+        error = (
+            f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
+        )
+        if len(self._meshes.meshes[stored.number].triangles) == 0:
+            return _Shown(warnings=tuple(warnings), has_faces=False, error=error)
         if obj.original.is_shadow_catcher:
-            self._warnings.append(f'Shadow catcher "{obj.name}" is drawn as an ordinary object.')
-        self._instances.append(
-            InstanceArrays(
-                object_name=obj.original.name,
-                object_id=self._ids.setdefault(key, len(self._ids) + 1),
-                mesh=number,
+            warnings.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
+        materials = tuple(slot.index for slot in slots)
+        made_of = (name, stored.number, matrix.tobytes(), materials, rays)
+        made = before.instance if before is not None and before.made_of == made_of else None
+        if made is None:
+            made = InstanceArrays(
+                object_name=name,
+                object_id=self._ids.setdefault(uid, len(self._ids) + 1),
+                mesh=stored.number,
                 matrix=matrix,
-                materials=tuple(slot.index for slot in slots),
+                materials=materials,
                 visible_camera=rays.camera,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,
             )
+        return _Shown(made, None, tuple(warnings), True, made_of, error, rays.any, name)
+
+    def _slots(self, obj: bpy.types.Object, uid: int, override: bpy.types.Material | None) -> list[ReadMaterial]:
+        if uid in self._overrides:
+            return [self._materials.plain(self._overrides[uid])]
+        return [self._materials.read(material) for material in _slot_materials(obj, override)]
+
+    def _read_world(self, world: bpy.types.World | None) -> None:
+        self.counters["worlds read"] += 1
+        self._world_warnings = []
+        self._world = read_world(world, self._images, self._world_warnings)
+
+    def _arrays(self, reflectors: Sequence[bpy.types.Object]) -> SceneArrays:
+        chosen = {obj.original.session_uid: obj.name for obj in reflectors}
+        self._check(chosen)
+        instances = [
+            item.instance
+            for key, item in self._shown.items()
+            if item.instance is not None and (item.is_visible or key[0] in chosen)
+        ]
+        warnings = [warning for item in self._shown.values() for warning in item.warnings]
+        arrays = SceneArrays(
+            meshes=tuple(self._meshes.meshes),
+            instances=tuple(instances),
+            materials=tuple(self._materials.materials),
+            images=tuple(self._materials.images),
+            lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
+            world=self._world,
+            reflectors=tuple(self._ids[uid] for uid in chosen),
+            warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
         )
-        return True
+        return arrays if self._last is None else _with_kept(arrays, self._last)
 
-    def _slot_materials(self, obj: bpy.types.Object) -> list[bpy.types.Material | None]:
-        """What each slot shows; one empty slot where there are none."""
-        assert isinstance(obj.data, bpy.types.Mesh)
-        materials = list(obj.data.materials)
-        for index, slot in enumerate(obj.material_slots):
-            if index >= len(materials):
-                materials.append(slot.material)
-            elif slot.link == "OBJECT":
-                materials[index] = slot.material
-        if self._override is not None:
-            materials = [self._override] * len(materials) or [self._override]
-        return materials or [None]
-
-    def _mesh(self, obj: bpy.types.Object, slots: Sequence[ReadMaterial], is_mirrored: bool) -> int:
-        """Number of the object's mesh arrays, read once for all that share them."""
-        needs = self._needs(obj, slots)
-        key = (obj.data.as_pointer(), needs, is_mirrored)
-        if key not in self._mesh_numbers:
-            if is_mirrored:
-                plain = self._mesh(obj, slots, is_mirrored=False)
-                arrays, dropped = mirrored(self._meshes[plain]), self._dropped[plain]
-            else:
-                reading = _read_surface(obj, needs)
-                arrays, dropped = reading.mesh, reading.dropped
-                if dropped:
-                    self._warnings.append(
-                        f'{dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
-                    )
-                self._warnings += [f'"{obj.name}" has no {what} that its material needs.' for what in reading.missing]
-            self._mesh_numbers[key] = len(self._meshes)
-            self._dropped[len(self._meshes)] = dropped
-            self._meshes.append(arrays)
-        return self._mesh_numbers[key]
-
-    def _needs(self, obj: bpy.types.Object, slots: Sequence[ReadMaterial]) -> MeshNeeds:
-        """What the first slots that need a UV map or colours say: a mesh has one of each here."""
-        uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
-        colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
-        for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colours")):
-            if len(set(wanted)) > 1:
-                self._warnings.append(f'"{obj.name}" has several materials; the {what} of the first serve all.')
-        return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+    def _check(self, chosen: Mapping[int, str]) -> None:
+        """Raises InputError where a reflector cannot be one."""
+        seen = {uid: [item for key, item in self._shown.items() if key[0] == uid] for uid in chosen}
+        for uid, items in seen.items():
+            for item in items:
+                if item.error:
+                    raise InputError(item.error)
+            if not any(item.instance for item in items):
+                if any(not item.has_faces for item in items):
+                    raise InputError(f'"{chosen[uid]}" has no faces: choose a reflector with a surface.')
+                raise InputError(f'"{chosen[uid]}" is hidden or has no surface: show it or choose another reflector.')
 
 
-def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:
+def _object(uid: int, name: str) -> bpy.types.Object | None:
+    """The object with this session_uid, probably the one with this name."""
+    obj = bpy.data.objects.get(name)
+    if obj is not None and obj.session_uid == uid:
+        return obj
+    return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
+
+
+def _listing(
+    depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer
+) -> tuple[Any, ...]:
+    """Who is there, cheaply: the same before and after a selection, another one after hiding."""
+    world, override = scene.world, view_layer.material_override
+    return (
+        [(item.object.original.session_uid, item.show_self) for item in depsgraph.object_instances],
+        list(_layer_flags(view_layer.layer_collection)),
+        None if world is None else world.session_uid,
+        None if override is None else override.session_uid,
+    )
+
+
+def _layer_flags(layer: bpy.types.LayerCollection) -> Iterable[tuple[bool, ...]]:
+    yield layer.exclude, layer.holdout, layer.indirect_only, layer.hide_viewport, layer.collection.hide_render
+    for child in layer.children:
+        yield from _layer_flags(child)
+
+
+def _slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -> list[bpy.types.Material | None]:
+    """What each slot shows; one empty slot where there are none."""
     assert isinstance(obj.data, bpy.types.Mesh)
-    if not obj.data.is_editmode:
-        return read_mesh(obj.data, needs)
-    # What is being edited has its evaluated arrays only in a copy.
-    mesh = obj.to_mesh()
-    assert mesh is not None
-    try:
-        return read_mesh(mesh, needs)
-    finally:
-        obj.to_mesh_clear()
+    materials = list(obj.data.materials)
+    for index, slot in enumerate(obj.material_slots):
+        if index >= len(materials):
+            materials.append(slot.material)
+        elif slot.link == "OBJECT":
+            materials[index] = slot.material
+    if override is not None:
+        materials = [override] * len(materials) or [override]
+    return materials or [None]
+
+
+def _needs(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
+    """What the first slots that need a UV map or colours say: a mesh has one of each here."""
+    uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
+    colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
+    for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):
+        if len(set(wanted)) > 1:
+            warnings.append(f'"{name}" has several materials; the {what} of the first serve all.')
+    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+
+
+def _is_same(one: LightArrays, other: LightArrays) -> bool:
+    plain = [item.name for item in fields(LightArrays) if item.name != "matrix"]
+    return np.array_equal(one.matrix, other.matrix) and all(getattr(one, n) == getattr(other, n) for n in plain)
+
+
+def _with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
+    """With the last state's tuples where all members are the same objects."""
+
+    def kept[T](new: tuple[T, ...], old: tuple[T, ...]) -> tuple[T, ...]:
+        return old if len(new) == len(old) and all(map(is_, new, old)) else new
+
+    result = replace(
+        arrays,
+        meshes=kept(arrays.meshes, last.meshes),
+        instances=kept(arrays.instances, last.instances),
+        materials=kept(arrays.materials, last.materials),
+        images=kept(arrays.images, last.images),
+        lights=kept(arrays.lights, last.lights),
+    )
+    same = (
+        result.meshes is last.meshes
+        and result.instances is last.instances
+        and result.materials is last.materials
+        and result.images is last.images
+        and result.lights is last.lights
+        and result.world is last.world
+        and result.reflectors == last.reflectors
+        and result.warnings == last.warnings
+    )
+    return last if same else result
 
 
 def _is_singular(matrix: Float64Array) -> bool:

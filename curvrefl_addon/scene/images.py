@@ -18,41 +18,55 @@ _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
 
 
 class ImageReader:
-    """Reads each image once."""
+    """Reads each image once, and again after `forget`."""
 
-    def __init__(self, warnings: list[str]) -> None:
-        """`warnings` is added to."""
-        self._warnings = warnings
+    def __init__(self) -> None:
+        self.reads = 0
+        """How many images have been read"""
         self._pixels: dict[int, Float32Array] = {}
+        self._warnings: dict[int, list[str]] = {}
+
+    @property
+    def warnings(self) -> list[str]:
+        """One sentence for each image that is not drawn as it is."""
+        return [warning for warnings in self._warnings.values() for warning in warnings]
 
     def read(self, image: bpy.types.Image) -> Float32Array:
         """(height, width, 4) scene-linear, row 0 at the bottom, colours not multiplied with alpha.
 
         Packed and generated images too. A missing file gives one magenta pixel and a warning.
         """
-        key = image.as_pointer()
+        key = image.original.session_uid
         if key not in self._pixels:
-            self._pixels[key] = self._read(image)
+            self._warnings[key] = []
+            self._pixels[key] = self._read(image, self._warnings[key])
+            self.reads += 1
         return self._pixels[key]
 
-    def _read(self, image: bpy.types.Image) -> Float32Array:
+    def forget(self, images: set[int]) -> None:
+        """These images (session_uid) changed."""
+        for key in images:
+            self._pixels.pop(key, None)
+            self._warnings.pop(key, None)
+
+    def _read(self, image: bpy.types.Image, warnings: list[str]) -> Float32Array:
         if image.source in ("MOVIE", "SEQUENCE", "TILED"):
             what = "first tile" if image.source == "TILED" else "loaded frame"
-            self._warnings.append(f'Of image "{image.name}" only the {what} is drawn.')
+            warnings.append(f'Of image "{image.name}" only the {what} is drawn.')
         width, height = image.size
         image_pixels: Any = image.pixels
         pixels = np.empty(width * height * image.channels, np.float32)
         if pixels.size and len(image_pixels) == pixels.size:
             image_pixels.foreach_get(pixels)
         if pixels.size == 0 or not image.has_data:
-            self._warnings.append(f'Image "{image.name}" has no pixels: it is drawn magenta, as in Blender.')
+            warnings.append(f'Image "{image.name}" has no pixels: it is drawn magenta, as in Blender.')
             return np.array([[MISSING_COLOR]], np.float32)
         pixels = _four_channels(pixels.reshape(height, width, -1))
         # Blender makes float images linear as it loads them; bytes stay as they are in the file.
         space = image.colorspace_settings.name
         if not image.is_float and space not in _LINEAR:
             if space != "sRGB":
-                self._warnings.append(f'Colour space "{space}" of image "{image.name}" is taken for sRGB.')
+                warnings.append(f'Colour space "{space}" of image "{image.name}" is taken for sRGB.')
             _decode_srgb(pixels)
         return pixels
 

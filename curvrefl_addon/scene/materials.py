@@ -49,34 +49,60 @@ class ReadMaterial:
     """Into `MaterialReader.materials`"""
     needs: MeshNeeds
     """What it reads of the meshes it is on"""
+    warning: str = ""
+    """What is drawn only roughly"""
 
 
 class MaterialReader:
-    """Reads each material once."""
+    """Reads each material once, and again after `forget`."""
 
-    def __init__(self, images: ImageReader, warnings: list[str]) -> None:
-        """`warnings` gets one sentence for each material that is drawn only roughly."""
+    def __init__(self, images: ImageReader) -> None:
         self.materials: list[MaterialArrays] = [EMPTY_SLOT]
+        """A material keeps its place in it"""
         self.images: list[ImageArrays] = []
-        self._warnings = warnings
+        self.reads = 0
+        """How many materials have been read"""
         self._textures = SurfaceTextureReader(images)
         self._read: dict[int, ReadMaterial] = {}
+        self._places: dict[int | MaterialArrays, int] = {}
 
     def read(self, material: bpy.types.Material | None) -> ReadMaterial:
         """The material's place in the list; None, an empty slot, is at index 0."""
         if material is None:
             return ReadMaterial(0, MeshNeeds())
-        key = material.original.as_pointer()
+        key = material.original.session_uid
         if key not in self._read:
             notes: list[str] = []
             arrays, needs = self._arrays(material, notes)
-            self.materials.append(arrays)
-            self._read[key] = ReadMaterial(len(self.materials) - 1, needs)
-            if notes:
-                self._warnings.append(
-                    f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.'
-                )
+            self.reads += 1
+            warning = (
+                f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.' if notes else ""
+            )
+            self._read[key] = ReadMaterial(self._place(key, arrays), needs, warning)
         return self._read[key]
+
+    def plain(self, arrays: MaterialArrays) -> ReadMaterial:
+        """Place of a material without textures that is not the scene's."""
+        return ReadMaterial(self._place(arrays, arrays), MeshNeeds())
+
+    def forget(self, materials: set[int]) -> None:
+        """These materials (session_uid) changed."""
+        for key in materials:
+            self._read.pop(key, None)
+
+    def forget_all(self) -> None:
+        """Any may have changed, or the images they show."""
+        self._read.clear()
+        self._textures.forget()
+        self.images.clear()
+
+    def _place(self, key: int | MaterialArrays, arrays: MaterialArrays) -> int:
+        if key in self._places:
+            self.materials[self._places[key]] = arrays
+        else:
+            self._places[key] = len(self.materials)
+            self.materials.append(arrays)
+        return self._places[key]
 
     def _arrays(self, material: bpy.types.Material, notes: list[str]) -> tuple[MaterialArrays, MeshNeeds]:
         source = surface_source(material.node_tree)
@@ -103,6 +129,11 @@ class MaterialReader:
     def _image_index(self, image: ImageArrays) -> int:
         for index, known in enumerate(self.images):
             if known is image:
+                return index
+        used = {material.image for material in self.materials}
+        for index in range(len(self.images)):
+            if index not in used:
+                self.images[index] = image
                 return index
         self.images.append(image)
         return len(self.images) - 1

@@ -50,6 +50,10 @@ class SurfaceTextureReader:
         self._images = images
         self._arrays: dict[tuple[int, bool, bool], ImageArrays] = {}
 
+    def forget(self) -> None:
+        """Images changed."""
+        self._arrays.clear()
+
     def read(self, source: Source, notes: list[str]) -> NodeColor | None:
         """The colour of a texture node, None where it cannot be one. Approximations are added to `notes`."""
         node = source.node

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from .arrays import Float64Array
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class View:
     """Matrices of a picture of `width` x `height` pixels (OpenGL clip space, z from -1 to 1)."""
 
@@ -27,7 +28,7 @@ class View:
     def is_orthographic(self) -> bool:
         return bool(self.view_to_clip[3, 3] != 0.0)
 
-    @property
+    @cached_property
     def eye(self) -> Float64Array:
         """(4,) homogeneous eye: a point with w = 1, or the unit direction towards an infinite eye with w = 0."""
         view_to_world = np.linalg.inv(self.world_to_view)
@@ -36,10 +37,15 @@ class View:
             return np.array([*(axis / np.linalg.norm(axis)), 0.0])
         return np.array([*view_to_world[:3, 3], 1.0])
 
-    @property
+    @cached_property
     def world_to_clip(self) -> Float64Array:
         """(4, 4)"""
         return self.view_to_clip @ self.world_to_view
+
+    @cached_property
+    def clip_to_world(self) -> Float64Array:
+        """(4, 4)"""
+        return np.linalg.inv(self.world_to_clip)
 
     @property
     def focal_pixels(self) -> float:

@@ -8,11 +8,29 @@ from typing import Any
 
 import bpy
 
+from ..diagnostic_colors import SOLVED_MODES
+from ..scene.blend_file import SURFACE_TYPES
+from .choices import PRESETS, active_preset
+from .messages import draw_message, draw_rows
+from .properties import newer_settings
+
+MOST_LISTED = 12
+"""Mirrors in the list of the panel"""
+
 
 class _Tab:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Curvrefl"
+
+
+class _SubPanel(_Tab):
+    bl_parent_id = "CURVREFL_PT_main"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 (Blender's own convention)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.scene is not None
 
 
 class CURVREFL_PT_main(_Tab, bpy.types.Panel):
@@ -29,65 +47,163 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        item = context.object
+        scene, item = context.scene, context.object
+        if scene is None:
+            return
         if item is None:
             layout.label(text="Select an object to make it a mirror", icon="INFO")
-        else:
+        elif item.type in SURFACE_TYPES:
             layout.prop(item.curvrefl, "is_mirror", text=f"{item.name} is a Mirror")
-        messages = viewport.messages()
-        scene = context.scene
-        if scene is not None and not viewport.mirrors_of(scene):
-            messages = ["No object is marked as a mirror", *messages]
-        for message in messages:
-            _wrapped(layout, message, context.region.width)
+        else:
+            layout.label(text=f"{item.name} has no surface", icon="INFO")
+        mirrors = viewport.mirrors_of(scene)
+        if mirrors:
+            _draw_list(layout, mirrors, context)
+        else:
+            draw_message(layout, "No object is marked as a mirror", context, "INFO")
+        if newer := newer_settings(scene):
+            draw_message(layout, newer, context)
+        for message in viewport.messages():
+            draw_message(layout, message, context)
+        if mirrors and not context.window_manager.curvrefl_enabled and not viewport.messages():
+            draw_message(layout, "Switched off: tick the box in this panel's header", context, "INFO")
 
 
-class CURVREFL_PT_quality(_Tab, bpy.types.Panel):
+class CURVREFL_PT_mirror(_SubPanel, bpy.types.Panel):
+    """How the active object reflects, and the map it is baked into"""
+
+    bl_label = "Mirror"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.object is not None and context.object.curvrefl.is_mirror
+
+    def draw(self, context: bpy.types.Context) -> None:
+        from .. import viewport
+
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        item = context.object
+        assert item is not None
+        settings = item.curvrefl
+        layout.prop(settings, "override")
+        column = layout.column()
+        column.active = settings.override
+        column.prop(settings, "fresnel")
+        if settings.fresnel == "DIELECTRIC":
+            column.prop(settings, "ior")
+        else:
+            column.prop(settings, "tint")
+        if rows := viewport.bake_state(item):
+            draw_rows(layout, rows)
+        else:
+            layout.label(text="Not baked yet", icon="INFO")
+        layout.operator("curvrefl.bake_reflector", text="Bake to Files", icon="TEXTURE")
+
+
+class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
     """How reflections are found and how finely"""
 
     bl_label = "Quality"
-    bl_parent_id = "CURVREFL_PT_main"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 (Blender's own convention)
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        name = active_preset(context.scene.curvrefl)
+        label = PRESETS[name][0] if name else "Custom"
+        self.layout.emboss = "NONE"
+        self.layout.menu("CURVREFL_MT_presets", text=label, icon="PRESET")
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
         settings = context.scene.curvrefl
-        layout.prop(settings, "method")
-        layout.prop(settings, "pixel_tolerance")
-        layout.prop(settings, "samples")
+        for name in ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution"):
+            layout.prop(settings, name)
 
 
-class CURVREFL_PT_statistics(_Tab, bpy.types.Panel):
+class CURVREFL_PT_environment(_SubPanel, bpy.types.Panel):
+    """What lights the reflected scene"""
+
+    bl_label = "Environment"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        settings = context.scene.curvrefl
+        layout.prop(settings, "environment", text="Source")
+        if settings.environment == "IMAGE":
+            layout.template_ID(settings, "environment_image", open="image.open")
+            column = layout.column()
+            column.active = settings.environment_image is not None
+            column.prop(settings, "environment_strength")
+            column.prop(settings, "environment_rotation")
+
+
+class CURVREFL_PT_diagnostics(_SubPanel, bpy.types.Panel):
+    """Views that show how the reflection comes about"""
+
+    bl_label = "Diagnostic View"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        draw_show(layout, context.scene.curvrefl)
+
+
+class CURVREFL_PT_tools(_SubPanel, bpy.types.Panel):
+    """Operators that work with the mirrors"""
+
+    bl_label = "Tools"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column()
+        for name, icon in TOOLS:
+            column.operator(f"curvrefl.{name}", icon=icon)
+
+
+class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
     """What the last picture took"""
 
     bl_label = "Statistics"
-    bl_parent_id = "CURVREFL_PT_main"
-    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 (Blender's own convention)
 
     def draw(self, context: bpy.types.Context) -> None:
         from .. import viewport
 
-        column = self.layout.column(align=True)
-        for label, value in viewport.statistics():
-            row = column.row()
-            row.label(text=label)
-            row.label(text=value)
+        draw_rows(self.layout, viewport.statistics())
 
 
-def _wrapped(layout: Any, text: str, width: int) -> None:
-    """A message over as many lines as the sidebar's width needs."""
-    letters = max(int(width / 8), 20)
-    column = layout.column(align=True)
-    line = ""
-    icon = "ERROR"
-    for word in text.split():
-        if len(line) + len(word) + 1 > letters and line:
-            column.label(text=line, icon=icon)
-            line, icon = "", "BLANK1"
-        line = f"{line} {word}".strip()
-    column.label(text=line, icon=icon)
+TOOLS: tuple[tuple[str, Any], ...] = (("trace_at_cursor", "LIGHT_SUN"), ("save_preview", "RENDER_STILL"), ("compare_with_cycles", "RENDER_RESULT"))
 
 
-CLASSES = (CURVREFL_PT_main, CURVREFL_PT_quality, CURVREFL_PT_statistics)
+def draw_show(layout: Any, settings: Any) -> None:
+    """The diagnostic views and what they can be set to."""
+    layout.prop(settings, "show")
+    if settings.show not in SOLVED_MODES and settings.show != "REFLECTION":
+        layout.prop(settings, "stripe_count")
+        layout.prop(settings, "stripe_direction")
+
+
+def _draw_list(layout: Any, mirrors: list[bpy.types.Object], context: bpy.types.Context) -> None:
+    """The scene's mirrors: seen or not, and a way to make them none."""
+    box = layout.box().column(align=True)
+    for mirror in mirrors[:MOST_LISTED]:
+        row = box.row(align=True)
+        seen = mirror.visible_get(view_layer=context.view_layer)
+        row.label(text=mirror.name, icon="HIDE_OFF" if seen else "HIDE_ON")
+        row.prop(mirror.curvrefl, "is_mirror", text="", icon="X", emboss=False)
+    if len(mirrors) > MOST_LISTED:
+        box.label(text=f"and {len(mirrors) - MOST_LISTED} more")
+
+
+CLASSES = (
+    CURVREFL_PT_main,
+    CURVREFL_PT_mirror,
+    CURVREFL_PT_quality,
+    CURVREFL_PT_environment,
+    CURVREFL_PT_diagnostics,
+    CURVREFL_PT_tools,
+    CURVREFL_PT_statistics,
+)

@@ -4,24 +4,42 @@
 
 # No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
 
+from math import pi
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..optics.catalogue import METHODS
+from . import preferences
+from .choices import ENVIRONMENT_ITEMS, FRESNEL_ITEMS, METHOD_ITEMS, MOTION_ITEMS, SHOW_ITEMS
+
+SETTINGS_VERSION = 1
+"""Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
 
 
 def _is_switched(_self: Any, context: bpy.types.Context) -> None:
     from .. import viewport
 
-    viewport.switch(context.window_manager.curvrefl_enabled)
+    enabled = context.window_manager.curvrefl_enabled
+    if enabled:
+        use_defaults()
+    viewport.switch(enabled)
 
 
-def _needs_redraw(_self: Any, _context: bpy.types.Context | None) -> None:
+def _mirrors_changed(_self: Any, _context: bpy.types.Context | None) -> None:
     from .. import viewport
 
-    viewport.forget_scene()
+    viewport.mirrors_changed()
+
+
+def _settings_changed(_self: Any, _context: bpy.types.Context | None) -> None:
+    from .. import viewport
+
+    viewport.settings_changed()
+
+
+def _is_panorama(_self: Any, image: bpy.types.Image) -> bool:
+    return image.source in {"FILE", "GENERATED"} and image.type != "RENDER_RESULT"
 
 
 class CurvreflObject(bpy.types.PropertyGroup):
@@ -32,7 +50,37 @@ class CurvreflObject(bpy.types.PropertyGroup):
         description="Show what this object reflects. It needs a material that reflects, and a shape that is seen whole "
         "from a point inside",
         default=False,
-        update=_needs_redraw,
+        update=_mirrors_changed,
+    )
+    override: BoolProperty(  # type: ignore[valid-type]
+        name="Override Material",
+        description="Reflect as set here, whatever the object's materials are",
+        default=False,
+        update=_mirrors_changed,
+    )
+    fresnel: EnumProperty(  # type: ignore[valid-type]
+        name="Fresnel",
+        description="How much is reflected at which angle",
+        items=FRESNEL_ITEMS,
+        default="METAL",
+        update=_mirrors_changed,
+    )
+    tint: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Tint",
+        description="Color of the reflection",
+        subtype="COLOR",
+        default=(1.0, 1.0, 1.0),
+        min=0.0,
+        max=1.0,
+        update=_mirrors_changed,
+    )
+    ior: FloatProperty(  # type: ignore[valid-type]
+        name="IOR",
+        description="Index of refraction: 1.5 is glass or varnish",
+        default=1.5,
+        min=1.0,
+        max=4.0,
+        update=_mirrors_changed,
     )
 
 
@@ -42,9 +90,9 @@ class CurvreflScene(bpy.types.PropertyGroup):
     method: EnumProperty(  # type: ignore[valid-type]
         name="Method",
         description="How reflections are found",
-        items=[(name, method.label, f"{method.source}. Assumes: {method.assumes}") for name, method in METHODS.items()],
+        items=METHOD_ITEMS,
         default="secant_star",
-        update=_needs_redraw,
+        update=_settings_changed,
     )
     pixel_tolerance: FloatProperty(  # type: ignore[valid-type]
         name="Tolerance",
@@ -53,7 +101,7 @@ class CurvreflScene(bpy.types.PropertyGroup):
         default=0.5,
         min=0.05,
         max=20.0,
-        update=_needs_redraw,
+        update=_settings_changed,
     )
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples",
@@ -61,11 +109,100 @@ class CurvreflScene(bpy.types.PropertyGroup):
         default=8,
         min=1,
         max=64,
-        update=_needs_redraw,
+        update=_settings_changed,
     )
+    map_resolution: IntProperty(  # type: ignore[valid-type]
+        name="Map Resolution",
+        description="Texels along an edge of the cube map that a mirror is baked into; more for finer shapes",
+        default=128,
+        min=16,
+        max=1024,
+        update=_settings_changed,
+    )
+    motion_resolution: EnumProperty(  # type: ignore[valid-type]
+        name="While Moving",
+        description="Resolution of the reflections while the view or the scene moves",
+        items=MOTION_ITEMS,
+        default="HALF",
+        update=_settings_changed,
+    )
+    environment: EnumProperty(  # type: ignore[valid-type]
+        name="Environment",
+        description="What lights the reflected scene and stands behind it",
+        items=ENVIRONMENT_ITEMS,
+        default="VIEWPORT",
+        update=_settings_changed,
+    )
+    environment_image: PointerProperty(  # type: ignore[valid-type]
+        name="Image",
+        description="Equirectangular image around the scene",
+        type=bpy.types.Image,
+        poll=_is_panorama,
+        update=_settings_changed,
+    )
+    environment_strength: FloatProperty(  # type: ignore[valid-type]
+        name="Strength",
+        description="Brightness of the image",
+        default=1.0,
+        min=0.0,
+        soft_max=10.0,
+        update=_settings_changed,
+    )
+    environment_rotation: FloatProperty(  # type: ignore[valid-type]
+        name="Rotation",
+        description="Turn of the image around the vertical axis",
+        subtype="ANGLE",
+        default=0.0,
+        soft_min=-pi,
+        soft_max=pi,
+        update=_settings_changed,
+    )
+    show: EnumProperty(  # type: ignore[valid-type]
+        name="Show",
+        description="What is drawn on the mirrors",
+        items=SHOW_ITEMS,
+        default="REFLECTION",
+        update=_settings_changed,
+    )
+    stripe_count: IntProperty(  # type: ignore[valid-type]
+        name="Count",
+        description="Number of stripes or line lights",
+        default=12,
+        min=1,
+        max=256,
+        update=_settings_changed,
+    )
+    stripe_direction: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Direction",
+        description="Axis that the stripes lie around and the line lights run along",
+        subtype="DIRECTION",
+        default=(0.0, 0.0, 1.0),
+        update=_settings_changed,
+    )
+    version: IntProperty(options={"HIDDEN"}, default=0)  # type: ignore[valid-type]
 
 
 CLASSES = (CurvreflObject, CurvreflScene)
+
+
+def use_defaults() -> None:
+    """Give scenes that were never used with the extension the settings of the preferences."""
+    chosen = preferences.current()
+    for scene in bpy.data.scenes:
+        settings = scene.curvrefl
+        if settings.version or not scene.is_editable:
+            continue
+        for name in ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution"):
+            if not settings.is_property_set(name):
+                setattr(settings, name, getattr(chosen, name))
+        settings.version = SETTINGS_VERSION
+
+
+def newer_settings(scene: bpy.types.Scene) -> str:
+    """A sentence for the user where the scene was saved by a newer extension, or nothing."""
+    if scene.curvrefl.version <= SETTINGS_VERSION:
+        return ""
+    return "The file was saved with a newer Curvrefl: settings that this one does not know are left out. Update it."
 
 
 def add() -> None:

@@ -12,7 +12,6 @@ from typing import Any
 import bpy
 import gpu
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.geometry import flatten
 from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     drawing_state,
     full_screen_triangle,
@@ -21,6 +20,7 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     texture_2d,
 )
 from curvrefl.curvrefl_addon.renderer.lighting import Lighting
+from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.scene.arrays import (
     InstanceArrays,
     LightArrays,
@@ -232,7 +232,9 @@ def our_picture(stage: Stage, sub_frames: int = 16, function: str = "shade_surfa
     require_gpu()
     positions, normals, viewers, number = surface_buffers(stage)
     scene = scene_arrays(stage)
-    lighting = Lighting(scene, flatten(scene), sub_frames)
+    geometry = SceneGeometry()
+    geometry.update(scene, {})
+    lighting = Lighting(scene, geometry, sub_frames)
     harness = Harness(lighting, positions, normals, viewers, number, stage.bodies, function)
     total = np.zeros((stage.pixels, stage.pixels, 3))
     for sub_frame in range(sub_frames):

@@ -15,7 +15,7 @@ from pathlib import Path
 import bpy
 
 ARCHIVE, BLEND, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
-RESTING = 8.0
+RESTING = 6.0
 """Seconds in which a view comes to rest on a software renderer"""
 seen: dict = {"steps": []}
 
@@ -107,8 +107,51 @@ def move():
     return RESTING
 
 
-def disable():
+def move_mirror():
     note("moved an object")
+    bpy.data.objects["Kettle"].rotation_euler.z += 0.1
+    return RESTING
+
+
+def edit():
+    note("moved the mirror")
+    mesh = bpy.data.objects["Ball"].data
+    mesh.vertices[0].co.z += 0.001
+    mesh.update()
+    return RESTING
+
+
+def edit_mirror():
+    note("edited a mesh")
+    mesh = bpy.data.objects["Kettle"].data
+    mesh.vertices[0].co.z += 0.0001
+    mesh.update()
+    return RESTING
+
+
+def paint():
+    note("edited the mirror's mesh")
+    material = bpy.data.objects["Ball"].active_material
+    node = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Roughness"].default_value = 0.3
+    return RESTING
+
+
+def hide():
+    note("painted")
+    bpy.data.objects["Ball"].hide_set(True)
+    return RESTING
+
+
+def zebra():
+    note("hid an object")
+    bpy.context.scene.curvrefl.show = "ZEBRA"
+    return RESTING
+
+
+def disable():
+    note("showed zebra stripes")
+    screenshot("zebra.png")
     bpy.context.window_manager.curvrefl_enabled = False
     return 2.0
 
@@ -124,7 +167,22 @@ def end() -> None:
     bpy.ops.wm.quit_blender()
 
 
-steps = [prepare, enable, look, orbit, move_camera, move, disable, finish]
+steps = [
+    prepare,
+    enable,
+    look,
+    orbit,
+    move_camera,
+    move,
+    move_mirror,
+    edit,
+    edit_mirror,
+    paint,
+    hide,
+    zebra,
+    disable,
+    finish,
+]
 
 
 def advance():

@@ -9,7 +9,8 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.lighting_ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
 from curvrefl.curvrefl_addon.renderer.lighting_lamps import lamp_points, lamp_records
 from curvrefl.curvrefl_addon.renderer.lighting_shadow_views import SceneExtent
-from curvrefl.curvrefl_addon.scene.arrays import LightArrays
+from curvrefl.curvrefl_addon.renderer.mesh_pieces import mesh_pieces
+from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MeshArrays
 
 
 def lamp(kind: str, **more: object) -> LightArrays:
@@ -79,10 +80,30 @@ def floor_and_box() -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([floor, box]), np.concatenate([[[0, 1, 2], [0, 2, 3]], faces + 4]).astype(np.int32)
 
 
+def extent_of(positions: np.ndarray, triangles: np.ndarray) -> SceneExtent:
+    """As one instance, where it is."""
+    return SceneExtent([(mesh_pieces(mesh_of(positions, triangles)), np.eye(4), True)])
+
+
+def mesh_of(positions: np.ndarray, triangles: np.ndarray) -> MeshArrays:
+    return MeshArrays(
+        "mesh",
+        positions.astype(np.float32),
+        np.arange(len(positions), dtype=np.int32),
+        np.zeros((len(positions), 3), np.float32),
+        None,
+        None,
+        triangles.astype(np.int32),
+        np.zeros(len(triangles), np.int32),
+    )
+
+
 def test_floor_does_not_widen_the_map_of_a_sun_above_or_below() -> None:
     positions, triangles = floor_and_box()
-    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
-    assert any(set(plane.triangles) == {0, 1} for plane in extent.hull)
+    extent = extent_of(positions, triangles)
+    pieces = mesh_pieces(mesh_of(positions, triangles)).triangle_piece
+    assert pieces[0] == pieces[1] != 0
+    assert any(plane.pieces == ((0, pieces[0]),) for plane in extent.hull)
     for height in (1.0, -1.0):
         direction = np.array([0.6, 0.0, 0.8 * height])
         view = extent.parallel_view(direction, 512)
@@ -90,24 +111,23 @@ def test_floor_does_not_widen_the_map_of_a_sun_above_or_below() -> None:
         box = np.column_stack([positions[4:], np.ones(8)]) @ view.world_to_clip.T
         assert np.abs(box[:, :2]).max() <= 1.0
         assert np.abs(box[:, :2]).max() > 0.98
-        drawn_floor = extent.in_planes(view.idle_planes)[:2]
-        assert np.all(drawn_floor == (height > 0.0))
+        assert ((0, pieces[0]) in extent.pieces_in_planes(view.idle_planes)) == (height > 0.0)
         clip = np.column_stack([positions, np.ones(len(positions))]) @ view.world_to_clip.T
         assert np.abs(clip[4:, 2]).max() <= 1.0
 
 
 def test_nothing_to_cast_needs_no_map() -> None:
     positions, triangles = floor_and_box()
-    extent = SceneExtent(positions, triangles[:2], np.ones(2, bool))
+    extent = extent_of(positions[:4], triangles[:2])
     assert extent.parallel_view(np.array([0.0, 0.0, 1.0]), 256) is None
     assert extent.point_views(np.array([0.0, 0.0, 1.0]), 256) == ()
-    empty = SceneExtent(np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0, bool))
+    empty = SceneExtent([])
     assert empty.parallel_view(np.array([0.0, 0.0, 1.0]), 256) is None
 
 
 def test_far_lamp_gets_one_map_and_a_lamp_among_the_casters_a_cube() -> None:
     positions, triangles = floor_and_box()
-    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
+    extent = extent_of(positions, triangles)
     (view,) = extent.point_views(np.array([0.5, 0.5, 6.0]), 512)
     assert view is not None
     clip = np.column_stack([positions[4:], np.ones(8)]) @ view.world_to_clip.T
@@ -119,7 +139,7 @@ def test_far_lamp_gets_one_map_and_a_lamp_among_the_casters_a_cube() -> None:
 
 def test_depth_terms_are_the_projections() -> None:
     positions, triangles = floor_and_box()
-    extent = SceneExtent(positions, triangles, np.ones(len(triangles), bool))
+    extent = extent_of(positions, triangles)
     place = np.array([0.5, 0.5, 1.5])
     view = extent.point_views(place, 512)[0]  # +X
     assert view is not None

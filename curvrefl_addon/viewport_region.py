@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The picture of one region of a window: coarse while something moves, finer while it rests."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import gpu
+import numpy as np
+
+from ..gpu_shaders.loader import load
+from .diagnostic_colors import DiagnosticOptions
+from .renderer.frame import Diagnostic, Reflection, Renderer
+from .renderer.gpu_objects import drawing_state, full_screen_triangle
+from .renderer.solve import statistics
+from .scene.view import View
+
+if TYPE_CHECKING:
+    from .viewport_scene import ViewportScene
+
+SETTLED_SECONDS = 0.15
+"""After the last change the full resolution is drawn again"""
+DIVISORS = {"FULL": 1, "HALF": 2, "QUARTER": 4}
+"""Of `Scene.curvrefl.motion_resolution`"""
+
+
+class RegionPicture:
+    """Sum of the sub-frames drawn so far, and what they show."""
+
+    def __init__(self, scene: ViewportScene, renderer: Renderer) -> None:
+        self.scene = scene
+        self.renderer = renderer
+        self._view: View | None = None
+        """At full resolution"""
+        self._state: tuple[int, Diagnostic | None] = (0, None)
+        """Revision of the renderer and what is shown, at the last change"""
+        self._reflection: Reflection | None = None
+        self._texture: Any = None
+        self._canvas: Any = None
+        self._divisor = 1
+        self._sub_frames = 0
+        self._changed_at = 0.0
+        self._rows: list[tuple[str, str]] = []
+
+    @property
+    def is_coarse(self) -> bool:
+        """Drawn at less than the full resolution: it is worth another go once all rests."""
+        return self._divisor > 1
+
+    @property
+    def is_complete(self) -> bool:
+        """No sub-frame is left to draw."""
+        return self._sub_frames >= self.renderer.settings.samples
+
+    def advance(self, view: View, settings: Any, options: Any, now: float, counters: dict[str, int]) -> None:
+        """Draw the next sub-frame of `view`, from the start where something is not as before.
+
+        `settings`: Scene.curvrefl; `options`: the preferences; `now`: seconds of a monotonic clock.
+        """
+        diagnostic = diagnostic_of(settings, options)
+        state = (self.renderer.revision, diagnostic)
+        divisor = 0
+        if self._view is None:
+            divisor = 1
+        elif state != self._state or not _is_same(self._view, view):
+            self._changed_at = now
+            divisor = DIVISORS[settings.motion_resolution]
+        elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
+            divisor = 1
+        if divisor:
+            self._start(view, divisor, diagnostic, counters)
+        self._view, self._state = view, state
+        if not self.is_complete:
+            assert self._reflection is not None
+            self.renderer.add_sub_frame(
+                self._canvas, self._reflection, self._sub_frames, 1.0, mirrors_only=True, diagnostic=diagnostic
+            )
+            self._sub_frames += 1
+            counters["sub-frames"] = counters.get("sub-frames", 0) + 1
+
+    def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
+        """Put the picture over the viewport's own."""
+        shader = _composite_shader()
+        with frame_buffer.bind():
+            gpu.state.viewport_set(*viewport)
+            with drawing_state(blend="ALPHA_PREMULT"):
+                shader.bind()
+                shader.uniform_float("sub_frames", float(max(self._sub_frames, 1)))
+                shader.uniform_float("region", tuple(float(number) for number in viewport))
+                shader.uniform_sampler("picture", self._texture)
+                full_screen_triangle().draw(shader)
+        # What handlers before and after ours take for granted in this place.
+        gpu.state.depth_mask_set(True)
+
+    def statistics(self) -> list[tuple[str, str]]:
+        """Rows for the panel; read from the GPU once for each picture, when it rests."""
+        if not self._rows and self._reflection is not None and self._reflection.solutions and not self.is_coarse:
+            found = statistics(self._reflection.solutions)
+            self._rows = [
+                ("Vertices", f"{found['vertices']:,}"),
+                ("Reflected", f"{found['reflected']:,}"),
+                ("Hidden", f"{found['hidden']:,}"),
+                ("Failed", f"{found['unconverged']:,}"),
+                ("Iterations", f"{found['iterations']['mean']:.1f}"),
+            ]
+        return self._rows
+
+    def _start(self, view: View, divisor: int, diagnostic: Diagnostic | None, counters: dict[str, int]) -> None:
+        small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
+        if self._texture is None or (self._texture.width, self._texture.height) != (small.width, small.height):
+            self._texture = gpu.types.GPUTexture((small.width, small.height), format="RGBA32F")
+            self._texture.filter_mode(True)
+            self._texture.extend_mode("EXTEND")
+            self._canvas = gpu.types.GPUFrameBuffer(color_slots=(self._texture,))
+        with self._canvas.bind():
+            self._canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
+        self._reflection = self.renderer.reflect(small, solve=diagnostic is None or diagnostic.needs_solve)
+        self._divisor, self._sub_frames, self._rows = divisor, 0, []
+        counters["solves"] = counters.get("solves", 0) + 1
+
+
+def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
+    """The diagnostic view that `Scene.curvrefl` asks for, in the preferences' colors; None for the picture itself."""
+    if settings.show == "REFLECTION":
+        return None
+    x, y, z = settings.stripe_direction
+    return Diagnostic(
+        settings.show,
+        DiagnosticOptions(axis=(x, y, z), stripes=settings.stripe_count, lines=settings.stripe_count),
+        options.colors,
+    )
+
+
+def view_of(context: bpy.types.Context) -> View:
+    """The eye of a region."""
+    data = context.region_data
+    return View(
+        np.array(data.view_matrix, np.float64),
+        np.array(data.window_matrix, np.float64),
+        context.region.width,
+        context.region.height,
+    )
+
+
+def _is_same(one: View, other: View) -> bool:
+    return (
+        (one.width, one.height) == (other.width, other.height)
+        and np.array_equal(one.world_to_view, other.world_to_view)
+        and np.array_equal(one.view_to_clip, other.view_to_clip)
+    )
+
+
+@cache
+def _composite_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.push_constant("FLOAT", "sub_frames")
+    info.push_constant("VEC4", "region")
+    info.sampler(0, "FLOAT_2D", "picture")
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("composite.frag.glsl"))
+    return gpu.shader.create_from_info(info)

@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Blender that opens windows, or a skip with the reason; and the extension's zip."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from window_blender import NoWindowBlenderError, WindowBlender, find_or_make
+
+
+@pytest.fixture(scope="session")
+def window_blender() -> WindowBlender:
+    """Found or made on the first use (a Debian root takes some minutes, once)."""
+    try:
+        return find_or_make()
+    except NoWindowBlenderError as error:
+        pytest.skip(f"no Blender window: {error}")
+
+
+@pytest.fixture(scope="session")
+def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The extension, packed from this source."""
+    pytest.importorskip("bpy", reason="packing the extension needs a Python with Blender")
+    import build_extension
+
+    return build_extension.build(tmp_path_factory.mktemp("zip"))

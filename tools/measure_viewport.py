@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the viewport costs in Python, apart from the GPU: first picture, orbit, moving one of many, a large scene.
+
+    python tools/measure_viewport.py [--repeats 20]
+
+The parts of `viewport.py` run without a window: reader, renderer, one sub-frame. "Python" is the time outside of calls
+into Blender's gpu module, which on a software renderer do the drawing itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import cProfile
+import pstats
+import sys
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import bootstrap
+import bpy
+
+bootstrap.load_package()
+
+import gpu  # noqa: E402
+import numpy as np  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
+from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
+from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+
+WIDTH, HEIGHT = 1280, 800
+
+
+class Session:
+    """What a viewport holds."""
+
+    def __init__(self) -> None:
+        self.changes = Changes(everything=True)
+        self.reader = SceneReader()
+        self.renderer: Renderer | None = None
+        texture = gpu.types.GPUTexture((WIDTH // 2, HEIGHT // 2), format="RGBA32F")
+        self.canvas = gpu.types.GPUFrameBuffer(color_slots=(texture,))
+        bpy.app.handlers.depsgraph_update_post.append(lambda _, depsgraph: self.changes.add(depsgraph.updates))
+
+    def redraw(self, angle: float, settings: Settings) -> None:
+        """One picture at half the resolution, as while something moves."""
+        if self.changes:
+            changes, self.changes = self.changes, Changes()
+            depsgraph = bpy.context.evaluated_depsgraph_get()
+            arrays = self.reader.read(depsgraph, bpy.context.scene, [bpy.data.objects["Mirror"]], changes)
+            if self.renderer is None:
+                self.renderer = Renderer(arrays, settings)
+            else:
+                self.renderer.update(arrays)
+        assert self.renderer is not None
+        reflection = self.renderer.reflect(orbit(angle))
+        self.renderer.add_sub_frame(self.canvas, reflection, 0, 1.0, mirrors_only=True)
+
+
+def orbit(angle: float) -> View:
+    """From 6 m away, at the origin."""
+    place = 6.0 * np.array([np.cos(angle), np.sin(angle), 0.5])
+    back = place / np.linalg.norm(place)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    world_to_view = np.eye(4)
+    world_to_view[:3, :3] = [right, np.cross(back, right), back]
+    world_to_view[:3, 3] = -world_to_view[:3, :3] @ place
+    near, far = 0.1, 1000.0
+    projection = np.zeros((4, 4))
+    projection[0, 0], projection[1, 1] = 2.0 * HEIGHT / WIDTH, 2.0
+    projection[2, 2:] = -(far + near) / (far - near), -2.0 * far * near / (far - near)
+    projection[3, 2] = -1.0
+    return View(world_to_view, projection, WIDTH // 2, HEIGHT // 2)
+
+
+def mesh_of(vertices: int) -> bpy.types.Mesh:
+    """A grid with so many vertices, not quite flat."""
+    side = max(int(np.sqrt(vertices)), 2)
+    x, y = np.meshgrid(np.linspace(-1, 1, side), np.linspace(-1, 1, side))
+    places = np.column_stack([x.ravel(), y.ravel(), 0.2 * np.sin(3 * x.ravel()) * np.cos(3 * y.ravel())])
+    first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
+    quads = np.column_stack([first, first + 1, first + side + 1, first + side])
+    mesh = bpy.data.meshes.new("grid")
+    mesh.from_pydata(places.tolist(), [], quads.tolist())
+    mesh.shade_smooth()
+    return mesh
+
+
+def build(count: int, vertices: int) -> None:
+    """A mirror and `count` instances of one mesh around it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24)
+    mirror = bpy.context.object
+    assert mirror is not None
+    mirror.name = "Mirror"
+    bpy.ops.object.shade_smooth()
+    material = bpy.data.materials.new("Chrome")
+    material.node_tree.nodes["Principled BSDF"].inputs["Metallic"].default_value = 1.0
+    material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = 0.0
+    mirror.data.materials.append(material)
+    mesh = mesh_of(vertices)
+    rng = np.random.default_rng(1)
+    for index in range(count):
+        obj = bpy.data.objects.new(f"item {index}", mesh)
+        direction = rng.normal(size=3)
+        obj.location = direction / np.linalg.norm(direction) * rng.uniform(3.0, 12.0)
+        obj.scale = (0.2, 0.2, 0.2)
+        bpy.context.scene.collection.objects.link(obj)
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "AREA"))
+    lamp.location.z = 8.0
+    lamp.data.energy = 1000.0
+    bpy.context.scene.collection.objects.link(lamp)
+    world = bpy.data.worlds.new("World")
+    bpy.context.scene.world = world
+    bpy.context.view_layer.update()
+
+
+def python_ms(profile: cProfile.Profile) -> float:
+    """Time in Python and numpy: all but calls of Blender's gpu module."""
+    total = 0.0
+    for (_, _, name), (_, _, own, _, _) in pstats.Stats(profile).stats.items():  # type: ignore[attr-defined]
+        if not any(word in name for word in GPU_CALLS):
+            total += own
+    return 1e3 * total
+
+
+GPU_CALLS = (
+    "gpu",
+    "GPU",
+    "dispatch",
+    "method 'draw'",
+    "method 'bind'",
+    "method 'clear'",
+    "method 'uniform_",
+    "method 'image'",
+    "method 'read",
+    "method '__enter__' of 'GPU",
+    "method '__exit__' of 'GPU",
+    "create_from_info",
+)
+
+
+def measured(session: Session, repeats: int, act: Any, settings: Settings) -> tuple[float, float]:
+    """Medians of (wall, Python) in ms of a redraw after `act(i)`, which returns the angle of view."""
+    walls, pythons = [], []
+    for index in range(repeats):
+        angle = act(index)
+        start = perf_counter()
+        session.redraw(angle, settings)
+        walls.append(1e3 * (perf_counter() - start))
+        angle = act(index + repeats)
+        profile = cProfile.Profile()
+        profile.enable()
+        session.redraw(angle, settings)
+        profile.disable()
+        pythons.append(python_ms(profile))
+    return median(walls), median(pythons)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--repeats", type=int, default=20)
+    repeats = parser.parse_args().repeats
+    gpu.init()
+    settings = Settings(samples=8)
+    print(f"{'scene':28} {'act':22} {'wall ms':>9} {'Python ms':>10}  read")
+    for name, count, vertices in (
+        ("5k triangles", 10, 180),
+        ("2000 instances", 2000, 64),
+        ("1M vertices", 1, 1_000_000),
+    ):
+        build(count, vertices)
+        session = Session()
+        start = perf_counter()
+        session.redraw(0.0, settings)
+        first = 1e3 * (perf_counter() - start)
+        print(f"{name:28} {'first picture':22} {first:9.0f}")
+
+        def turn(index: int) -> float:
+            return 0.01 * (index + 1)
+
+        def move(index: int) -> float:
+            bpy.data.objects["item 0"].location.x += 0.001
+            bpy.context.view_layer.update()
+            return 0.0
+
+        for label, act in (("orbit", turn), ("move one object", move)):
+            session.redraw(0.0, settings)
+            before = session.reader.reads
+            wall, python = measured(session, repeats if count < 3000 else 5, act, settings)
+            read = {key: (value - before[key]) for key, value in session.reader.reads.items() if value != before[key]}
+            print(f"{name:28} {label:22} {wall:9.1f} {python:10.2f}  {read or 'nothing'}")
+        bpy.app.handlers.depsgraph_update_post.clear()
+
+
+if __name__ == "__main__":
+    main()
