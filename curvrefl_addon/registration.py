@@ -13,7 +13,7 @@ import bpy
 
 from .gpu_caches import clear_gpu_caches
 
-OPERATORS = ("bake_reflector", "compare_with_cycles", "mirror_settings")
+OPERATORS = ("bake_reflector", "compare_with_cycles", "mirror_settings", "save_preview", "trace_at_cursor")
 """Modules of `operators`; each lists its classes in CLASSES"""
 INTERFACE = ("preferences", "properties", "panel", "menus")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
@@ -43,6 +43,8 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo what `register` did, last first."""
+    if (tracing := sys.modules.get(f"{__package__}.tracing")) is not None:
+        tracing.clear()
     if (viewport := sys.modules.get(f"{__package__}.viewport")) is not None:
         viewport.unregister()
     for name in reversed(INTERFACE):

@@ -6,7 +6,7 @@
 # No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
 
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
@@ -15,6 +15,8 @@ from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.optics.catalogue import METHODS
 
 TEXT_NAME = "Curvrefl comparison"
+TICK = 0.05
+"""Seconds between two steps of a comparison in a window"""
 _PEERS = (("eevee", "EEVEE", ""), ("cycles1", "Cycles, 1 Sample", ""), ("cycles8", "Cycles, 8 Samples", ""))
 
 
@@ -26,7 +28,8 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
     bl_options = {"REGISTER"}  # noqa: RUF012 (Blender's own convention)
 
     reflectors: StringProperty(  # type: ignore[valid-type]
-        name="Reflectors", description="Names of the mirrors, separated by commas; the selected meshes if empty"
+        name="Reflectors",
+        description="Names of the mirrors, separated by commas; if empty the selected meshes, else all mirrors",
     )
     methods: EnumProperty(  # type: ignore[valid-type]
         name="Methods",
@@ -67,42 +70,128 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.report.compare import Comparison, compare_open_scene
-        from ..curvrefl_addon.report.table import format_table
+        from ..curvrefl_addon.report.compare import compare_open_scene
+        from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
 
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
         try:
             output = self._output_folder()
-            report = compare_open_scene(
-                scene,
-                view_layer,
-                self._reflector_names(context),
-                Comparison(
-                    tuple(name for name in METHODS if name in self.methods),
-                    self.width,
-                    self.height,
-                    self.samples,
-                    self.light,
-                    tuple(name for name, *_ in _PEERS if name in self.peers),
-                ),
-                output,
-            )
+            report = compare_open_scene(scene, view_layer, self._reflector_names(context), self._comparison(), output)
+        except (InputError, RenderCanceledError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._show(context, report, output)
+        return {"FINISHED"}
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
+        from ..curvrefl_addon.report.compare import compare_steps
+
+        scene, view_layer = context.scene, context.view_layer
+        assert scene is not None and view_layer is not None
+        try:
+            self._output = self._output_folder()
+            names = self._reflector_names(context)
+            self._steps = compare_steps(scene, view_layer, names, self._comparison(), self._output)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        _show_pictures(report, output)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TICK, window=context.window)
+        self._area = context.area
+        self._is_announced = True
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        self._announce(context, "Starting", 0.0)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
+        if event.type == "ESC":
+            return self._stop(context, "Comparison canceled")
+        if event.type != "TIMER":
+            # The scene must not change under a comparison.
+            return {"RUNNING_MODAL"}
+        if not self._is_announced:
+            # Blender draws between two timer events: what comes next is on screen before it blocks.
+            self._is_announced = True
+            return {"RUNNING_MODAL"}
+        return self._take_step(context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender itself ends the operator: the window closes."""
+        self._steps.close()
+        self._clear(context)
+
+    def _take_step(self, context: bpy.types.Context) -> Any:
+        from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
+
+        try:
+            step = next(self._steps)
+        except StopIteration as end:
+            self._clear(context)
+            self._show(context, end.value, self._output)
+            return {"FINISHED"}
+        except RenderCanceledError:
+            return self._stop(context, "Comparison canceled")
+        except InputError as error:
+            return self._stop(context, str(error), "ERROR")
+        except BaseException:
+            self._clear(context)
+            raise
+        self._announce(context, step.label, step.done)
+        self._is_announced = False
+        return {"RUNNING_MODAL"}
+
+    def _stop(self, context: bpy.types.Context, message: str, kind: Any = "INFO") -> Any:
+        """End without a report; closing the steps puts the scene back."""
+        self._steps.close()
+        self._clear(context)
+        self.report({kind}, message)
+        return {"CANCELLED"}
+
+    def _announce(self, context: bpy.types.Context, label: str, done: float) -> None:
+        context.window_manager.progress_update(100.0 * done)
+        text = f"Comparing with Cycles, {100.0 * done:.0f} %: {label} (Escape to cancel)"
+        context.workspace.status_text_set(text)
+        if self._area is not None:
+            self._area.header_text_set(text)
+
+    def _clear(self, context: bpy.types.Context) -> None:
+        manager = context.window_manager
+        manager.event_timer_remove(self._timer)
+        manager.progress_end()
+        context.workspace.status_text_set(None)
+        if self._area is not None:
+            self._area.header_text_set(None)
+
+    def _comparison(self) -> Any:
+        from ..curvrefl_addon.report.compare import Comparison
+
+        return Comparison(
+            tuple(name for name in METHODS if name in self.methods),
+            self.width,
+            self.height,
+            self.samples,
+            self.light,
+            tuple(name for name, *_ in _PEERS if name in self.peers),
+        )
+
+    def _show(self, context: bpy.types.Context, report: dict[str, Any], output: Path) -> None:
+        from ..curvrefl_addon.report.table import format_table
+
+        _show_pictures(context, report, output)
         _show_text(f"{format_table(report)}\n\n{output / 'report.html'}\n")
         for warning in report.get("warnings", ()):
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"The report is in {output} and in the text '{TEXT_NAME}'")
-        return {"FINISHED"}
 
     def _reflector_names(self, context: bpy.types.Context) -> list[str]:
         names = [name.strip() for name in self.reflectors.split(",") if name.strip()]
         names = names or [obj.name for obj in context.selected_objects if obj.type == "MESH"]
+        if not names and context.scene is not None:
+            names = [obj.name for obj in context.scene.objects if obj.curvrefl.is_mirror]
         if not names:
-            raise InputError("No reflector: select a mesh object or name one.")
+            raise InputError("No reflector: mark an object as a mirror, select a mesh, or name one.")
         return names
 
     def _output_folder(self) -> Path:
@@ -113,8 +202,11 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return Path(bpy.path.abspath(self.output))
 
 
-def _show_pictures(report: dict, output: Path) -> None:
-    """Load the pictures of the report into images 'Curvrefl NAME', replacing those of the last time."""
+def _show_pictures(context: bpy.types.Context, report: dict[str, Any], output: Path) -> None:
+    """Load the pictures of the report into images 'Curvrefl NAME', replacing those of the last time.
+
+    Image editors that are open show the first method's.
+    """
     methods = [name for method in report["methods"] for name in (method, f"{method}_error")]
     for name in ("reference", *methods, *report["peers"]):
         title = f"Curvrefl {name}"
@@ -125,6 +217,12 @@ def _show_pictures(report: dict, output: Path) -> None:
         else:
             image.filepath = str(output / f"{name}.png")
             image.reload()
+
+    shown = bpy.data.images[f"Curvrefl {next(iter(report['methods']))}"]
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "IMAGE_EDITOR":
+                area.spaces.active.image = shown
 
 
 def _show_text(content: str) -> None:

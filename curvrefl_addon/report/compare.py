@@ -13,7 +13,7 @@ import json
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -150,18 +150,50 @@ def compare_open_scene(
     progress: Progress | None = None,
     make_renderer: MakeRenderer | None = None,
 ) -> dict[str, Any]:
+    """Take all of `compare_steps` and return the report; `progress` is told of each step."""
+    steps = compare_steps(
+        scene, view_layer, reflector_names, comparison, output, scene_name, camera, make_renderer or new_renderer
+    )
+    say = progress or _silent
+    while True:
+        try:
+            say(next(steps).label)
+        except StopIteration as end:
+            return end.value
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What a comparison does next."""
+
+    label: str
+    done: float
+    """Share of all steps that is done, 0..1"""
+
+
+def compare_steps(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    reflector_names: Sequence[str],
+    comparison: Comparison,
+    output: Path | str,
+    scene_name: str | None = None,
+    camera: str | None = None,
+    make_renderer: MakeRenderer = new_renderer,
+) -> Generator[Step, None, dict[str, Any]]:
     """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
 
-    The scene is left as it was. A number that has no pixels to come from is None, and so is the PSNR of equal
-    pictures. `warnings` is in the report only where there are any. Image errors are over Cycles' mask of the mirrors.
+    Yields before each step; closed between two of them it leaves no report, and the scene as it was, as it also does
+    at its end. A number that has no pixels to come from is None, and so is the PSNR of equal pictures. `warnings` is in
+    the report only where there are any. Image errors are over Cycles' mask of the mirrors.
 
     Raises InputError for what the user can change: see `Comparison`, the scene's own conditions (camera,
-    reflectors), an output folder that cannot be written.
+    reflectors), an output folder that cannot be written; RenderCanceledError where the user stops a render.
     """
-    say = progress or _silent
     output = checked_folder(output)
+    count = 4 + len(comparison.methods) + len(comparison.peers)
     with _camera_in_use(scene, camera) as camera_object:
-        say("Reading the scene")
+        yield Step("Reading the scene", 0.0)
         view = view_of_camera(scene, camera_object, comparison.width, comparison.height)
         with bpy.context.temp_override(scene=scene, view_layer=view_layer):
             depsgraph = bpy.context.evaluated_depsgraph_get()
@@ -169,9 +201,16 @@ def compare_open_scene(
         arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
         extract_ms = 1e3 * (time.perf_counter() - start)
         with folder_to_publish(output) as folder:
-            report, mismatch = _run(
-                scene, view_layer, arrays, view, comparison, extract_ms, folder, say, make_renderer or new_renderer
-            )
+            run = _run(scene, view_layer, arrays, view, comparison, extract_ms, folder, make_renderer)
+            done = 1
+            while True:
+                try:
+                    label = next(run)
+                except StopIteration as end:
+                    report, mismatch = end.value
+                    break
+                yield Step(label, done / count)
+                done += 1
             report = {
                 "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
                 "reflectors": list(reflector_names),
@@ -180,7 +219,7 @@ def compare_open_scene(
             text = json.dumps(report, indent=1, allow_nan=False)
             (folder / "report.html").write_text(report_page(report, mismatch), encoding="utf-8")
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
-    say(f"Wrote {output / 'report.html'}")
+    yield Step(f"Wrote {output / 'report.html'}", 1.0)
     return report
 
 
@@ -192,22 +231,24 @@ def _run(
     comparison: Comparison,
     extract_ms: float,
     folder: Path,
-    say: Progress,
     make_renderer: MakeRenderer,
-) -> tuple[dict[str, Any], dict[str, float | None]]:
-    """All numbers of the report but its names, and per method the mismatch of masks; pictures go into `folder`."""
+) -> Generator[str, None, tuple[dict[str, Any], dict[str, float | None]]]:
+    """All numbers of the report but its names, and per method the mismatch of masks; pictures go into `folder`.
+
+    Yields what comes next.
+    """
     width, height = comparison.width, comparison.height
     frames = {}
     for method in comparison.methods:
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
-        say(f"Rendering {method}")
+        yield f"Rendering {method}"
         frames[method] = _measure(arrays, view, method, extract_ms, make_renderer)
 
-    say("Tracing the mirrors' geometry in Cycles")
+    yield "Tracing the mirrors' geometry in Cycles"
     object_ids = {instance.object_name: instance.object_id for instance in arrays.instances}
     truth = render_geometry(scene, view_layer, width, height, object_ids, arrays.reflectors)
     mask = truth.mask != 0
-    say(f"Rendering the reference in Cycles with {comparison.samples} samples")
+    yield f"Rendering the reference in Cycles with {comparison.samples} samples"
     reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
     save_png(folder / "reference.png", _opaque(reference.pixels))
 
@@ -231,7 +272,7 @@ def _run(
 
     peers = {}
     for peer in comparison.peers:
-        say(f"Rendering the peer {peer}")
+        yield f"Rendering the peer {peer}"
         still = render_peer(scene, view_layer, peer, width, height, comparison.light)
         save_png(folder / f"{peer}.png", _opaque(still.pixels))
         peers[peer] = {

@@ -31,6 +31,10 @@ PEERS = ("eevee", "cycles1", "cycles8")
 EEVEE_SAMPLES = 16
 
 
+class RenderCanceledError(RuntimeError):
+    """The user stopped a render."""
+
+
 @dataclass(frozen=True, slots=True)
 class Still:
     """One rendered picture."""
@@ -227,6 +231,8 @@ def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Sti
             seconds = time.perf_counter() - start
         finally:
             scene.render.filepath = filepath
+        if "CANCELLED" in result:
+            raise RenderCanceledError(f"{scene.render.engine} was stopped at the picture of scene '{scene.name}'")
         if "FINISHED" not in result or not path.is_file():
             raise RuntimeError(f"{scene.render.engine} did not finish the picture of scene '{scene.name}'")
         return Still(load_exr(path), seconds)

@@ -126,9 +126,9 @@ class SceneReader:
             self._overrides = dict(overrides or {})
             changes.instances = True
         if changes.everything:
-            self._images = ImageReader()
-            self._materials = MaterialReader(self._images)
-            self._meshes = MeshStore()
+            self._images.forget_all()
+            self._materials.forget_all()
+            self._meshes.forget_all()
         if self._last is None or changes.everything:
             changes.world = changes.instances = True
         if changes.images:

@@ -43,6 +43,10 @@ class ImageReader:
             self.reads += 1
         return self._pixels[key]
 
+    def forget_all(self) -> None:
+        """Any may have changed."""
+        self.forget(set(self._pixels))
+
     def forget(self, images: set[int]) -> None:
         """These images (session_uid) changed."""
         for key in images:

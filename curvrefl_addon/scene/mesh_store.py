@@ -63,6 +63,11 @@ class MeshStore:
             self._drop(key)
         self._replaced.clear()
 
+    def forget_all(self) -> None:
+        """Any may have changed; those whose arrays come out the same stay the same objects all the same."""
+        for key in list(self._stored):
+            self._drop(key)
+
     def forget(self, owners: set[int]) -> None:
         """The geometry of these data-blocks changed."""
         for key, stored in list(self._stored.items()):

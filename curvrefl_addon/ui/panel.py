@@ -159,9 +159,17 @@ class CURVREFL_PT_tools(_SubPanel, bpy.types.Panel):
     bl_label = "Tools"
 
     def draw(self, context: bpy.types.Context) -> None:
+        from .. import tracing
+
         column = self.layout.column()
-        for name, icon in TOOLS:
-            column.operator(f"curvrefl.{name}", icon=icon)
+        column.operator("curvrefl.trace_at_cursor", icon="LIGHT_SUN")
+        column.operator("curvrefl.trace_at_cursor", text="Place by Reflection", icon="PIVOT_CURSOR").place = "ACTIVE"
+        if (found := tracing.shown()) is not None:
+            draw_rows(column.box(), found.rows())
+            column.operator("curvrefl.clear_trace", icon="X")
+        column.separator()
+        column.operator("curvrefl.save_preview", icon="RENDER_STILL")
+        column.operator("curvrefl.compare_with_cycles", icon="RENDER_RESULT")
 
 
 class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
@@ -173,9 +181,6 @@ class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
         from .. import viewport
 
         draw_rows(self.layout, viewport.statistics())
-
-
-TOOLS: tuple[tuple[str, Any], ...] = (("trace_at_cursor", "LIGHT_SUN"), ("save_preview", "RENDER_STILL"), ("compare_with_cycles", "RENDER_RESULT"))
 
 
 def draw_show(layout: Any, settings: Any) -> None:

@@ -11,9 +11,10 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.report import compare
 from curvrefl.curvrefl_addon.report.images import save_png
-from curvrefl.operators.compare_with_cycles import CLASSES, TEXT_NAME
+from curvrefl.operators.compare_with_cycles import TEXT_NAME
 
 
 @pytest.fixture
@@ -58,14 +59,9 @@ def calls(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[list[dict
         }
 
     monkeypatch.setattr(compare, "compare_open_scene", record)
-    already_there = hasattr(bpy.types, "CURVREFL_OT_compare_with_cycles")
-    if not already_there:
-        for cls in CLASSES:
-            bpy.utils.register_class(cls)
+    registration.register()
     yield recorded
-    if not already_there:
-        for cls in CLASSES:
-            bpy.utils.unregister_class(cls)
+    registration.unregister()
 
 
 def select(*names: str) -> None:

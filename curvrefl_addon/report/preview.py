@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whole pictures of the camera's view with the reflections in it, frame after frame, through the view transform."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import bpy
+
+from ..renderer.frame import Renderer, Settings
+from ..scene.arrays import Float32Array
+from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
+from ..scene.changes import Changes
+from ..scene.extract import SceneReader
+from .images import save_exr, to_image_datablock
+from .temporary_settings import temporary_settings
+
+
+class PreviewRenderer:
+    """Renders the open scene at its present frame, again and again; a context manager, which frees at its end."""
+
+    def __init__(self, mirrors: Sequence[str], samples: int) -> None:
+        """`mirrors`: names of objects."""
+        self._mirrors = tuple(mirrors)
+        self._samples = samples
+        self._reader = SceneReader(for_render=True)
+        self._renderer: Renderer | None = None
+
+    def render(self, context: bpy.types.Context) -> Float32Array:
+        """(h, w, 4) scene-linear picture at the size of the scene's renders.
+
+        Raises InputError for what the user can change: camera, mirrors.
+        """
+        scene = context.scene
+        assert scene is not None
+        scale = scene.render.resolution_percentage / 100.0
+        width = max(int(scene.render.resolution_x * scale), 1)
+        height = max(int(scene.render.resolution_y * scale), 1)
+        depsgraph = context.evaluated_depsgraph_get()
+        view = view_of_camera(scene, find_camera(scene), width, height, depsgraph)
+        # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
+        mirrors = find_reflectors(scene, self._mirrors)
+        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True))
+        chosen = scene.curvrefl
+        settings = Settings(
+            method=chosen.method,
+            samples=self._samples,
+            pixel_tolerance=chosen.pixel_tolerance,
+            map_resolution=chosen.map_resolution,
+        )
+        if self._renderer is None:
+            self._renderer = Renderer(arrays, settings)
+        else:
+            self._renderer.update(arrays)
+        return self._renderer.render(view).color()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._renderer is not None:
+            self._renderer.free()
+            self._renderer = None
+
+
+def save_displayed(pixels: Float32Array, scene: bpy.types.Scene, path: Path) -> None:
+    """Write a scene-linear picture (h, w, 4): .exr as it is, .png through the scene's view transform and look.
+
+    Raises OSError when the file cannot be written.
+    """
+    if path.suffix.lower() == ".exr":
+        save_exr(path, pixels)
+        return
+    image = to_image_datablock("curvrefl preview", pixels)
+    try:
+        with temporary_settings() as changes:
+            changes.set(
+                scene.render.image_settings,
+                media_type="IMAGE",
+                file_format="PNG",
+                color_management="FOLLOW_SCENE",
+                color_mode="RGB",
+                color_depth="8",
+            )
+            image.save_render(str(path), scene=scene)
+    finally:
+        bpy.data.images.remove(image)

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Save what the camera sees, as the extension draws it: a still or the frame range, with or without a window."""
+
+# No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+import bpy
+from bpy.props import BoolProperty, IntProperty, StringProperty
+
+from ..curvrefl_addon.errors import InputError
+
+SUFFIXES = (".png", ".exr")
+
+
+class CURVREFL_OT_save_preview(bpy.types.Operator):
+    """Save the camera's view with its curved reflections as a picture, or as one picture per frame"""
+
+    bl_idname = "curvrefl.save_preview"
+    bl_label = "Save Preview"
+    bl_options = {"REGISTER"}  # noqa: RUF012 (Blender's own convention)
+
+    filepath: StringProperty(  # type: ignore[valid-type]
+        name="File",
+        description="Picture to write, .png as it is displayed or .exr scene-linear; # stands for the frame's digits",
+        subtype="FILE_PATH",
+        default="//curvrefl_preview.png",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+    )
+    animation: BoolProperty(  # type: ignore[valid-type]
+        name="Animation", description="All frames of the scene's range, not the present one alone", default=False
+    )
+    samples: IntProperty(  # type: ignore[valid-type]
+        name="Samples", description="Pictures that are averaged against jagged edges", default=16, min=1, max=1024
+    )
+    filter_glob: StringProperty(default="*.png;*.exr", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.scene is None or context.scene.camera is None:
+            cls.poll_message_set("The scene has no active camera")
+            return False
+        return True
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
+        from ..curvrefl_addon.renderer.gpu_objects import GpuUnavailableError
+
+        try:
+            count = self._save(context)
+        except (InputError, GpuUnavailableError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Saved {count} pictures" if self.animation else f"Saved {self._path(context, None)}")
+        return {"FINISHED"}
+
+    def _save(self, context: bpy.types.Context) -> int:
+        from ..curvrefl_addon.report.preview import PreviewRenderer, save_displayed
+
+        scene = context.scene
+        assert scene is not None
+        frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step) if self.animation else [None]
+        for frame in frames:
+            self._path(context, frame)  # (before minutes of work)
+        with _frame_kept(scene), PreviewRenderer(self._mirrors(context), self.samples) as renderer:
+            context.window_manager.progress_begin(0, len(frames))
+            try:
+                for number, frame in enumerate(frames):
+                    if frame is not None:
+                        scene.frame_set(frame)
+                    save_displayed(renderer.render(context), scene, self._path(context, frame))
+                    context.window_manager.progress_update(number + 1)
+            finally:
+                context.window_manager.progress_end()
+        return len(frames)
+
+    def _mirrors(self, context: bpy.types.Context) -> list[str]:
+        """Names of the marked mirrors, else of the selected meshes."""
+        from ..curvrefl_addon.viewport_scene import mirrors_of
+
+        assert context.scene is not None
+        names = [mirror.name for mirror in mirrors_of(context.scene)]
+        names = names or [obj.name for obj in context.selected_objects if obj.type == "MESH"]
+        if not names:
+            raise InputError("No object is marked as a mirror: mark one, or select a mesh.")
+        return names
+
+    def _path(self, _context: bpy.types.Context, frame: int | None) -> Path:
+        from ..curvrefl_addon.output import checked_file
+
+        if self.filepath.startswith("//") and not bpy.data.filepath:
+            raise InputError("Save the file first, or choose a folder that does not depend on it.")
+        path = Path(bpy.path.abspath(self.filepath))
+        if frame is not None:
+            stem = path.stem if "#" in path.stem else f"{path.stem}_####"
+            digits = stem.count("#")
+            start = stem.index("#")
+            stem = stem[:start] + str(frame).zfill(digits) + stem[start:].replace("#", "")
+            path = path.with_name(stem + path.suffix)
+        return checked_file(path, SUFFIXES)
+
+
+@contextmanager
+def _frame_kept(scene: bpy.types.Scene) -> Iterator[None]:
+    frame, subframe = scene.frame_current, scene.frame_subframe
+    try:
+        yield
+    finally:
+        if (scene.frame_current, scene.frame_subframe) != (frame, subframe):
+            scene.frame_set(frame, subframe=subframe)
+
+
+CLASSES = (CURVREFL_OT_save_preview,)
