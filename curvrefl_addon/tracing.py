@@ -167,12 +167,12 @@ def _draw() -> None:
 
 def _shading_normal(obj: bpy.types.Object, face: int, point: Float64Array) -> Float64Array:
     """(3,) the interpolated corner normal of an evaluated mesh at a point of one of its faces, object space."""
-    mesh = obj.to_mesh()
+    mesh: Any = obj.to_mesh()
     try:
         mesh.calc_loop_triangles()
         faces = np.empty(len(mesh.loop_triangles), np.int32)
         mesh.loop_triangle_polygons.foreach_get("value", faces)
-        best: Float64Array = np.array(tuple(mesh.polygons[face].normal))
+        best: Float64Array = np.array(mesh.polygons[face].normal, np.float64)
         weight = -np.inf
         for index in np.flatnonzero(faces == face).tolist():
             triangle = mesh.loop_triangles[index]

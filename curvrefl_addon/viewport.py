@@ -27,10 +27,12 @@ from .renderer.diagnostic_legend import draw_legend
 from .renderer.frame import Settings
 from .ui.preferences import current as preferences
 from .viewport_region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
-from .viewport_scene import ViewportScene, look_of
+from .viewport_scene import ViewportScene, look_of, marked_mirrors
 
 IDLE_SECONDS = 0.02
 """Between the sub-frames of a view that rests"""
+ASKED_SECONDS = 5.0
+"""Statistics asked for less long ago are still of interest"""
 SHOWN_IN = {"SOLID", "MATERIAL", "RENDERED"}
 
 
@@ -46,6 +48,8 @@ class _State:
     frame_buffers: dict[int, Any] = field(default_factory=dict)
     """Per region, captured before its engine draws; of this redraw only"""
     failure: str = ""
+    asked_at: float = -1e9
+    """When the statistics were last asked for, on a monotonic clock"""
     counters: dict[str, int] = field(default_factory=dict)
     """Of scenes that are gone, and of pictures"""
 
@@ -60,6 +64,11 @@ def switch(on: bool) -> None:
         _state.failure = ""
         _add_handlers()
     redraw_all()
+
+
+def mirrors_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Objects of the scene that are marked as mirrors."""
+    return marked_mirrors(scene)
 
 
 def messages() -> list[str]:
@@ -81,7 +90,11 @@ def counters() -> dict[str, int]:
 
 
 def statistics() -> list[tuple[str, str]]:
-    """Rows for the panel: vertices, solved, hidden, failed, iterations and times of the view drawn last."""
+    """Rows for the panel: vertices, solved, hidden, failed, iterations and times of the view drawn last.
+
+    Times are taken while somebody asks for them: that costs a wait for the GPU.
+    """
+    _state.asked_at = monotonic()
     for picture in reversed(_state.pictures.values()):
         if rows := picture.statistics():
             return rows
@@ -264,7 +277,9 @@ def _draw(context: bpy.types.Context) -> None:
     if picture is None or picture.renderer is not renderer:
         picture = RegionPicture(shown, renderer)
     _state.pictures[region] = picture
-    picture.advance(view_of(context), chosen, options, monotonic(), _state.counters)
+    now = monotonic()
+    is_timed = now - _state.asked_at < ASKED_SECONDS
+    picture.advance(view_of(context), chosen, options, now, is_timed, _state.counters)
     # Diagnostic colors must come out as they are in their legend: not through the view transform.
     target = frame_buffer if chosen.show == "REFLECTION" else gpu.state.active_framebuffer_get()
     picture.composite(target, viewport)

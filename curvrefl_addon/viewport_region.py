@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -45,6 +46,7 @@ class RegionPicture:
         self._sub_frames = 0
         self._changed_at = 0.0
         self._rows: list[tuple[str, str]] = []
+        self._solve_ms = self._draw_ms = 0.0
 
     @property
     def is_coarse(self) -> bool:
@@ -56,10 +58,13 @@ class RegionPicture:
         """No sub-frame is left to draw."""
         return self._sub_frames >= self.renderer.settings.samples
 
-    def advance(self, view: View, settings: Any, options: Any, now: float, counters: dict[str, int]) -> None:
+    def advance(
+        self, view: View, settings: Any, options: Any, now: float, is_timed: bool, counters: dict[str, int]
+    ) -> None:
         """Draw the next sub-frame of `view`, from the start where something is not as before.
 
-        `settings`: Scene.curvrefl; `options`: the preferences; `now`: seconds of a monotonic clock.
+        `settings`: Scene.curvrefl; `options`: the preferences; `now`: seconds of a monotonic clock. Where it `is_timed`
+        the times wait for the GPU.
         """
         diagnostic = diagnostic_of(settings, options)
         state = (self.renderer.revision, diagnostic)
@@ -72,13 +77,18 @@ class RegionPicture:
         elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
             divisor = 1
         if divisor:
-            self._start(view, divisor, diagnostic, counters)
+            self._start(view, divisor, diagnostic, is_timed, counters)
         self._view, self._state = view, state
         if not self.is_complete:
             assert self._reflection is not None
+            start = perf_counter()
             self.renderer.add_sub_frame(
                 self._canvas, self._reflection, self._sub_frames, 1.0, mirrors_only=True, diagnostic=diagnostic
             )
+            if is_timed:
+                with self._canvas.bind():
+                    self._canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+                self._draw_ms = 1e3 * (perf_counter() - start)
             self._sub_frames += 1
             counters["sub-frames"] = counters.get("sub-frames", 0) + 1
 
@@ -107,9 +117,12 @@ class RegionPicture:
                 ("Failed", f"{found['unconverged']:,}"),
                 ("Iterations", f"{found['iterations']['mean']:.1f}"),
             ]
-        return self._rows
+        times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
+        return [*self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
 
-    def _start(self, view: View, divisor: int, diagnostic: Diagnostic | None, counters: dict[str, int]) -> None:
+    def _start(
+        self, view: View, divisor: int, diagnostic: Diagnostic | None, is_timed: bool, counters: dict[str, int]
+    ) -> None:
         small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
         if self._texture is None or (self._texture.width, self._texture.height) != (small.width, small.height):
             self._texture = gpu.types.GPUTexture((small.width, small.height), format="RGBA32F")
@@ -118,7 +131,13 @@ class RegionPicture:
             self._canvas = gpu.types.GPUFrameBuffer(color_slots=(self._texture,))
         with self._canvas.bind():
             self._canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
+        start = perf_counter()
         self._reflection = self.renderer.reflect(small, solve=diagnostic is None or diagnostic.needs_solve)
+        self._solve_ms = self._draw_ms = 0.0
+        if is_timed:
+            for solution in self._reflection.solutions:
+                solution.wait()
+            self._solve_ms = 1e3 * (perf_counter() - start)
         self._divisor, self._sub_frames, self._rows = divisor, 0, []
         counters["solves"] = counters.get("solves", 0) + 1
 

@@ -103,7 +103,7 @@ class ViewportScene:
         scene = context.scene
         assert scene is not None
         if self._mirrors is None:
-            self._mirrors = mirrors_of(scene)
+            self._mirrors = marked_mirrors(scene)
         for uid in self.changes.geometry | self.changes.objects:
             self._refused.pop(uid, None)
         seen = [mirror for mirror in self._mirrors if mirror.visible_get(view_layer=context.view_layer)]
@@ -185,7 +185,7 @@ def _made(renderer: Renderer) -> dict[str, int]:
     return {**renderer.counters, **renderer.geometry.counters}
 
 
-def mirrors_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """Objects of the scene that are marked as mirrors."""
     return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
 

@@ -84,10 +84,10 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
 
     def _mirrors(self, context: bpy.types.Context) -> list[str]:
         """Names of the marked mirrors, else of the selected meshes."""
-        from ..curvrefl_addon.viewport_scene import mirrors_of
+        from ..curvrefl_addon.viewport_scene import marked_mirrors
 
         assert context.scene is not None
-        names = [mirror.name for mirror in mirrors_of(context.scene)]
+        names = [mirror.name for mirror in marked_mirrors(context.scene)]
         names = names or [obj.name for obj in context.selected_objects if obj.type == "MESH"]
         if not names:
             raise InputError("No object is marked as a mirror: mark one, or select a mesh.")

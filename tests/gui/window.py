@@ -37,6 +37,7 @@ def run_session(
     backend: str = "opengl",
     size: tuple[int, int] = (1280, 800),
     seconds: float = SECONDS,
+    flags: tuple[str, ...] = (),
 ) -> Session:
     """Open a window with factory settings in a home of its own below `folder`; the arguments follow `--`.
 
@@ -46,6 +47,7 @@ def run_session(
     command = [
         *blender.windowed,
         "--factory-startup",
+        *flags,
         *("--gpu-backend", backend),
         *("--window-geometry", "0", "0", str(size[0]), str(size[1])),
         *("--python-exit-code", "1"),

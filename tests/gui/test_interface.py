@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels draw, a click traces, the modal comparison can be canceled and gives what a script gets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from window import Session, run_session
+from window_blender import WindowBlender
+
+SCRIPT = Path(__file__).resolve().parent / "interface_session.py"
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> Session:
+    from curvrefl.curvrefl_addon.demo.scene import build_demo
+
+    folder = tmp_path_factory.mktemp("interface")
+    build_demo(folder / "demo.blend")
+    flags = ("--enable-event-simulate",)
+    return run_session(window_blender, SCRIPT, folder, archive, folder / "demo.blend", folder, flags=flags)
+
+
+def test_no_panel_menu_or_handler_raises(session: Session) -> None:
+    assert not session.seen["error"], session.seen["error"]
+    assert "Traceback" not in session.printed, session.printed[-3000:]
+
+
+def test_trace_by_a_click(session: Session) -> None:
+    assert session.seen["trace is modal"]
+    assert session.seen["trace after escape"] == [False, False]
+    assert session.seen["trace"]["Mirror"] == "Kettle"
+
+
+def test_escape_cancels_the_comparison_and_leaves_nothing(session: Session) -> None:
+    assert session.seen["comparison is modal"]
+    assert session.seen["comparison after escape"] == {
+        "settings are back": True,
+        "files": [],
+        "left": [],
+        "text": False,
+    }
+
+
+def test_modal_comparison_is_that_of_a_script(session: Session) -> None:
+    modal, script = session.seen["report of the modal run"], session.seen["report of the script"]
+    assert modal["methods"].keys() == script["methods"].keys()
+    for name, method in modal["methods"].items():
+        other = script["methods"][name]
+        assert method["image"] == other["image"]
+        assert method["solve"] == other["solve"]
+        assert method["geometry"] == other["geometry"]
+    assert session.seen["settings after all"]
