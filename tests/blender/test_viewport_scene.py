@@ -1,0 +1,264 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a viewport holds of a scene: any number of mirrors that come and go, messages, lights, and nothing left over."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon import registration
+from curvrefl.curvrefl_addon.renderer.chunk import Chunk
+from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.mirror import Mirror
+from curvrefl.curvrefl_addon.viewport_environment import Environment, environment_of
+from curvrefl.curvrefl_addon.viewport_scene import MOST_RENDERERS, Look, ViewportScene
+from scenes.views import look_at
+
+pytestmark = pytest.mark.usefixtures("gpu")
+PLAIN = Look(Environment())
+SETTINGS = Settings(samples=1, map_resolution=32)
+CAP = 1 << 30
+
+
+class Session:
+    """A ViewportScene that hears of updates as in a window."""
+
+    def __init__(self) -> None:
+        self.scene = ViewportScene()
+        bpy.app.handlers.depsgraph_update_post.append(self._note)
+
+    def _note(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        self.scene.note(depsgraph.updates)
+
+    def draw(self, look: Look = PLAIN, cap: int = CAP) -> Renderer | None:
+        bpy.context.view_layer.update()
+        return self.scene.renderer(bpy.context, look, SETTINGS, cap)
+
+    def mirrors(self) -> list[str]:
+        renderer = self.draw()
+        return [] if renderer is None else sorted(mirror.map.object_name for mirror in renderer.mirrors)
+
+
+@pytest.fixture
+def session() -> Iterator[Session]:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    registration.register()
+    chrome = bpy.data.materials.new("Chrome")
+    shader = chrome.node_tree.nodes["Principled BSDF"]
+    shader.inputs["Metallic"].default_value, shader.inputs["Roughness"].default_value = 1.0, 0.0
+    for name, x in (("Mirror", 0.0), ("Other", 4.0), ("Ball", 2.0)):
+        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2, location=(x, 0.0, 0.0))
+        bpy.context.object.name = name
+        bpy.context.object.data.materials.append(chrome)
+    bpy.data.objects["Mirror"].curvrefl.is_mirror = True
+    bpy.context.scene.world = bpy.data.worlds.new("World")
+    made = Session()
+    yield made
+    made.scene.free()
+    bpy.app.handlers.depsgraph_update_post.remove(made._note)
+    registration.unregister()
+
+
+def mark(session: Session, name: str, value: bool = True) -> None:
+    bpy.data.objects[name].curvrefl.is_mirror = value
+    session.scene.mirrors_changed()  # (the property tells the viewport, which is not this one)
+
+
+def test_mirrors_come_and_go(session: Session) -> None:
+    assert session.mirrors() == ["Mirror"]
+    mark(session, "Other")
+    assert session.mirrors() == ["Mirror", "Other"]
+    assert session.scene.counters["maps baked"] == 2
+    bpy.data.objects["Other"].name = "Second"
+    assert session.mirrors() == ["Mirror", "Second"]
+    copy = bpy.data.objects["Second"].copy()
+    bpy.context.scene.collection.objects.link(copy)
+    copy.name = "Third"
+    copy.location.y = 5.0
+    assert session.mirrors() == ["Mirror", "Second", "Third"]
+    copy.hide_set(True)
+    assert session.mirrors() == ["Mirror", "Second"]
+    copy.hide_set(False)
+    assert session.mirrors() == ["Mirror", "Second", "Third"]
+    bpy.data.objects.remove(copy)
+    assert session.mirrors() == ["Mirror", "Second"]
+    mark(session, "Mirror", False)
+    assert session.mirrors() == ["Second"]
+    mark(session, "Second", False)
+    assert session.draw() is None
+    assert session.scene.messages == []
+
+
+def test_what_moves_a_mirror_moves_its_map(session: Session) -> None:
+    renderer = session.draw()
+    assert renderer is not None
+    holder = bpy.data.objects.new("Holder", None)
+    bpy.context.scene.collection.objects.link(holder)
+    bpy.data.objects["Mirror"].parent = holder
+    session.draw()
+    holder.location.z = 3.0
+    again = session.draw()
+    assert again is renderer
+    np.testing.assert_allclose(renderer.mirrors[0].map.center, [0.0, 0.0, 3.0], atol=1e-6)
+    assert session.scene.counters["maps baked"] == 1
+    bpy.data.objects["Mirror"].scale.x = 2.0
+    session.draw()
+    assert session.scene.counters["maps baked"] == 2
+
+
+def test_linked_mirrors_and_scenery(session: Session, tmp_path: Path) -> None:
+    library = tmp_path / "library.blend"
+    bpy.data.objects["Other"].curvrefl.is_mirror = True
+    bpy.data.libraries.write(str(library), {bpy.data.objects["Other"]})
+    bpy.data.objects.remove(bpy.data.objects["Other"])
+    assert session.mirrors() == ["Mirror"]
+    with bpy.data.libraries.load(str(library), link=True) as (_there, here):
+        here.objects = ["Other"]
+    bpy.context.scene.collection.objects.link(bpy.data.objects["Other"])
+    assert session.mirrors() == ["Mirror", "Other"]
+
+
+def test_a_shape_that_cannot_be_a_mirror_is_named_until_it_can(session: Session) -> None:
+    bpy.ops.mesh.primitive_torus_add(location=(0.0, 5.0, 0.0))
+    bpy.context.object.name = "Ring"
+    mark(session, "Ring")
+    assert session.mirrors() == ["Mirror"]
+    assert len(session.scene.messages) == 1 and '"Ring"' in session.scene.messages[0]
+    baked = session.scene.counters["maps baked"]
+    bpy.data.objects["Ball"].location.z = 1.0
+    assert session.mirrors() == ["Mirror"]
+    assert session.scene.counters["maps baked"] == baked, "what was refused is not tried again for nothing"
+    assert len(session.scene.messages) == 1
+    bpy.data.objects["Ring"].data = bpy.data.objects["Ball"].data
+    assert session.mirrors() == ["Mirror", "Ring"]
+    assert session.scene.messages == []
+
+
+def test_only_mirror_is_refused(session: Session) -> None:
+    bpy.data.meshes[bpy.data.objects["Mirror"].data.name].clear_geometry()
+    assert session.draw() is None
+    assert '"Mirror" has no faces' in session.scene.messages[0]
+    bpy.data.objects["Mirror"].data = bpy.data.objects["Ball"].data
+    assert session.mirrors() == ["Mirror"]
+    assert session.scene.messages == []
+
+
+def test_memory_limit(session: Session) -> None:
+    assert session.draw(cap=1000) is None
+    assert "MB" in session.scene.messages[0]
+    session.scene.mirrors_changed()
+    assert session.draw() is not None
+
+
+def test_override_changes_the_mirror_alone(session: Session) -> None:
+    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
+    before = session.draw()
+    assert before is not None
+    plain = before.render(view).color()
+    settings = bpy.data.objects["Mirror"].curvrefl
+    settings.override, settings.tint, settings.fresnel = True, (1.0, 0.0, 0.0), "CONSTANT"
+    session.scene.mirrors_changed()
+    renderer = session.draw()
+    assert renderer is before
+    frame = renderer.render(view)
+    red = frame.color()
+    inner = frame.mask() > 0
+    assert inner.sum() > 200
+    assert red[inner][:, 1:3].max() < 1e-4 < 0.04 < red[inner][:, 0].mean()
+    assert np.abs(red[~inner] - plain[~inner]).mean() < 1e-3
+    settings.override = False
+    session.scene.mirrors_changed()
+    again = session.draw()
+    assert again is before
+    np.testing.assert_allclose(again.render(view).color(), plain, atol=1e-5)
+
+
+class _Space:
+    """Of a viewport, what chooses its light."""
+
+    def __init__(self, kind: str, **shading: Any) -> None:
+        light = type("Light", (), {"type": "WORLD", "path": "/light.exr"})
+        options = {
+            "type": kind,
+            "use_scene_lights": False,
+            "use_scene_world": False,
+            "use_scene_lights_render": True,
+            "use_scene_world_render": True,
+            "selected_studio_light": light,
+            "studiolight_intensity": 0.5,
+            "studiolight_rotate_z": 1.0,
+            **shading,
+        }
+        self.shading = type("Shading", (), options)
+
+
+def test_environment_is_the_viewports(session: Session) -> None:
+    settings = bpy.context.scene.curvrefl
+    studio = Environment(False, "/light.exr", strength=0.5, rotation=1.0)
+    assert environment_of(_Space("MATERIAL"), settings) == studio  # type: ignore[arg-type]
+    assert environment_of(_Space("MATERIAL", use_scene_world=True), settings) == Environment(False)  # type: ignore[arg-type]
+    assert environment_of(_Space("RENDERED"), settings) == Environment()  # type: ignore[arg-type]
+    assert environment_of(_Space("SOLID"), settings) == Environment()  # type: ignore[arg-type]
+    settings.environment = "SCENE"
+    assert environment_of(_Space("MATERIAL"), settings) == Environment()  # type: ignore[arg-type]
+
+
+def test_image_lights_the_scene(session: Session) -> None:
+    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
+    image = bpy.data.images.new("Sky", 8, 4, float_buffer=True)
+    image.pixels.foreach_set(np.tile(np.array([0.0, 0.0, 3.0, 1.0], np.float32), 32))
+    settings = bpy.context.scene.curvrefl
+    settings.environment, settings.environment_image, settings.environment_strength = "IMAGE", image, 2.0
+    look = Look(environment_of(_Space("SOLID"), settings))  # type: ignore[arg-type]
+    renderer = session.draw(look)
+    assert renderer is not None
+    color = renderer.render(view).color()
+    np.testing.assert_allclose(color[0, 0, :3], [0.0, 0.0, 6.0], atol=1e-3)
+
+
+def test_few_looks_are_kept(session: Session) -> None:
+    for index in range(MOST_RENDERERS + 3):
+        session.draw(Look(Environment(strength=1.0 + index, scene_lights=bool(index % 2))))
+    assert len(session.scene.renderers) == MOST_RENDERERS
+
+
+def alive(kind: type) -> int:
+    gc.collect()
+    return sum(isinstance(item, kind) for item in gc.get_objects())
+
+
+def test_an_hour_of_work_leaves_nothing_over(session: Session) -> None:
+    """Edits, moves, new and deleted objects: what is alive is what is shown."""
+    mark(session, "Other")
+    session.draw()
+    before = alive(Chunk), alive(Mirror)
+    rng = np.random.default_rng(1)
+    for turn in range(60):
+        ball = bpy.data.objects["Ball"]
+        ball.location.x += 0.01
+        if turn % 5 == 0:
+            ball.data.vertices[0].co.z += 0.01
+            ball.data.update()
+        if turn % 7 == 0:
+            bpy.data.objects["Other"].data.vertices[0].co.z += 0.01
+            bpy.data.objects["Other"].data.update()
+        if turn % 6 == 0:
+            bpy.ops.mesh.primitive_cube_add(location=rng.uniform(-5, 5, 3))
+            bpy.context.object.name = f"cube {turn}"
+        if turn % 6 == 3:
+            bpy.data.objects.remove(bpy.data.objects[f"cube {turn - 3}"])
+        session.draw()
+    renderer = session.draw()
+    assert renderer is not None
+    assert alive(Chunk) == len(renderer.geometry.chunks) <= before[0] + 1
+    assert alive(Mirror) == before[1] == 2
+    assert alive(Renderer) == 1
+    session.scene.free()
+    del renderer
+    assert (alive(Chunk), alive(Mirror), alive(Renderer)) == (0, 0, 0)
