@@ -138,12 +138,16 @@ def unregister() -> None:
 
 
 def redraw_all() -> None:
-    """Draw all 3D viewports again."""
+    """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
+    there = set()
     for manager in bpy.data.window_managers:
         for window in manager.windows:
             for area in window.screen.areas:
                 if area.type == "VIEW_3D":
                     area.tag_redraw()
+                    there.update(region.as_pointer() for region in area.regions)
+    for gone in set(_state.pictures) - there:
+        del _state.pictures[gone]
 
 
 def _add_handlers() -> None:

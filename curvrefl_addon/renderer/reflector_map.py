@@ -90,17 +90,15 @@ class ReflectorMap:
 
     def rows(self) -> list[tuple[str, str]]:
         """The same for a panel: label and value."""
+        radius, angle = self.radius_error, self.normal_error_degrees
         return [
             ("Star Center", self.center_name),
-            ("Radius", f"{self.r_min:.4g} to {self.r_max:.4g} m"),
+            ("Radius", f"{self.r_min:.3g} to {self.r_max:.3g} m"),
             ("Map Size", f"{self.resolution} x {self.resolution} x 6"),
-            ("Not Star-Shaped", percent(self.multiple_hits)),
+            ("Overhangs", percent(self.multiple_hits)),
             ("Holes", percent(self.holes)),
-            ("Radius Error", f"{percent(self.radius_error.median)}, 95th {percent(self.radius_error.p95)}"),
-            (
-                "Normal Error",
-                f"{self.normal_error_degrees.median:.2g}\u00b0, 95th {self.normal_error_degrees.p95:.2g}\u00b0",
-            ),
+            ("Radius Off", f"{100.0 * radius.median:.1g}, 95th {100.0 * radius.p95:.1g} %"),
+            ("Normal Off", f"{angle.median:.1g}, 95th {angle.p95:.1g}\u00b0"),
         ]
 
 

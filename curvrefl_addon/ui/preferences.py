@@ -39,7 +39,8 @@ def current() -> Preferences:
     if chosen is None:
         return Preferences()
     ramp = _COLORS.ramp
-    if tuple(chosen.color_low) != ramp[0] or tuple(chosen.color_high) != ramp[-1]:
+    if not (_is_color(chosen.color_low, ramp[0]) and _is_color(chosen.color_high, ramp[-1])):
+        # Of other ends the five stops of the default are not the way from one to the other.
         ramp = (_triple(chosen.color_low), _triple(chosen.color_high))
     return Preferences(
         method=chosen.method,
@@ -60,6 +61,11 @@ def current() -> Preferences:
 def _triple(color: Any) -> tuple[float, float, float]:
     red, green, blue = color
     return red, green, blue
+
+
+def _is_color(color: Any, other: tuple[float, float, float]) -> bool:
+    """Up to what properties round to."""
+    return all(abs(one - two) < 1e-6 for one, two in zip(color, other, strict=True))
 
 
 def _is_changed(_self: Any, _context: bpy.types.Context | None) -> None:

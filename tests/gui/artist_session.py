@@ -1,28 +1,32 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside a Blender window: install the zip, mark a mirror, look, orbit, move something, switch off, quit.
+"""Runs inside a Blender window: install the zip, mark a mirror, look, orbit, change this and that, switch off, quit.
 
-Arguments after `--`: the zip, a .blend file with an object Kettle, the folder for what was seen.
+Arguments after `--`: the zip, the demo's .blend file, the folder for what was seen.
 """
+
+from __future__ import annotations
 
 import json
 import shutil
 import subprocess
 import sys
 import time
-import traceback
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import bpy
 
-ARCHIVE, BLEND, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
-RESTING = 6.0
-"""Seconds in which a view comes to rest on a software renderer"""
-seen: dict = {"steps": []}
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from scripted import Script, arguments, extension, install, play, view_3d
+
+ARCHIVE, BLEND, FOLDER = arguments()[:3]
+seen: dict[str, Any] = {"steps": []}
 
 
-def viewport():
-    return next(module for name, module in sys.modules.items() if name.endswith(".curvrefl_addon.viewport"))
+def viewport() -> Any:
+    return extension("curvrefl_addon.viewport")
 
 
 def our_handlers() -> int:
@@ -43,43 +47,87 @@ def note(name: str) -> None:
     )
 
 
-def view_3d():
-    window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    return area, area.spaces[0], next(region for region in area.regions if region.type == "WINDOW")
-
-
 def screenshot(name: str) -> None:
     """Blender's own is black on a virtual screen."""
     if shutil.which("import"):
         subprocess.run(["import", "-window", "root", str(Path(FOLDER) / name)], check=True)
 
 
-def prepare():
-    _area, space, _ = view_3d()
+def rests() -> bool:
+    """All pictures are complete."""
+    pictures = viewport()._state.pictures.values()
+    return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
+
+
+def step(name: str, act: Callable[[], None]) -> Script:
+    """Do something, wait for its picture, note what it cost."""
+    before = viewport().counters()["sub-frames"]
+    act()
+    yield 0.3
+    view_3d()[0].tag_redraw()
+    # (moving the camera changes no picture of another view)
+    yield lambda: rests() and (name == "moved the camera" or viewport().counters()["sub-frames"] > before)
+    note(name)
+
+
+def closer() -> None:
+    data = view_3d()[1].region_3d
+    data.view_perspective = "PERSP"
+    data.view_distance = 0.7
+
+
+def farther() -> None:
+    view_3d()[1].region_3d.view_distance = 0.9
+
+
+def move_camera() -> None:
+    bpy.context.scene.camera.location.x += 0.01
+
+
+def move() -> None:
+    bpy.data.objects["Ball"].location.z += 0.01
+
+
+def turn_mirror() -> None:
+    bpy.data.objects["Kettle"].rotation_euler.z += 0.1
+
+
+def edit(name: str) -> None:
+    mesh = bpy.data.objects[name].data
+    mesh.vertices[0].co.z += 1e-4
+    mesh.update()
+
+
+def paint() -> None:
+    tree = bpy.data.objects["Ball"].active_material.node_tree
+    node = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node.inputs["Roughness"].default_value = 0.3
+
+
+def zebra() -> None:
+    bpy.context.scene.curvrefl.show = "ZEBRA"
+
+
+def script() -> Script:
+    install(ARCHIVE)
+    bpy.ops.wm.open_mainfile(filepath=BLEND, load_ui=False)
+    yield 1.0
+    _area, space, region = view_3d()
     space.overlay.show_overlays = False
-    space.show_gizmo = False
-    space.show_region_toolbar = False
-    space.show_region_header = False
-    space.show_region_tool_header = False
+    space.show_gizmo = space.show_region_toolbar = False
+    space.show_region_header = space.show_region_tool_header = False
     space.shading.type = "SOLID"
     space.region_3d.view_perspective = "CAMERA"
-    return 2.0
-
-
-def enable():
+    yield 2.0
     bpy.data.objects["Kettle"].curvrefl.is_mirror = True
     start = time.perf_counter()
     bpy.context.window_manager.curvrefl_enabled = True
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
     seen["first picture seconds"] = time.perf_counter() - start
     assert viewport().counters()["sub-frames"] == 1
-    return 2 * RESTING
-
-
-def look():
+    yield rests
+    yield 1.0
     note("enabled")
-    _area, space, region = view_3d()
     data = space.region_3d
     seen["view"] = {
         "view_matrix": [list(row) for row in data.view_matrix],
@@ -87,119 +135,28 @@ def look():
         "region": [region.x, region.y, region.width, region.height],
     }
     screenshot("enabled.png")
-    data.view_perspective = "PERSP"
-    data.view_distance = 0.7
-    return RESTING
-
-
-def orbit():
-    note("moved the view")
-    area, space, _ = view_3d()
-    space.region_3d.view_distance = 0.9
-    area.tag_redraw()
-    return RESTING
-
-
-def move_camera():
-    note("moved the view again")
-    bpy.context.scene.camera.location.x += 0.01
-    return 3.0
-
-
-def move():
-    note("moved the camera")
-    bpy.data.objects["Ball"].location.z += 0.01
-    return RESTING
-
-
-def move_mirror():
-    note("moved an object")
-    bpy.data.objects["Kettle"].rotation_euler.z += 0.1
-    return RESTING
-
-
-def edit():
-    note("moved the mirror")
-    mesh = bpy.data.objects["Ball"].data
-    mesh.vertices[0].co.z += 0.001
-    mesh.update()
-    return RESTING
-
-
-def edit_mirror():
-    note("edited a mesh")
-    mesh = bpy.data.objects["Kettle"].data
-    mesh.vertices[0].co.z += 0.0001
-    mesh.update()
-    return RESTING
-
-
-def paint():
-    note("edited the mirror's mesh")
-    material = bpy.data.objects["Ball"].active_material
-    node = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    node.inputs["Roughness"].default_value = 0.3
-    return RESTING
-
-
-def hide():
-    note("painted")
-    bpy.data.objects["Ball"].hide_set(True)
-    return RESTING
-
-
-def zebra():
-    note("hid an object")
-    bpy.context.scene.curvrefl.show = "ZEBRA"
-    return RESTING
-
-
-def disable():
-    note("showed zebra stripes")
+    yield from step("moved the view", closer)
+    yield from step("moved the view again", farther)
+    yield from step("moved the camera", move_camera)
+    yield from step("moved an object", move)
+    yield from step("moved the mirror", turn_mirror)
+    yield from step("edited a mesh", lambda: edit("Ball"))
+    yield from step("edited the mirror's mesh", lambda: edit("Kettle"))
+    yield from step("painted", paint)
+    yield from step("hid an object", lambda: bpy.data.objects["Ball"].hide_set(True))
+    yield from step("showed zebra stripes", zebra)
     screenshot("zebra.png")
     bpy.context.window_manager.curvrefl_enabled = False
-    return 2.0
-
-
-def finish():
+    yield 1.0
     note("disabled")
     seen["finished"] = True
-    end()
 
 
-def end() -> None:
+def end(error: str) -> None:
+    if error:
+        seen["error"] = error
     (Path(FOLDER) / "seen.json").write_text(json.dumps(seen), encoding="utf-8")
     bpy.ops.wm.quit_blender()
 
 
-steps = [
-    prepare,
-    enable,
-    look,
-    orbit,
-    move_camera,
-    move,
-    move_mirror,
-    edit,
-    edit_mirror,
-    paint,
-    hide,
-    zebra,
-    disable,
-    finish,
-]
-
-
-def advance():
-    try:
-        return steps.pop(0)()
-    except Exception:
-        seen["error"] = traceback.format_exc()
-        end()
-        return None
-
-
-bpy.context.preferences.view.show_splash = False
-bpy.ops.extensions.package_install_files(repo="user_default", filepath=ARCHIVE, enable_on_install=True)
-bpy.ops.wm.open_mainfile(filepath=BLEND, load_ui=False)
-bpy.app.timers.register(advance, first_interval=3.0, persistent=True)
+play(script(), end)

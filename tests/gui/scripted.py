@@ -20,7 +20,7 @@ type Wait = float | Callable[[], bool]
 type Script = Generator[Wait]
 
 TICK = 0.05
-PATIENCE = 40.0
+PATIENCE = 90.0
 """Seconds until a condition that does not come true is given up"""
 EXTENSION = "bl_ext.user_default.curvrefl"
 
