@@ -99,14 +99,31 @@ class EnvironmentLights:
 
 
 def _read_file(path: str) -> Float32Array:
-    """Studio lights are no images of the file that is open, and must not become some."""
-    import OpenImageIO
-
-    buffer = OpenImageIO.ImageBuf(path)
-    pixels = buffer.get_pixels(OpenImageIO.FLOAT)
+    """(height, width, 3) of a studio light, which is no image of the open file, and must not become one."""
+    try:
+        import OpenImageIO
+    except ImportError:
+        # Builds of Blender by others may lack the module.
+        return _read_as_image(path)
+    pixels = OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.FLOAT)
     if pixels is None or pixels.ndim != 3 or pixels.shape[2] < 3:
-        raise InputError(f"The studio light {Path(path).name} cannot be read: choose another one.")
+        raise _unreadable(path)
     return np.ascontiguousarray(pixels[::-1, :, :3], np.float32)
+
+
+def _read_as_image(path: str) -> Float32Array:
+    try:
+        image = bpy.data.images.load(path, check_existing=False)
+    except RuntimeError as error:
+        raise _unreadable(path) from error
+    try:
+        return np.ascontiguousarray(ImageReader().read(image)[..., :3])
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _unreadable(path: str) -> InputError:
+    return InputError(f"The studio light {Path(path).name} cannot be read: choose another one.")
 
 
 def _about_z(angle: float) -> Float64Array:

@@ -342,7 +342,7 @@ class Renderer:
     def _draw_surfaces(self, targets: _Targets, view: View, reflection: Reflection) -> Any:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
-        draw_primary(targets.seen, self.geometry.seen(), self._materials, uniforms)
+        draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms)
         if reflection.cubes is None:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):

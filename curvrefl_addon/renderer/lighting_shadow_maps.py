@@ -34,8 +34,9 @@ class ShadowCasters:
         self._idle: dict[frozenset[int], dict[int, frozenset[tuple[int, int]]]] = {}
         self._revision = geometry.revision
 
-    def draw(self, shader: Any, idle_planes: frozenset[int]) -> None:
-        """All that casts, outside these planes of the extent's hull, with a bound shader."""
+    def draw(self, shader: Any, view: ShadowView) -> None:
+        """All that casts in a view, with a bound shader."""
+        idle_planes = view.idle_planes
         if self._revision != self._geometry.revision:
             self._revision = self._geometry.revision
             self._idle.clear()
@@ -43,6 +44,8 @@ class ShadowCasters:
             self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
         idle = self._idle[idle_planes]
         for chunk in self._geometry.chunks:
+            if not self._geometry.may_be_in(chunk, view.world_to_clip):
+                continue
             batch = chunk.casters(idle.get(id(chunk), frozenset()))
             if batch is not None:
                 shader.uniform_sampler("positions", chunk.positions)
@@ -100,7 +103,7 @@ class ShadowMaps:
                 shader.bind()
                 shader.uniform_float("world_to_clip", _matrix(view))
                 shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
-                casters.draw(shader, view.idle_planes)
+                casters.draw(shader, view)
             self._drawn[layer] = True
 
     def hold(self, layers: Sequence[int], points: Float64Array) -> bool:

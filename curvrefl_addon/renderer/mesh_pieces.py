@@ -28,6 +28,7 @@ OUTLINE_DIRECTIONS = 128
 OUTLINE_SLACK = 1.01
 """Grows an outline of many points, which may lie inside of the true one by half the directions' spacing squared"""
 _BLOCK = 1 << 13
+_GROUP = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,16 +75,37 @@ def outline(points: NDArray[np.floating]) -> Float64Array:
     """(n, 3) the points themselves or, of many, those farthest out in OUTLINE_DIRECTIONS, moved out a bit."""
     if len(points) <= 4 * OUTLINE_DIRECTIONS:
         return points.astype(np.float64)
-    directions = _directions()
+    low, high = points.min(axis=0).astype(np.float64), points.max(axis=0).astype(np.float64)
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    # With the box made a cube, or directions would miss what stands out of a flat shape.
+    scale = 1.0 / np.where(half > 0.0, half, 1.0)
+    cube = ((points - middle.astype(points.dtype)) * scale.astype(points.dtype)).astype(np.float32)
+    axes = np.eye(3, dtype=np.float32)
+    directions = np.concatenate([_directions(), axes, -axes])
+    rows = _outer_rows(cube, directions)
     best = np.full(len(directions), -np.inf, np.float32)
     farthest = np.zeros(len(directions), np.int64)
-    for start in range(0, len(points), _BLOCK):
-        heights = directions @ points[start : start + _BLOCK].T.astype(np.float32, copy=False)
+    for start in range(0, len(rows), _BLOCK):
+        part = rows[start : start + _BLOCK]
+        heights = directions @ cube[part].T
         values = heights.max(axis=1)
         for row in np.flatnonzero(values > best):
-            best[row], farthest[row] = values[row], start + int(heights[row].argmax())
-    middle = 0.5 * (points.min(axis=0).astype(np.float64) + points.max(axis=0))
-    return middle + (points[np.unique(farthest)] - middle) * OUTLINE_SLACK
+            best[row], farthest[row] = values[row], part[int(heights[row].argmax())]
+    grown = middle + (points[np.unique(farthest)] - middle) * OUTLINE_SLACK
+    # Never out of the box: what stands on a floor would reach through it.
+    return np.clip(grown, low, high)
+
+
+def _outer_rows(points: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int64]:
+    """Rows among which the farthest in every direction are. Neighbours in the array mostly are so in space, so
+    groups of them whose box ends nearer than a point of some other group can be left out."""
+    whole = len(points) // _GROUP * _GROUP
+    groups = points[:whole].reshape(-1, _GROUP, 3)
+    least, most = groups.min(axis=1), groups.max(axis=1)
+    reach = 0.5 * (least + most) @ directions.T + 0.5 * (most - least) @ np.abs(directions).T
+    reached = (groups[:, 0] @ directions.T).max(axis=0)
+    chosen = np.flatnonzero((reach >= reached - 1e-5).any(axis=1))
+    return np.concatenate([(chosen[:, None] * _GROUP + np.arange(_GROUP)).ravel(), np.arange(whole, len(points))])
 
 
 @cache

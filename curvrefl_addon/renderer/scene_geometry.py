@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from ..scene.view import View
 from .chunk import Batches, Chunk, Placed
 from .mesh_facts import MeshFactsCache
 from .split import has_long_edges, split_mesh
@@ -61,6 +62,8 @@ class SceneGeometry:
         self.counters = {"chunks built": 0, "instances placed": 0, "meshes split": 0}
         self.revision = 0
         """Another one when chunks are not the same any more"""
+        self._boxes: dict[int, Float64Array] = {}
+        """By a chunk's id, (8, 4) homogeneous corners of a box around it, world space"""
         self._where: list[tuple[Chunk, int] | None] = []
         self._angles: list[float] = []
         """Per instance the angle it is split with, endless where it is not"""
@@ -144,10 +147,24 @@ class SceneGeometry:
         chunks = [chunk for chunk in self.chunks if chunk is not itself[0] and chunk.placed[0].instance.visible_glossy]
         return [(chunk, chunk.batches(np.ones(len(chunk.placed), bool))) for chunk in chunks]
 
-    def seen(self) -> list[tuple[Chunk, Batches]]:
-        """All that the eye sees directly."""
+    def may_be_in(self, chunk: Chunk, world_to_clip: Float64Array) -> bool:
+        """False where a chunk is outside of the view volume of a matrix (4, 4) for sure."""
+        box = self._boxes.get(id(chunk))
+        if box is None:
+            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
+            low, high = corners.min(axis=0), corners.max(axis=0)
+            which = np.indices((2, 2, 2)).reshape(3, 8).T
+            box = self._boxes[id(chunk)] = np.column_stack([np.where(which, high, low), np.ones(8)])
+        clip = box @ world_to_clip.T
+        beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
+        return not (beyond.all(axis=0).any() or before.all(axis=0).any())
+
+    def seen(self, view: View) -> list[tuple[Chunk, Batches]]:
+        """All that the eye may see directly."""
         found = []
         for chunk in self.chunks:
+            if not self.may_be_in(chunk, view.world_to_clip):
+                continue
             keep = np.array([item.instance.visible_camera for item in chunk.placed])
             if batches := chunk.batches(keep, holdouts=True):
                 found.append((chunk, batches))
@@ -178,11 +195,8 @@ class SceneGeometry:
 
     def box_corners(self, indices: Sequence[int]) -> Float64Array:
         """(8 n, 3) corners of the boxes around instances, world space."""
-        boxes = np.array([self.facts.of(self.placed[index].mesh).box for index in indices], np.float64)
-        matrices = np.array([self.placed[index].instance.matrix for index in indices])
-        which = np.indices((2, 2, 2)).reshape(3, 8).T
-        corners = np.stack([boxes[:, which[:, axis], axis] for axis in range(3)], axis=-1)
-        return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
+        items = [self.placed[index] for index in indices]
+        return _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
 
     @property
     def bytes(self) -> int:
@@ -210,6 +224,7 @@ class SceneGeometry:
             self.counters["instances placed"] += 1
         for chunk, items in changed.values():
             chunk.move(items)
+            self._boxes.pop(id(chunk), None)
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
@@ -218,6 +233,7 @@ class SceneGeometry:
         if not dirty and not stale:
             return
         self.revision += 1
+        self._boxes.clear()
         self.chunks = [chunk for chunk in self.chunks if id(chunk) not in stale]
         loose = [index for index, found in enumerate(self._where) if found is None or id(found[0]) in stale]
         for kind in {self._kind(index) for index in loose}:
@@ -286,6 +302,15 @@ class SceneGeometry:
         self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)
         self.counters["meshes split"] += 1
         return drawn is not item.drawn
+
+
+def _box_corners(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float64Array]]) -> Float64Array:
+    """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
+    ends = np.array([box for box, _ in boxes], np.float64)
+    matrices = np.array([matrix for _, matrix in boxes])
+    which = np.indices((2, 2, 2)).reshape(3, 8).T
+    corners = np.stack([ends[:, which[:, axis], axis] for axis in range(3)], axis=-1)
+    return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
 
 
 def estimated_bytes(scene: SceneArrays) -> int:

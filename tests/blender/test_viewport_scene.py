@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -220,6 +221,31 @@ def test_image_lights_the_scene(session: Session) -> None:
     assert renderer is not None
     color = renderer.render(view).color()
     np.testing.assert_allclose(color[0, 0, :3], [0.0, 0.0, 6.0], atol=1e-3)
+
+
+@pytest.mark.parametrize("module", ["OpenImageIO", "images"])
+def test_studio_light_file(session: Session, tmp_path: Path, module: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By either reader; no image is left in the file."""
+    from curvrefl.curvrefl_addon.report.images import save_exr
+
+    if module == "images":
+        monkeypatch.setitem(sys.modules, "OpenImageIO", None)
+    pixels = np.zeros((4, 8, 3), np.float32)
+    pixels[:2] = (0.0, 3.0, 0.0)  # below the horizon: row 0 is at the bottom
+    pixels[2:] = (0.0, 0.0, 5.0)
+    save_exr(tmp_path / "light.exr", pixels)
+    look = Look(Environment(False, str(tmp_path / "light.exr"), strength=0.5))
+    renderer = session.draw(look)
+    assert renderer is not None
+    up, down = (
+        renderer.render(look_at(np.array([0.0, 9.0, 9.0]), np.array([0.0, 30.0, 9.0 + 30 * z]), 8, 8, 0.2)).color()
+        for z in (1, -1)
+    )
+    np.testing.assert_allclose(up[4, 4, :3], [0.0, 0.0, 2.5], atol=1e-2)
+    np.testing.assert_allclose(down[4, 4, :3], [0.0, 1.5, 0.0], atol=1e-2)
+    assert not bpy.data.images
+    assert session.draw(Look(Environment(path=str(tmp_path / "none.exr")))) is None
+    assert "none.exr" in session.scene.messages[0]
 
 
 def test_few_looks_are_kept(session: Session) -> None:
