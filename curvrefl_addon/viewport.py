@@ -139,7 +139,7 @@ def unregister() -> None:
 
 def redraw_all() -> None:
     """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
-    there = set()
+    there: set[int] = set()
     for manager in bpy.data.window_managers:
         for window in manager.windows:
             for area in window.screen.areas:

@@ -40,6 +40,27 @@ def regions() -> list[bpy.types.Region]:
     return [region for region in area.regions if region.type == "WINDOW" and region.as_pointer() in pictures()]
 
 
+def engine_draws() -> bool:
+    """EEVEE shows the block: before, while it compiles shaders, it leaves the view empty.
+
+    (Blender adds the theme's background wherever an engine has left alpha at 0, also behind what is drawn later.)
+    """
+    if not shutil.which("import"):
+        return True
+    from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+    _area, space, region = view_3d()
+    place = location_3d_to_region_2d(region, space.region_3d, bpy.data.objects["Block"].matrix_world.translation)
+    path = Path(FOLDER) / "engine.png"
+    subprocess.run(["import", "-window", "root", str(path)], check=True)
+    image = bpy.data.images.load(str(path))
+    start = 4 * ((int(place.y) + region.y) * image.size[0] + int(place.x) + region.x)
+    red, green, blue = image.pixels[start : start + 3]
+    bpy.data.images.remove(image)
+    seen.setdefault("block", []).append([red, green, blue])
+    return abs(red - 0.2392) > 0.03
+
+
 def capture(name: str) -> None:
     read = extension("curvrefl_addon.renderer.gpu_objects").read_texture
     places = []
@@ -79,7 +100,13 @@ def script() -> Script:
     for kind in ("SOLID", "MATERIAL", "RENDERED"):
         space.shading.type = kind
         yield from settled()
-        yield 2.0
+        if kind != "SOLID":
+            space.region_3d.view_perspective = "PERSP"
+            space.region_3d.view_rotation = scene.camera.matrix_world.to_quaternion()
+            space.region_3d.view_location = (0.5, 0.0, 0.0)
+            space.region_3d.view_distance = 8.0
+            yield engine_draws
+            yield from settled()
         capture(kind.lower())
     space.shading.type = "SOLID"
     space.region_3d.view_perspective = "ORTHO"
