@@ -3,8 +3,9 @@
 """Draw handlers: put the renderer's mirrors into every 3D viewport.
 
 The mirrors are drawn into the frame buffer that is bound before the view's engine draws: it is scene-linear, so the
-view transform and the overlays come out right. Who hides whom is decided by the renderer's own passes, because the
-viewport's depth is not there with overlays off.
+view transform and the overlays come out right. Where none was seen there, they are drawn over the finished view, with
+the colors of the Standard view transform and over its overlays. Who hides whom is decided by the renderer's own passes,
+because the viewport's depth is not there with overlays off.
 
 While only the view moves nothing is read from the scene. Updates of the scene are gathered and looked at by the next
 redraw. A handler that fails switches itself off, says why once in the panel, and can be switched on again.
@@ -22,10 +23,10 @@ import bpy
 import gpu
 from bpy.app.handlers import persistent
 
-from .diagnostic_colors import legend_of
+from .diagnostic_colors import MODES, legend_of
+from .options import current_options
 from .renderer.diagnostic_legend import draw_legend
 from .renderer.frame import Settings
-from .ui.preferences import current as preferences
 from .viewport_region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
 from .viewport_scene import ViewportScene, look_of, marked_mirrors
 
@@ -132,6 +133,9 @@ def forget_scene(scene: bpy.types.Scene | None = None) -> None:
 
 def unregister() -> None:
     """Leave nothing behind."""
+    for manager in bpy.data.window_managers:
+        if manager.curvrefl_enabled:
+            manager.curvrefl_enabled = False
     _stop()
     _state.failure = ""
     _state.counters.clear()
@@ -231,11 +235,20 @@ def _guarded(function: Callable[[bpy.types.Context], None]) -> Callable[[], None
             function(bpy.context)
         except Exception as error:
             traceback.print_exc()
-            _state.failure = f"Drawing stopped: {error}. Put that right and switch it on again."
+            _state.failure = f"Drawing stopped: {_reason(error)}. Put that right and switch it on again."
             # A handler cannot be removed while it runs, and a property not be set while drawing.
             bpy.app.timers.register(_switch_off, first_interval=0.0)
 
     return handler
+
+
+def _reason(error: Exception) -> str:
+    """Why it failed, for the user."""
+    text = str(error).strip().rstrip(".")
+    if isinstance(error, MemoryError) or ("gpu." in text and ".new(" in text):
+        # What Blender says when the driver gives it no texture or buffer.
+        return "the GPU has no memory left; hide objects, make the view smaller or lower the samples"
+    return text or type(error).__name__
 
 
 def _switch_off() -> None:
@@ -257,7 +270,7 @@ def _draw(context: bpy.types.Context) -> None:
     region = context.region.as_pointer()
     frame_buffer = _state.frame_buffers.pop(region, None)
     space = context.space_data
-    if frame_buffer is None or not isinstance(space, bpy.types.SpaceView3D) or space.shading.type not in SHOWN_IN:
+    if not isinstance(space, bpy.types.SpaceView3D) or space.shading.type not in SHOWN_IN:
         return
     scene, layer = context.scene, context.view_layer
     assert scene is not None and layer is not None
@@ -267,12 +280,13 @@ def _draw(context: bpy.types.Context) -> None:
         shown = _state.scenes[key] = ViewportScene()
     chosen = scene.curvrefl
     settings = Settings(
-        method=chosen.method,
+        # (what a newer extension has saved reads as nothing here)
+        method=chosen.method or Settings().method,
         samples=chosen.samples,
         pixel_tolerance=chosen.pixel_tolerance,
         map_resolution=chosen.map_resolution,
     )
-    options = preferences()
+    options = current_options()
     renderer = shown.renderer(context, look_of(space, chosen), settings, options.memory_cap << 20)
     picture = _state.pictures.pop(region, None)
     if renderer is None:
@@ -285,8 +299,9 @@ def _draw(context: bpy.types.Context) -> None:
     is_timed = now - _state.asked_at < ASKED_SECONDS
     picture.advance(view_of(context), chosen, options, now, is_timed, _state.counters)
     # Diagnostic colors must come out as they are in their legend: not through the view transform.
-    target = frame_buffer if chosen.show == "REFLECTION" else gpu.state.active_framebuffer_get()
-    picture.composite(target, viewport)
+    if chosen.show in MODES or frame_buffer is None:
+        frame_buffer = gpu.state.active_framebuffer_get()
+    picture.composite(frame_buffer, viewport)
     _draw_again(picture)
 
 
@@ -295,7 +310,7 @@ def _draw_legend(context: bpy.types.Context) -> None:
     scene = context.scene
     if scene is None or context.region.as_pointer() not in _state.pictures:
         return
-    diagnostic = diagnostic_of(scene.curvrefl, preferences())
+    diagnostic = diagnostic_of(scene.curvrefl, current_options())
     if diagnostic is None:
         return
     legend = legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, (scene.curvrefl.method,))

@@ -14,7 +14,7 @@ import gpu
 import numpy as np
 
 from ..gpu_shaders.loader import load
-from .diagnostic_colors import DiagnosticOptions
+from .diagnostic_colors import MODES, DiagnosticOptions
 from .renderer.frame import Diagnostic, Reflection, Renderer
 from .renderer.gpu_objects import drawing_state, full_screen_triangle
 from .renderer.solve import statistics
@@ -73,7 +73,7 @@ class RegionPicture:
             divisor = 1
         elif state != self._state or not _is_same(self._view, view):
             self._changed_at = now
-            divisor = DIVISORS[settings.motion_resolution]
+            divisor = DIVISORS.get(settings.motion_resolution, DIVISORS["HALF"])
         elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
             divisor = 1
         if divisor:
@@ -144,7 +144,7 @@ class RegionPicture:
 
 def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
     """The diagnostic view that `Scene.curvrefl` asks for, in the preferences' colors; None for the picture itself."""
-    if settings.show == "REFLECTION":
+    if settings.show not in MODES:
         return None
     x, y, z = settings.stripe_direction
     return Diagnostic(

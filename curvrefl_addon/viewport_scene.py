@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from .errors import InputError
+from .options import newer_settings
 from .renderer.frame import Renderer, Settings
 from .renderer.scene_geometry import estimated_bytes
 from .scene.arrays import MaterialArrays, SceneArrays
@@ -108,7 +109,8 @@ class ViewportScene:
             self._refused.pop(uid, None)
         seen = [mirror for mirror in self._mirrors if mirror.visible_get(view_layer=context.view_layer)]
         arrays = self._arrays_of(context, scene, seen)
-        self.messages = list(self._refused.values())
+        newer = newer_settings(scene)
+        self.messages = [*([newer] if newer else []), *self._refused.values()]
         self._shown.clear()
         self._arrays = arrays
         if arrays is None:

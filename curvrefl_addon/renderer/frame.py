@@ -117,6 +117,7 @@ class Renderer:
         """How often something was made, since the start; those of `geometry` and `lighting` beside it"""
         self.revision = 0
         """Another one when pictures are not the same any more"""
+        self._warnings: tuple[int, tuple[str, ...]] | None = None
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
         self._targets: dict[tuple[int, int], _Targets] = {}
@@ -164,12 +165,17 @@ class Renderer:
         self.revision += 1
 
     @property
-    def warnings(self) -> list[str]:
+    def warnings(self) -> tuple[str, ...]:
         """One sentence each."""
+        if self._warnings is None or self._warnings[0] != self.revision:
+            self._warnings = (self.revision, self._found_warnings())
+        return self._warnings[1]
+
+    def _found_warnings(self) -> tuple[str, ...]:
         found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.map.warnings)]
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        return [*found, *self._lighting.warnings]
+        return (*found, *self._lighting.warnings)
 
     @property
     def bytes(self) -> int:
@@ -240,21 +246,21 @@ class Renderer:
         Without `solve`, for diagnostic views of the mirrors' surface alone.
         """
         if not solve:
-            return Reflection(view, (), (), tuple(self.warnings))
+            return Reflection(view, (), (), self.warnings)
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
             black = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
             warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
             return Reflection(view, (), (black,) * len(self.mirrors), (*self.warnings, warning))
         if self.settings.method == "environment_cube" and self.mirrors:
             cubes = tuple(cube.color for cube in self.environment_cubes())
-            return Reflection(view, (), cubes, tuple(self.warnings))
+            return Reflection(view, (), cubes, self.warnings)
         tolerance = self.settings.pixel_tolerance
         self.geometry.refine([mirror.sight(view, tolerance) for mirror in self.mirrors])
         parts = tuple(
             mirror.solve(view, self.settings.method, tolerance, self.geometry.scenery(mirror.index))
             for mirror in self.mirrors
         )
-        return Reflection(view, parts, None, tuple(self.warnings))
+        return Reflection(view, parts, None, self.warnings)
 
     def add_sub_frame(
         self,

@@ -18,7 +18,7 @@ from .chunk import Batches, Chunk
 from .gpu_objects import cube_texture
 from .mesh_facts import MeshFacts
 from .reflector_bake import bake_instance, polar
-from .scene_geometry import Sight
+from .scene_geometry import CORNERS, Sight
 from .solve import VertexSolution, solve_vertices
 from .split import split_angle
 
@@ -98,11 +98,9 @@ class Mirror:
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
         low, high = self._box
-        corners = np.array(
-            [[x, y, z, 1.0] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-        )
-        corners = corners @ self._instance.matrix.T
-        clip = corners @ view.world_to_clip.T
+        corners = np.ones((8, 4))
+        corners[:, :3] = np.where(CORNERS, high, low)
+        clip = corners @ (view.world_to_clip @ self._instance.matrix).T
         if (clip[:, 3] <= 1e-6).any():
             return (0, 0, view.width, view.height)
         pixels = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)

@@ -26,6 +26,8 @@ CHUNK_TRIANGLES = 1 << 16
 enough that a scene has few"""
 SLACK = 0.8
 """What has to be split again while it moves is split so much finer, so that it need not be at every move"""
+CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
+"""(8, 3) which end of a box each of its corners has"""
 TOO_FINE = 3.9
 """Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 
@@ -64,6 +66,9 @@ class SceneGeometry:
         """Another one when chunks are not the same any more"""
         self._boxes: dict[int, Float64Array] = {}
         """By a chunk's id, (8, 4) homogeneous corners of a box around it, world space"""
+        self._sceneries: dict[int, list[tuple[Chunk, Batches]]] = {}
+        """By the mirror's instance; of this revision, as the next"""
+        self._seen: list[tuple[Chunk, Batches]] | None = None
         self._where: list[tuple[Chunk, int] | None] = []
         self._angles: list[float] = []
         """Per instance the angle it is split with, endless where it is not"""
@@ -142,10 +147,15 @@ class SceneGeometry:
 
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
         """All that a mirror, the instance `own`, may show."""
-        itself = self._where[own]
-        assert itself is not None
-        chunks = [chunk for chunk in self.chunks if chunk is not itself[0] and chunk.placed[0].instance.visible_glossy]
-        return [(chunk, chunk.batches(np.ones(len(chunk.placed), bool))) for chunk in chunks]
+        if own not in self._sceneries:
+            itself = self._where[own]
+            assert itself is not None
+            self._sceneries[own] = [
+                (chunk, chunk.batches(np.ones(len(chunk.placed), bool)))
+                for chunk in self.chunks
+                if chunk is not itself[0] and chunk.placed[0].instance.visible_glossy
+            ]
+        return self._sceneries[own]
 
     def may_be_in(self, chunk: Chunk, world_to_clip: Float64Array) -> bool:
         """False where a chunk is outside of the view volume of a matrix (4, 4) for sure."""
@@ -153,22 +163,20 @@ class SceneGeometry:
         if box is None:
             corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
             low, high = corners.min(axis=0), corners.max(axis=0)
-            which = np.indices((2, 2, 2)).reshape(3, 8).T
-            box = self._boxes[id(chunk)] = np.column_stack([np.where(which, high, low), np.ones(8)])
+            box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
         clip = box @ world_to_clip.T
         beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
         return not (beyond.all(axis=0).any() or before.all(axis=0).any())
 
     def seen(self, view: View) -> list[tuple[Chunk, Batches]]:
         """All that the eye may see directly."""
-        found = []
-        for chunk in self.chunks:
-            if not self.may_be_in(chunk, view.world_to_clip):
-                continue
-            keep = np.array([item.instance.visible_camera for item in chunk.placed])
-            if batches := chunk.batches(keep, holdouts=True):
-                found.append((chunk, batches))
-        return found
+        if self._seen is None:
+            self._seen = []
+            for chunk in self.chunks:
+                keep = np.array([item.instance.visible_camera for item in chunk.placed])
+                if batches := chunk.batches(keep, holdouts=True):
+                    self._seen.append((chunk, batches))
+        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_clip)]
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
@@ -234,6 +242,8 @@ class SceneGeometry:
             return
         self.revision += 1
         self._boxes.clear()
+        self._sceneries.clear()
+        self._seen = None
         self.chunks = [chunk for chunk in self.chunks if id(chunk) not in stale]
         loose = [index for index, found in enumerate(self._where) if found is None or id(found[0]) in stale]
         for kind in {self._kind(index) for index in loose}:
@@ -308,8 +318,7 @@ def _box_corners(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float6
     """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
     ends = np.array([box for box, _ in boxes], np.float64)
     matrices = np.array([matrix for _, matrix in boxes])
-    which = np.indices((2, 2, 2)).reshape(3, 8).T
-    corners = np.stack([ends[:, which[:, axis], axis] for axis in range(3)], axis=-1)
+    corners = np.stack([ends[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
     return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
 
 

@@ -120,11 +120,13 @@ def _with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
 def _long_edges(relative: Float32Array, corner_position: Int32Array, corners: Int32Array, angle: float) -> np.ndarray:
     """(triangles, 3): edge k runs from corner k to corner k + 1."""
     places = relative[corner_position[corners]]
-    edges = np.roll(places, -1, axis=1) - places
-    squared = np.einsum("ijk,ijk->ij", edges, edges)
-    along = -np.einsum("ijk,ijk->ij", places, edges) / np.maximum(squared, 1e-30)
-    closest = places + np.clip(along, 0.0, 1.0)[..., None] * edges
-    return squared > angle**2 * np.einsum("ijk,ijk->ij", closest, closest)
+    edges = places[:, [1, 2, 0]] - places
+    # Lengths whose squares overflow compare as not long: they are left as they are.
+    with np.errstate(over="ignore", invalid="ignore"):
+        squared = np.einsum("ijk,ijk->ij", edges, edges)
+        along = -np.einsum("ijk,ijk->ij", places, edges) / np.maximum(squared, 1e-30)
+        closest = places + np.clip(along, 0.0, 1.0)[..., None] * edges
+        return squared > angle**2 * np.einsum("ijk,ijk->ij", closest, closest)
 
 
 def _number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[Int32Array, Int32Array]:

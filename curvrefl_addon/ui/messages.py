@@ -16,7 +16,8 @@ FEWEST_LETTERS = 20
 
 def draw_message(layout: Any, text: str, context: bpy.types.Context, icon: str = "ERROR") -> None:
     """One sentence, wrapped."""
-    scale = context.preferences.system.ui_scale
+    # (0 without a window)
+    scale = context.preferences.system.ui_scale or 1.0
     letters = max(int((context.region.width / scale - 40.0) / LETTER_PIXELS), FEWEST_LETTERS)
     column = layout.column(align=True)
     for line in wrapped(text, letters):

@@ -9,10 +9,10 @@ from typing import Any
 import bpy
 
 from ..diagnostic_colors import SOLVED_MODES
+from ..options import newer_settings
 from ..scene.blend_file import SURFACE_TYPES
 from .choices import PRESETS, active_preset
 from .messages import draw_message, draw_rows
-from .properties import newer_settings
 
 MOST_LISTED = 12
 """Mirrors in the list of the panel"""
@@ -61,9 +61,8 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
             _draw_list(layout, mirrors, context)
         else:
             draw_message(layout, "No object is marked as a mirror", context, "INFO")
-        if newer := newer_settings(scene):
-            draw_message(layout, newer, context)
-        for message in viewport.messages():
+        newer = newer_settings(scene)
+        for message in dict.fromkeys([*([newer] if newer else []), *viewport.messages()]):
             draw_message(layout, message, context)
         if mirrors and not context.window_manager.curvrefl_enabled and not viewport.messages():
             draw_message(layout, "Switched off: tick the box in this panel's header", context, "INFO")

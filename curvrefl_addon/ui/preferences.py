@@ -4,68 +4,16 @@
 
 # No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
 
-from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from ..diagnostic_colors import DiagnosticColors
+from ..options import PACKAGE
 from .choices import METHOD_ITEMS, MOTION_ITEMS
 
-PACKAGE = __package__.removesuffix(".curvrefl_addon.ui")
-"""The extension as Blender knows it, for instance bl_ext.user_default.curvrefl"""
 _COLORS = DiagnosticColors()
-
-
-@dataclass(frozen=True, slots=True)
-class Preferences:
-    """What the rest of the extension reads of them."""
-
-    method: str = "secant_star"
-    pixel_tolerance: float = 0.5
-    samples: int = 8
-    map_resolution: int = 128
-    motion_resolution: str = "HALF"
-    memory_cap: int = 2048
-    """MB"""
-    colors: DiagnosticColors = field(default_factory=DiagnosticColors)
-
-
-def current() -> Preferences:
-    """The user's, or the defaults where the extension runs without being installed."""
-    addon = bpy.context.preferences.addons.get(PACKAGE)
-    chosen: Any = None if addon is None else addon.preferences
-    if chosen is None:
-        return Preferences()
-    ramp = _COLORS.ramp
-    if not (_is_color(chosen.color_low, ramp[0]) and _is_color(chosen.color_high, ramp[-1])):
-        # Of other ends the five stops of the default are not the way from one to the other.
-        ramp = (_triple(chosen.color_low), _triple(chosen.color_high))
-    return Preferences(
-        method=chosen.method,
-        pixel_tolerance=chosen.pixel_tolerance,
-        samples=chosen.samples,
-        map_resolution=chosen.map_resolution,
-        motion_resolution=chosen.motion_resolution,
-        memory_cap=chosen.memory_cap,
-        colors=DiagnosticColors(
-            converged=_triple(chosen.color_converged),
-            hidden=_triple(chosen.color_hidden),
-            failed=_triple(chosen.color_failed),
-            ramp=ramp,
-        ),
-    )
-
-
-def _triple(color: Any) -> tuple[float, float, float]:
-    red, green, blue = color
-    return red, green, blue
-
-
-def _is_color(color: Any, other: tuple[float, float, float]) -> bool:
-    """Up to what properties round to."""
-    return all(abs(one - two) < 1e-6 for one, two in zip(color, other, strict=True))
 
 
 def _is_changed(_self: Any, _context: bpy.types.Context | None) -> None:

@@ -10,11 +10,8 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from . import preferences
+from ..options import SETTINGS_VERSION, current_options
 from .choices import ENVIRONMENT_ITEMS, FRESNEL_ITEMS, METHOD_ITEMS, MOTION_ITEMS, SHOW_ITEMS
-
-SETTINGS_VERSION = 1
-"""Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
 
 
 def _is_switched(_self: Any, context: bpy.types.Context) -> None:
@@ -187,7 +184,7 @@ CLASSES = (CurvreflObject, CurvreflScene)
 
 def use_defaults() -> None:
     """Give scenes that were never used with the extension the settings of the preferences."""
-    chosen = preferences.current()
+    chosen = current_options()
     for scene in bpy.data.scenes:
         settings = scene.curvrefl
         if settings.version or not scene.is_editable:
@@ -196,13 +193,6 @@ def use_defaults() -> None:
             if not settings.is_property_set(name):
                 setattr(settings, name, getattr(chosen, name))
         settings.version = SETTINGS_VERSION
-
-
-def newer_settings(scene: bpy.types.Scene) -> str:
-    """A sentence for the user where the scene was saved by a newer extension, or nothing."""
-    if scene.curvrefl.version <= SETTINGS_VERSION:
-        return ""
-    return "The file was saved with a newer Curvrefl: settings that this one does not know are left out. Update it."
 
 
 def add() -> None:
