@@ -17,7 +17,11 @@ from ..curvrefl_addon.optics.catalogue import METHODS
 TEXT_NAME = "Curvrefl comparison"
 TICK = 0.05
 """Seconds between two steps of a comparison in a window"""
-_PEERS = (("eevee", "EEVEE", ""), ("cycles1", "Cycles, 1 Sample", ""), ("cycles8", "Cycles, 8 Samples", ""))
+_PEERS = (
+    ("eevee", "EEVEE", "Blender's real-time engine"),
+    ("cycles1", "Cycles, 1 Sample", "One path per pixel"),
+    ("cycles8", "Cycles, 8 Samples", "Eight paths per pixel"),
+)
 
 
 class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
@@ -47,14 +51,19 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
     )
     light: EnumProperty(  # type: ignore[valid-type]
         name="Light",
+        description="What the compared pictures are lit by",
         items=(
             ("direct", "Direct", "Lamps, emitters and the world, without bounces between diffuse surfaces"),
             ("full", "Full", "Cycles as the scene sets it"),
         ),
         default="direct",
     )
-    width: IntProperty(name="Width", default=640, min=1, max=8192, subtype="PIXEL")  # type: ignore[valid-type]
-    height: IntProperty(name="Height", default=480, min=1, max=8192, subtype="PIXEL")  # type: ignore[valid-type]
+    width: IntProperty(  # type: ignore[valid-type]
+        name="Width", description="Of the compared pictures", default=640, min=1, max=8192, subtype="PIXEL"
+    )
+    height: IntProperty(  # type: ignore[valid-type]
+        name="Height", description="Of the compared pictures", default=480, min=1, max=8192, subtype="PIXEL"
+    )
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Of the reference in Cycles", default=128, min=1, max=65536
     )

@@ -51,6 +51,7 @@ class CURVREFL_OT_apply_preset(bpy.types.Operator):
 
     preset: EnumProperty(  # type: ignore[valid-type]
         name="Preset",
+        description="Speed or accuracy",
         items=[(name, label, description) for name, (label, description, _) in PRESETS.items()],
         default="BALANCED",
     )

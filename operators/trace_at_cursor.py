@@ -27,6 +27,7 @@ class CURVREFL_OT_trace_at_cursor(bpy.types.Operator):
 
     place: EnumProperty(  # type: ignore[valid-type]
         name="Place",
+        description="What is moved so that its reflection appears at the clicked point",
         items=(
             ("NONE", "Nothing", "Show the ray alone"),
             ("ACTIVE", "Active Object", "Move the active object or light so that it is seen at the clicked point"),

@@ -21,14 +21,14 @@ class Method:
 
 METHODS: dict[str, Method] = {
     "secant_star": Method(
-        "Secant, star-shaped map",
+        "Secant Search",
         "Roger & Holzschuch 2006, section 3.3, with a safeguarded end",
-        "every ray from the star centre leaves the reflector once; one reflection per vertex",
+        "every ray from the star center leaves the reflector once; one reflection per vertex",
         True,
     ),
     "environment_cube": Method(
-        "Environment cube map",
-        "Blinn & Newell 1976; six faces from the reflector's centre",
+        "Environment Cube",
+        "Blinn & Newell 1976; six faces from the reflector's center",
         "everything is infinitely far away",
         False,
     ),

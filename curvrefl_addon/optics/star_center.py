@@ -49,7 +49,7 @@ def find_star_center(corners: Float64Array, origin: Float64Array) -> StarCenter:
     signed_volumes = np.einsum("ij,ij->i", normals, corners[:, 0] - low)
     candidates = [
         ("origin", origin),
-        ("bounds centre", 0.5 * (low + high)),
+        ("middle of the box", 0.5 * (low + high)),
         ("triangle mean", np.array([centroids[:, axis].mean() for axis in range(3)])),
     ]
     total_area = float(doubled_areas.sum())

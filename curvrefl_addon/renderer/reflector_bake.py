@@ -68,7 +68,7 @@ class _PlacedMesh:
         """(3,) of a point in world space. Raises InputError when it is none."""
         world = np.asarray(point, np.float64)
         if world.shape != (3,) or not np.isfinite(world).all():
-            raise InputError("The star centre must be three finite numbers: its x, y and z in world space.")
+            raise InputError("The star center must be three finite numbers: its x, y and z in world space.")
         return self.map_to_world[:3, :3].T @ (world - self.map_to_world[:3, 3])
 
 
@@ -149,7 +149,7 @@ def bake_instance(
     hit = hits[..., 3] != 0.0
     if not hit.any():
         raise InputError(
-            f'"{placed.name}" is flat or has nothing around its star centre: choose a closed, curved mesh as reflector.'
+            f'"{placed.name}" is flat or has nothing around its star center: choose a closed, curved mesh as reflector.'
         )
     weights = _solid_angle_weights(resolution)
     # An inverted mesh turns its inside outwards all around: then that counts as the outside.
@@ -262,9 +262,9 @@ def _gradients(
 
 def _refuse_or_warn(name: str, multiple_hits: float, holes: float, limits: Limits) -> tuple[str, ...]:
     twice = (
-        f'"{name}" is not star-shaped ({percent(multiple_hits)} of directions from its centre leave it more than once)'
+        f'"{name}" is not star-shaped ({percent(multiple_hits)} of directions from its center leave it more than once)'
     )
-    open_ = f'"{name}" is open or not star-shaped ({percent(holes)} of directions from its centre meet no surface)'
+    open_ = f'"{name}" is open or not star-shaped ({percent(holes)} of directions from its center meet no surface)'
     if multiple_hits > limits.multiple_hits:
         raise InputError(
             f"{twice}: split it into parts that are, or use its convex hull or a smoothed remesh as reflector."

@@ -79,7 +79,7 @@ class ReflectorMap:
         x, y, z = self.center
         radius, angle = self.radius_error, self.normal_error_degrees
         return [
-            f"{self.object_name}: star centre ({x:.6g}, {y:.6g}, {z:.6g}), {self.center_name}",
+            f"{self.object_name}: star center ({x:.6g}, {y:.6g}, {z:.6g}), {self.center_name}",
             f"radius {self.r_min:.6g} to {self.r_max:.6g} m, {self.resolution} x {self.resolution} x 6 texels",
             f"directions that leave it more than once: {percent(self.multiple_hits)}, never: {percent(self.holes)}",
             f"radius error: median {percent(radius.median)}, 95 of 100 under {percent(radius.p95)}, "
@@ -92,13 +92,13 @@ class ReflectorMap:
         """The same for a panel: label and value."""
         radius, angle = self.radius_error, self.normal_error_degrees
         return [
-            ("Star Center", self.center_name),
+            ("Star Center", self.center_name.capitalize()),
             ("Radius", f"{self.r_min:.3g} to {self.r_max:.3g} m"),
             ("Map Size", f"{self.resolution} x {self.resolution} x 6"),
             ("Overhangs", percent(self.multiple_hits)),
             ("Holes", percent(self.holes)),
-            ("Radius Off", f"{100.0 * radius.median:.1g}, 95th {100.0 * radius.p95:.1g} %"),
-            ("Normal Off", f"{angle.median:.1g}, 95th {angle.p95:.1g}\u00b0"),
+            ("Radius Error", f"{100.0 * radius.median:.1g}, 95th {100.0 * radius.p95:.1g} %"),
+            ("Normal Error", f"{angle.median:.1g}, 95th {angle.p95:.1g}\u00b0"),
         ]
 
 

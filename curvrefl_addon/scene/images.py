@@ -70,7 +70,7 @@ class ImageReader:
         space = image.colorspace_settings.name
         if not image.is_float and space not in _LINEAR:
             if space != "sRGB":
-                warnings.append(f'Colour space "{space}" of image "{image.name}" is taken for sRGB.')
+                warnings.append(f'Color space "{space}" of image "{image.name}" is taken for sRGB.')
             _decode_srgb(pixels)
         return pixels
 

@@ -198,7 +198,7 @@ def _colors(
         return None
     attribute = mesh.color_attributes.get(name or mesh.attributes.default_color_name)
     if attribute is None:
-        missing.append(f'colour attribute "{name}"' if name else "a colour attribute")
+        missing.append(f'color attribute "{name}"' if name else "a color attribute")
         return None
     data = _data(attribute)
     colors = np.empty((len(data), 4), np.float32)

@@ -127,7 +127,7 @@ class ColorReader:
             return b
         operation = _BLENDS.get(blend)
         if operation is None:
-            self._notes.append(f"the blending {blend.lower()} of its colours is drawn as a mix")
+            self._notes.append(f"the blending {blend.lower()} of its colors is drawn as a mix")
             operation = _BLENDS["MIX"]
         result: NodeColor | None = None
         if a.is_constant and b.is_constant:
@@ -187,7 +187,7 @@ class ColorReader:
 
     def _changed(self, color: NodeColor, change: Change, node: Any) -> NodeColor:
         if color.vertex_colors is not None:
-            self._notes.append(f'node "{node.name}" has no effect on vertex colours')
+            self._notes.append(f'node "{node.name}" has no effect on vertex colors')
             return color
         return _apply(color, change)
 
@@ -229,7 +229,7 @@ class ColorReader:
         else:
             through = next((socket for socket in node.inputs if socket.type == "RGBA"), None)
             constant = gray(0.5) if through is None else NodeColor(self.color(source.input(through.identifier)).mean())
-        self._notes.append(f'node "{node.name}" is drawn as one colour')
+        self._notes.append(f'node "{node.name}" is drawn as one color')
         return constant
 
 

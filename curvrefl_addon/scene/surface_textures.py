@@ -72,7 +72,7 @@ class SurfaceTextureReader:
             return NodeColor((0.0, 0.0, 0.0))
         space = _texture_space(source, "", notes)
         if space is None or node.projection != "FLAT":
-            notes.append(f'image texture "{node.name}" is drawn as one colour, for want of a UV map')
+            notes.append(f'image texture "{node.name}" is drawn as one color, for want of a UV map')
             mean = self._images.read(node.image)[..., :3].reshape(-1, 3).mean(axis=0, dtype=np.float64)
             return NodeColor((float(mean[0]), float(mean[1]), float(mean[2])))
         if node.extension in ("CLIP", "MIRROR"):
@@ -102,7 +102,7 @@ class SurfaceTextureReader:
         if source.socket.name == "Color":
             ends = [reader.color(source.input(name)) for name in ("Color1", "Color2")]
             if not all(end.is_constant for end in ends):
-                notes.append(f'the textures within node "{node.name}" are drawn as one colour')
+                notes.append(f'the textures within node "{node.name}" are drawn as one color')
             pair = np.array([end.mean() for end in ends], np.float32)
         first, second = pair[0], pair[1]
         pixels = np.ones((2, 2, 4), np.float32)

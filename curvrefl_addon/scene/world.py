@@ -88,9 +88,7 @@ class _WorldReader:
         node = source.node
         assert node is not None
         if node.type == "TEX_SKY":
-            self._notes.append(
-                "its sky is drawn as an even colour without a sun; an image of it would be drawn in full"
-            )
+            self._notes.append("its sky is drawn as an even color without a sun; an image of it would be drawn in full")
             return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
         if node.type != "TEX_ENVIRONMENT":
             return None

@@ -98,7 +98,8 @@ class CURVREFL_PT_mirror(_SubPanel, bpy.types.Panel):
             draw_rows(layout, rows)
         else:
             layout.label(text="Not baked yet", icon="INFO")
-        layout.operator("curvrefl.bake_reflector", text="Bake to Files", icon="TEXTURE")
+        bake = layout.operator("curvrefl.bake_reflector", text="Bake to Files", icon="TEXTURE")
+        bake.resolution = context.scene.curvrefl.map_resolution
 
 
 class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):

@@ -48,7 +48,7 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
         name="Samples", description="Pictures that are averaged in new scenes", default=8, min=1, max=64
     )
     map_resolution: IntProperty(  # type: ignore[valid-type]
-        name="Map Resolution",
+        name="Map Size",
         description="Texels along an edge of a mirror's cube map in new scenes",
         default=128,
         min=16,

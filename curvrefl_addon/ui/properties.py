@@ -109,7 +109,7 @@ class CurvreflScene(bpy.types.PropertyGroup):
         update=_settings_changed,
     )
     map_resolution: IntProperty(  # type: ignore[valid-type]
-        name="Map Resolution",
+        name="Map Size",
         description="Texels along an edge of the cube map that a mirror is baked into; more for finer shapes",
         default=128,
         min=16,

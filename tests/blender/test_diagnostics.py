@@ -440,7 +440,7 @@ def test_legends_say_what_the_colors_mean() -> None:
     assert found.swatches[2] == (COLORS.failed, "Not Found")
     used = legend_of("METHOD", COLORS, PLAIN, ("environment_cube", "environment_cube"))
     assert used is not None
-    assert [label for _, label in used.swatches] == ["Environment cube map", "Background"]
+    assert [label for _, label in used.swatches] == ["Environment Cube", "Background"]
     assert legend_of("ZEBRA", COLORS, PLAIN) is None and legend_of("LINES", COLORS, PLAIN) is None
 
 

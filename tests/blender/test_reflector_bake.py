@@ -396,4 +396,4 @@ def test_error_in_pixels_is_the_distance_on_screen() -> None:
 def test_what_is_told_is_what_was_measured() -> None:
     ball = star_mesh(Ellipsoid(), 32)
     text = "\n".join(bake(moved(ball, (4.0, 0.0, 0.0)), 32).describe())
-    assert "Ball: star centre (4, " in text and "32 x 32 x 6" in text and "never: 0 %" in text
+    assert "Ball: star center (4, " in text and "32 x 32 x 6" in text and "never: 0 %" in text

@@ -1,161 +1,285 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings, presets, menus, and panels drawn into a layout that only listens."""
+"""Settings, presets, menus and panels: what they are set to, what they change, and that they draw in every state."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
 import pytest
-from curvrefl.curvrefl_addon import registration
-from curvrefl.curvrefl_addon.options import SETTINGS_VERSION, Options, current_options
-from curvrefl.curvrefl_addon.ui import menus, panel
-from curvrefl.curvrefl_addon.ui.choices import PRESETS, active_preset
-from curvrefl.curvrefl_addon.ui.messages import wrapped
-from curvrefl.curvrefl_addon.ui.properties import use_defaults
+from curvrefl.curvrefl_addon import options, registration, viewport
+from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties
+from curvrefl.operators.mirror_settings import CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror
+
+ENTRIES = {
+    "VIEW3D_MT_object_context_menu": menus.draw_object_entry,
+    "VIEW3D_MT_object": menus.draw_object_entry,
+    "VIEW3D_PT_overlay": menus.draw_overlay_entry,
+}
 
 
 @pytest.fixture(autouse=True)
-def scene() -> Iterator[None]:
+def registered() -> Iterator[None]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     registration.register()
-    for name in ("first", "second"):
-        bpy.ops.mesh.primitive_cube_add()
-        bpy.context.object.name = name
     yield
     registration.unregister()
 
 
 class Layout:
-    """Takes every call of a panel's layout; remembers texts and properties."""
+    """Takes what a draw function puts into a layout; every property must be there."""
 
-    def __init__(self, said: list[str] | None = None) -> None:
-        self.said = [] if said is None else said
+    def __init__(self, root: Layout | None = None) -> None:
+        self.root = root or self
+        self.texts: list[str] = []
+        self.shown: list[str] = []
 
-    def __getattr__(self, name: str) -> Any:
-        def call(*arguments: Any, **named: Any) -> Any:
-            if name == "prop":
-                owner, key = arguments[:2]
-                assert key in owner.bl_rna.properties, key
-                self.said.append(named.get("text", key))
-            if name == "operator":
-                assert hasattr(bpy.types, "CURVREFL_OT_" + arguments[0].removeprefix("curvrefl.")), arguments[0]
-            if name == "menu":
-                assert hasattr(bpy.types, arguments[0])
-            if named.get("text"):
-                self.said.append(named["text"])
-            return Layout(self.said)
+    def __getattr__(self, _name: str) -> Any:
+        return self._nested
 
-        return call
+    def _nested(self, *_arguments: Any, **_keywords: Any) -> Layout:
+        return Layout(self.root)
+
+    def prop(self, owner: Any, name: str, text: str | None = None, **_keywords: Any) -> None:
+        assert name in owner.bl_rna.properties, name
+        self.root.shown.append(name)
+        if text:
+            self.root.texts.append(text)
+
+    def label(self, text: str = "", icon: str = "NONE") -> None:
+        assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
+        self.root.texts.append(text)
+
+    def operator(self, name: str, text: str | None = None, **_keywords: Any) -> SimpleNamespace:
+        group, _, verb = name.partition(".")
+        assert getattr(getattr(bpy.ops, group), verb).get_rna_type().properties is not None
+        self.root.shown.append(name)
+        return SimpleNamespace()
+
+    def menu(self, name: str, text: str = "", **_keywords: Any) -> None:
+        assert hasattr(bpy.types, name), name
+        self.root.texts.append(text)
 
 
-class Context:
-    """bpy.context with a region."""
+def context(**changed: Any) -> Any:
+    region = SimpleNamespace(width=300)
+    # Without a window Blender's interface scale is 0.
+    scale = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
+    view = {name: getattr(bpy.context, name) for name in ("scene", "object", "window_manager", "view_layer")}
+    return SimpleNamespace(**(view | {"preferences": scale, "region": region} | changed))
 
-    region = type("Region", (), {"width": 280})()
 
-    def __getattr__(self, name: str) -> Any:
-        return getattr(bpy.context, name)
-
-
-def drawn(cls: type) -> list[str]:
-    """What a panel shows."""
+def draw(cls: Any, seen: Any) -> Layout | None:
+    """The panel's header, preset and body into one layout; None where it does not apply."""
+    if hasattr(cls, "poll") and not cls.poll(seen):
+        return None
     layout = Layout()
-    shown = type("Shown", (), {"layout": layout})()
-    context = Context()
-    if hasattr(cls, "poll") and not cls.poll(context):  # type: ignore[attr-defined]
-        return []
-    for name in ("draw_header", "draw_header_preset", "draw"):
-        if hasattr(cls, name):
-            getattr(cls, name)(shown, context)
-    return layout.said
+    for part in ("draw_header", "draw_header_preset", "draw"):
+        # Called as plain functions: Blender alone makes instances of panels.
+        if (function := cls.__dict__.get(part)) is not None:
+            function(SimpleNamespace(layout=layout), seen)
+    return layout
 
 
-def test_panels_draw_in_every_state() -> None:
-    def all_panels() -> str:
-        return " ".join(text for cls in panel.CLASSES for text in drawn(cls))
-
-    assert "No object is marked as a mirror" in all_panels()
-    bpy.context.object.curvrefl.is_mirror = True
-    assert "Override Material" not in all_panels() and "Switched off: tick the" in all_panels()
-    for show in ("ZEBRA", "STATUS"):
-        bpy.context.scene.curvrefl.show = show
-        assert ("stripe_count" in all_panels()) == (show == "ZEBRA")
-    bpy.context.scene.curvrefl.environment = "IMAGE"
-    assert "environment_strength" in all_panels()
-    bpy.context.scene.curvrefl.version = 1000
-    assert "saved with a newer Curvrefl" in all_panels()
-    bpy.context.view_layer.objects.active = None
-    assert "Select an object" in all_panels()
-    bpy.ops.object.camera_add()
-    assert "has no surface" in all_panels()
+def add_cubes(count: int) -> list[bpy.types.Object]:
+    for number in range(count):
+        bpy.ops.mesh.primitive_cube_add(location=(3.0 * number, 0.0, 0.0))
+    cubes = [item for item in bpy.context.scene.objects if item.type == "MESH"]
+    for cube in cubes:
+        cube.select_set(True)
+    bpy.context.view_layer.objects.active = cubes[0]
+    return cubes
 
 
-def test_menus_draw() -> None:
-    layout = Layout()
-    shown = type("Shown", (), {"layout": layout})()
-    menus.CURVREFL_MT_presets.draw(shown, Context())  # type: ignore[arg-type]
-    menus.draw_object_entry(shown, Context())  # type: ignore[arg-type]
-    menus.draw_overlay_entry(shown, Context())  # type: ignore[arg-type]
-    assert {"Fast", "Balanced", "Exact", "Curvrefl", "curvrefl_enabled"} <= set(layout.said)
+def test_defaults_are_those_of_the_balanced_preset() -> None:
+    assert choices.active_preset(bpy.context.scene.curvrefl) == "BALANCED"
+    assert options.current_options() == options.Options()
 
 
-def test_presets_set_what_they_say() -> None:
+@pytest.mark.parametrize("name", choices.PRESETS)
+def test_a_preset_sets_what_it_says(name: str) -> None:
     settings = bpy.context.scene.curvrefl
-    for name, (_, _, values) in PRESETS.items():
-        assert bpy.ops.curvrefl.apply_preset(preset=name) == {"FINISHED"}
-        assert active_preset(settings) == name
-        for key, value in values.items():
-            assert getattr(settings, key) == pytest.approx(value) if isinstance(value, float) else value
-    settings.samples = 3
-    assert active_preset(settings) == ""
+    settings.pixel_tolerance = 7.0
+    assert choices.active_preset(settings) == ""
+    assert bpy.ops.curvrefl.apply_preset(preset=name) == {"FINISHED"}
+    assert choices.active_preset(settings) == name
+    for key, value in choices.PRESETS[name][2].items():
+        assert getattr(settings, key) == pytest.approx(value)
 
 
-def test_defaults_are_a_preset() -> None:
-    assert active_preset(bpy.context.scene.curvrefl) == "BALANCED"
-    assert current_options() == Options()
+def test_changes_of_data_can_be_undone() -> None:
+    for operator in (CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror):
+        assert "UNDO" in operator.bl_options
 
 
-def test_toggle_marks_all_selected_and_takes_one_undo() -> None:
-    for obj in bpy.context.scene.objects:
-        obj.select_set(True)
+def test_toggle_makes_all_selected_what_the_active_one_was_not() -> None:
+    first, second, third = add_cubes(3)
+    second.curvrefl.is_mirror = True
+    third.select_set(False)
     assert bpy.ops.curvrefl.toggle_mirror() == {"FINISHED"}
-    assert all(obj.curvrefl.is_mirror for obj in bpy.context.scene.objects)
-    assert bpy.ops.curvrefl.toggle_mirror() == {"FINISHED"}
-    assert not any(obj.curvrefl.is_mirror for obj in bpy.context.scene.objects)
-    for obj in bpy.context.scene.objects:
-        obj.select_set(False)
-    with pytest.raises(RuntimeError, match="poll"):
-        bpy.ops.curvrefl.toggle_mirror()
-    for operator in ("toggle_mirror", "apply_preset"):
-        assert "UNDO" in getattr(bpy.types, f"CURVREFL_OT_{operator}").bl_options
-    for operator in ("save_preview", "compare_with_cycles", "trace_at_cursor", "clear_trace", "bake_reflector"):
-        assert "UNDO" not in getattr(bpy.types, f"CURVREFL_OT_{operator}").bl_options
+    assert [first.curvrefl.is_mirror, second.curvrefl.is_mirror, third.curvrefl.is_mirror] == [True, True, False]
+    bpy.ops.curvrefl.toggle_mirror()
+    assert not viewport.mirrors_of(bpy.context.scene)
 
 
-def test_preferences_reach_new_scenes_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    from curvrefl.curvrefl_addon.ui import properties
-
-    monkeypatch.setattr(properties, "current_options", lambda: Options(samples=3, pixel_tolerance=1.5))
-    chosen = bpy.context.scene.curvrefl
-    chosen.pixel_tolerance = 0.25
-    use_defaults()
-    assert (chosen.samples, chosen.pixel_tolerance, chosen.version) == (3, 0.25, SETTINGS_VERSION)
-    chosen.property_unset("samples")
-    use_defaults()
-    assert chosen.samples == 8, "a scene that has been in use is left alone"
+def test_toggle_needs_a_surface() -> None:
+    assert not bpy.ops.curvrefl.toggle_mirror.poll()
+    bpy.ops.object.light_add()
+    assert not bpy.ops.curvrefl.toggle_mirror.poll()
+    add_cubes(1)
+    assert bpy.ops.curvrefl.toggle_mirror.poll()
 
 
-def test_every_setting_has_a_tooltip() -> None:
-    for group in (bpy.types.Object, bpy.types.Scene):
-        for name, item in group.bl_rna.properties["curvrefl"].fixed_type.properties.items():
-            if name not in ("rna_type", "name", "version"):
-                assert item.description and not item.description.endswith("."), name
+def test_only_settings_that_nobody_touched_follow_the_preferences(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(properties, "current_options", lambda: options.Options(samples=3, map_resolution=64))
+    scene = bpy.context.scene
+    scene.curvrefl.samples = 20
+    properties.use_defaults()
+    assert (scene.curvrefl.samples, scene.curvrefl.map_resolution) == (20, 64)
+    assert scene.curvrefl.version == options.SETTINGS_VERSION
+    # Once used, a scene keeps what it has.
+    scene.curvrefl.property_unset("map_resolution")
+    properties.use_defaults()
+    assert scene.curvrefl.map_resolution == 128
 
 
-def test_long_messages_wrap_at_words() -> None:
-    text = "one two three four five"
-    assert wrapped(text, 9) == ["one two", "three", "four five"]
-    assert wrapped("unbreakable", 4) == ["unbreakable"]
+def test_settings_of_a_newer_extension_are_told_of() -> None:
+    scene = bpy.context.scene
+    assert not options.newer_settings(scene)
+    scene.curvrefl.version = options.SETTINGS_VERSION + 1
+    sentence = options.newer_settings(scene)
+    assert sentence
+    assert sentence in " ".join(draw(panel.CURVREFL_PT_main, context()).texts)
+
+
+def _no_scene() -> Any:
+    return context(scene=None, object=None)
+
+
+def _nothing() -> Any:
+    return context()
+
+
+def _light() -> Any:
+    bpy.ops.object.light_add()
+    return context()
+
+
+def _plain_mesh() -> Any:
+    add_cubes(1)
+    return context()
+
+
+def _mirror(**settings: Any) -> Any:
+    (cube,) = add_cubes(1)
+    cube.curvrefl.is_mirror = True
+    for name, value in settings.items():
+        setattr(cube.curvrefl, name, value)
+    return context()
+
+
+def _glass() -> Any:
+    return _mirror(override=True, fresnel="DIELECTRIC")
+
+
+def _many_hidden() -> Any:
+    for cube in add_cubes(panel.MOST_LISTED + 3):
+        cube.curvrefl.is_mirror = True
+        cube.hide_set(True)
+    return context()
+
+
+def _stripes() -> Any:
+    bpy.context.scene.curvrefl.show = "ZEBRA"
+    bpy.context.scene.curvrefl.environment = "IMAGE"
+    return _mirror()
+
+
+STATES = (_no_scene, _nothing, _light, _plain_mesh, _mirror, _glass, _many_hidden, _stripes)
+
+
+@pytest.mark.parametrize("state", STATES, ids=lambda state: state.__name__)
+def test_every_panel_and_menu_draws(state: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = state()
+    for found in ([], ["Two sentences. They are long enough to need more than one line of the panel."]):
+        monkeypatch.setattr(viewport, "messages", lambda found=found: found)
+        for cls in panel.CLASSES:
+            draw(cls, seen)
+        for entry in set(ENTRIES.values()):
+            entry(SimpleNamespace(layout=Layout()), seen)
+    if seen.scene is not None:
+        menu = Layout()
+        menus.CURVREFL_MT_presets.draw(SimpleNamespace(layout=menu), seen)
+        assert menu.shown == ["curvrefl.apply_preset"] * len(choices.PRESETS)
+    preferences.CurvreflPreferences.draw(
+        SimpleNamespace(layout=Layout(), bl_rna=preferences.CurvreflPreferences.bl_rna), seen
+    )
+
+
+def test_the_mirror_panel_is_for_mirrors_alone() -> None:
+    assert draw(panel.CURVREFL_PT_mirror, _nothing()) is None
+    assert draw(panel.CURVREFL_PT_mirror, _plain_mesh()) is None
+    bpy.context.object.curvrefl.is_mirror = True
+    metal = draw(panel.CURVREFL_PT_mirror, context())
+    assert {"override", "fresnel", "tint", "curvrefl.bake_reflector"} <= set(metal.shown) and "ior" not in metal.shown
+    bpy.context.object.curvrefl.fresnel = "DIELECTRIC"
+    glass = draw(panel.CURVREFL_PT_mirror, context())
+    assert "ior" in glass.shown and "tint" not in glass.shown
+
+
+def test_a_long_list_of_mirrors_says_how_many_more() -> None:
+    assert "and 3 more" in draw(panel.CURVREFL_PT_main, _many_hidden()).texts
+
+
+def test_sub_panels_are_closed_by_default() -> None:
+    for cls in panel.CLASSES[1:]:
+        assert cls.bl_parent_id == "CURVREFL_PT_main" and "DEFAULT_CLOSED" in cls.bl_options
+
+
+def test_a_message_is_wrapped_and_loses_no_word() -> None:
+    sentence = "The mirror is open: close it, or choose another object that is seen whole from a point inside."
+    lines = messages.wrapped(sentence, 30)
+    assert " ".join(lines) == sentence
+    assert all(len(line) <= 30 for line in lines) and len(lines) > 2
+    assert messages.wrapped("short incomprehensibilities", 10) == ["short", "incomprehensibilities"]
+
+
+def _groups() -> list[Any]:
+    operators = [cls for name in registration.OPERATORS for cls in registration._module(f"operators.{name}").CLASSES]
+    return [
+        properties.CurvreflObject.bl_rna,
+        properties.CurvreflScene.bl_rna,
+        preferences.CurvreflPreferences.bl_rna,
+        *(getattr(bpy.ops.curvrefl, cls.bl_idname.partition(".")[2]).get_rna_type() for cls in operators),
+    ]
+
+
+def test_everything_has_a_tooltip_without_a_period() -> None:
+    bad = []
+    for group in _groups():
+        for item in group.properties:
+            if item.identifier in {"rna_type", "name", "bl_idname"} or item.is_hidden:
+                continue
+            tips = {item.identifier: item.description}
+            if item.type == "ENUM":
+                tips |= {f"{item.identifier}.{choice.identifier}": choice.description for choice in item.enum_items}
+            bad += [
+                (group.identifier, name, tip)
+                for name, tip in tips.items()
+                if not tip or tip.endswith(".") or tip[0] != tip[0].upper()
+            ]
+    assert not bad, bad
+
+
+def test_the_menus_are_as_before_once_unregistered() -> None:
+    for name, entry in ENTRIES.items():
+        assert entry in getattr(bpy.types, name).draw._draw_funcs
+    menus.remove()
+    try:
+        for name, entry in ENTRIES.items():
+            assert entry not in getattr(bpy.types, name).draw._draw_funcs
+    finally:
+        menus.add()

@@ -108,7 +108,7 @@ def test_compare_names_the_tool_that_python_lacks(
 def test_bake_says_how_well_the_map_fits(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     output = tmp_path / "out"
     out = done(["bake", str(saved(tmp_path)), *BALL, "--resolution", "32", "--output", str(output)], capfd)
-    assert out.startswith("Mirror Ball: star centre (0, 0, 0)")
+    assert out.startswith("Mirror Ball: star center (0, 0, 0)")
     assert "error in pixels at 32x24" in out
     baked = load(output)
     assert baked.radial.shape == (6, 32, 32, 4)

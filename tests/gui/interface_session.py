@@ -84,6 +84,7 @@ def script() -> Script:
     space.region_3d.view_perspective = "CAMERA"
     kettle = bpy.data.objects["Kettle"]
     bpy.context.view_layer.objects.active = kettle
+    kettle.select_set(True)
     kettle.curvrefl.is_mirror = True
     bpy.context.window_manager.curvrefl_enabled = True
     space.show_region_ui = True
