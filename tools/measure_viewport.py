@@ -4,22 +4,22 @@
 
     python tools/measure_viewport.py [--repeats 20]
 
-The parts of `viewport.py` run without a window: reader, renderer, one sub-frame. "Python" is the time that the profiler
-counts outside of calls into Blender's gpu module, which on a software renderer do the drawing itself, less what the
-profiler itself costs per call.
+The parts of `viewport.py` run without a window: reader, renderer, one sub-frame. *Wall* is a whole redraw. *Python* is
+the same redraw with draws, dispatches and clearing left out: on a software renderer these do the GPU's work themselves
+and leave the caches cold for what comes after.
 """
 
 from __future__ import annotations
 
 import argparse
-import cProfile
-import pstats
 import sys
-from functools import cache
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 from typing import Any
+from unittest.mock import patch
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -47,7 +47,16 @@ class Session:
         self.renderer: Renderer | None = None
         texture = gpu.types.GPUTexture((WIDTH // 2, HEIGHT // 2), format="RGBA32F")
         self.canvas = gpu.types.GPUFrameBuffer(color_slots=(texture,))
-        bpy.app.handlers.depsgraph_update_post.append(lambda _, depsgraph: self.changes.add(depsgraph.updates))
+        bpy.app.handlers.depsgraph_update_post.append(self._note)
+
+    def _note(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        self.changes.add(depsgraph.updates)
+
+    def end(self) -> None:
+        """Let go of all."""
+        bpy.app.handlers.depsgraph_update_post.remove(self._note)
+        if self.renderer is not None:
+            self.renderer.free()
 
     def redraw(self, angle: float, settings: Settings) -> None:
         """One picture at half the resolution, as while something moves."""
@@ -123,67 +132,60 @@ def build(count: int, vertices: int) -> None:
     bpy.context.view_layer.update()
 
 
-def python_ms(profile: cProfile.Profile) -> float:
-    """Time in Python and numpy: all but calls of Blender's gpu module."""
-    total, calls = 0.0, 0
-    for (_, _, name), (_, count, own, _, _) in pstats.Stats(profile).stats.items():  # type: ignore[attr-defined]
-        calls += count
-        if not any(word in name for word in GPU_CALLS):
-            total += own
-    return 1e3 * max(total - calls * profiler_seconds(), 0.0)
+class NoBatch:
+    """In place of a GPUBatch."""
+
+    def draw(self, _shader: Any) -> None:
+        """Nothing."""
 
 
-@cache
-def profiler_seconds() -> float:
-    """What the profiler adds to one call."""
+class NoFrameBuffer:
+    """In place of a GPUFrameBuffer: a software renderer clears with the processor."""
 
-    def work() -> None:
-        for _ in range(100_000):
-            abs(1)
+    def __init__(self, **_slots: Any) -> None:
+        pass
 
-    def seconds(profile: cProfile.Profile | None) -> float:
-        start = perf_counter()
-        if profile is None:
-            work()
-        else:
-            profile.runcall(work)
-        return perf_counter() - start
+    def bind(self) -> AbstractContextManager[None]:
+        return nullcontext()
 
-    plain = min(seconds(None) for _ in range(5))
-    return (min(seconds(cProfile.Profile()) for _ in range(5)) - plain) / 100_000
+    def clear(self, **_values: Any) -> None:
+        """Nothing."""
 
 
-GPU_CALLS = (
-    "gpu",
-    "GPU",
-    "dispatch",
-    "method 'draw'",
-    "method 'bind'",
-    "method 'clear'",
-    "method 'uniform_",
-    "method 'image'",
-    "method 'read",
-    "method '__enter__' of 'GPU",
-    "method '__exit__' of 'GPU",
-    "create_from_info",
-)
+@contextmanager
+def without_gpu_work() -> Iterator[None]:
+    """Chunks made here are not drawn, nothing is dispatched."""
+    from curvrefl.curvrefl_addon.renderer import chunk, shade
+
+    with (
+        patch.object(chunk, "indexed_batch", lambda _: NoBatch()),
+        patch.object(shade, "full_screen_triangle", NoBatch),
+        patch.object(gpu.compute, "dispatch", lambda *_: None),
+    ):
+        yield
 
 
-def measured(session: Session, repeats: int, act: Any, settings: Settings) -> tuple[float, float]:
-    """Medians of (wall, Python) in ms of a redraw after `act(i)`, which returns the angle of view."""
-    walls, pythons = [], []
+def measured(session: Session, repeats: int, act: Callable[[int], float], settings: Settings) -> float:
+    """Median ms of a redraw after `act(i)`, which returns the angle of view."""
+    times = []
     for index in range(repeats):
         angle = act(index)
         start = perf_counter()
         session.redraw(angle, settings)
-        walls.append(1e3 * (perf_counter() - start))
-        angle = act(index + repeats)
-        profile = cProfile.Profile()
-        profile.enable()
-        session.redraw(angle, settings)
-        profile.disable()
-        pythons.append(python_ms(profile))
-    return median(walls), median(pythons)
+        times.append(1e3 * (perf_counter() - start))
+    return median(times)
+
+
+def turn(index: int) -> float:
+    """Orbit."""
+    return 0.01 * (index + 1)
+
+
+def move(_index: int) -> float:
+    """One object, in an eye that stands."""
+    bpy.data.objects["item 0"].location.x += 0.001
+    bpy.context.view_layer.update()
+    return 0.0
 
 
 def main() -> None:
@@ -192,35 +194,31 @@ def main() -> None:
     repeats = parser.parse_args().repeats
     gpu.init()
     settings = Settings(samples=8)
-    print(f"{'scene':28} {'act':22} {'wall ms':>9} {'Python ms':>10}  read")
-    for name, count, vertices in (
-        ("5k triangles", 10, 180),
-        ("2000 instances", 2000, 64),
-        ("1M vertices", 1, 1_000_000),
-    ):
+    print(f"{'scene':20} {'act':20} {'wall ms':>9} {'Python ms':>10}  read per redraw")
+    for name, count, vertices in SCENES:
         build(count, vertices)
         session = Session()
         start = perf_counter()
         session.redraw(0.0, settings)
-        first = 1e3 * (perf_counter() - start)
-        print(f"{name:28} {'first picture':22} {first:9.0f}")
-
-        def turn(index: int) -> float:
-            return 0.01 * (index + 1)
-
-        def move(index: int) -> float:
-            bpy.data.objects["item 0"].location.x += 0.001
-            bpy.context.view_layer.update()
-            return 0.0
-
-        for label, act in (("orbit", turn), ("move one object", move)):
+        print(f"{name:20} {'first picture':20} {1e3 * (perf_counter() - start):9.0f}")
+        walls = [measured(session, repeats, act, settings) for act in (turn, move)]
+        session.end()
+        with without_gpu_work():
+            session = Session()
             session.redraw(0.0, settings)
-            before = session.reader.reads
-            wall, python = measured(session, repeats if count < 3000 else 5, act, settings)
-            read = {key: (value - before[key]) for key, value in session.reader.reads.items() if value != before[key]}
-            print(f"{name:28} {label:22} {wall:9.1f} {python:10.2f}  {read or 'nothing'}")
-        bpy.app.handlers.depsgraph_update_post.clear()
+            for label, act, wall in zip(("orbit", "move one object"), (turn, move), walls, strict=True):
+                session.redraw(0.0, settings)
+                before = session.reader.reads
+                with patch.object(gpu.types, "GPUFrameBuffer", NoFrameBuffer):
+                    python = measured(session, repeats, act, settings)
+                read = {key: (value - before[key]) / repeats for key, value in session.reader.reads.items()}
+                read = {key: value for key, value in read.items() if value}
+                print(f"{name:20} {label:20} {wall:9.1f} {python:10.2f}  {read or 'nothing'}")
+        session.end()
 
+
+SCENES = (("5k triangles", 10, 180), ("2000 instances", 2000, 64), ("1M vertices", 1, 1_000_000))
+"""Name, instances around the mirror, vertices of each"""
 
 if __name__ == "__main__":
     main()

@@ -128,6 +128,8 @@ class Lighting:
         farthest = far_term / (1.0 - near_term)
         if (np.linalg.norm(centers - place, axis=1) + radii).max() > farthest:
             return False
+        if min(layers) >= 0:
+            return True
         met = meets_faces(place, centers, radii)
         return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))
 

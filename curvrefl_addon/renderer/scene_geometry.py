@@ -232,7 +232,16 @@ class SceneGeometry:
             self.counters["instances placed"] += 1
         for chunk, items in changed.values():
             chunk.move(items)
-            self._boxes.pop(id(chunk), None)
+            self._grow_box(chunk, list(items.values()))
+
+    def _grow_box(self, chunk: Chunk, moved: Sequence[Placed]) -> None:
+        """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
+        box = self._boxes.get(id(chunk))
+        if box is not None:
+            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
+            low = np.minimum(box[:, :3].min(axis=0), corners.min(axis=0))
+            high = np.maximum(box[:, :3].max(axis=0), corners.max(axis=0))
+            self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
