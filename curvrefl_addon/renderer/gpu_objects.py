@@ -80,8 +80,9 @@ def record_texture(records: np.ndarray) -> Any:
     """RGBA32F texture, TEXTURE_WIDTH wide, of (n, 4) records; record i is at (i % width, i / width)."""
     count = max(len(records), 1)
     rows = -(-count // TEXTURE_WIDTH)
-    padded = np.zeros((rows * TEXTURE_WIDTH, 4), np.float32)
+    padded = np.empty((rows * TEXTURE_WIDTH, 4), np.float32)
     padded[: len(records)] = records
+    padded[len(records) :] = 0.0
     return texture_2d(padded.reshape(rows, TEXTURE_WIDTH, 4))
 
 

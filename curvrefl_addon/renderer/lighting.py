@@ -34,7 +34,7 @@ SAMPLER_COUNT = 5
 MANY_TRIANGLES = 300_000
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
 """Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
-WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 32
+WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 16
 """World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
 DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""

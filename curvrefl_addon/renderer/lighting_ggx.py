@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of the GGX microfacet lobe, integrated at first use.
+"""Tables of the GGX microfacet lobe.
 
 The lobe is Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), with the height-correlated
 Smith term; its albedo is the mean of G2 / G1 over visible normals (Heitz, "Sampling the GGX Distribution of Visible
@@ -10,6 +10,7 @@ Normals", JCGT 2018).
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -21,8 +22,17 @@ IOR_SLICES = 16
 """Steps of sqrt((ior - 1) / (ior + 1)), 0..1; as GGX_IOR_SLICES in ggx.glsl"""
 
 
+TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
+"""`integrate_ggx()` in half precision, by tools/make_ggx_table.py: integrating would take seconds of every start"""
+
+
 @cache
-def ggx_table(strata: int = 24) -> Float32Array:
+def ggx_table() -> Float32Array:
+    """The table of `integrate_ggx`, as stored."""
+    return np.load(TABLE_FILE).astype(np.float32)
+
+
+def integrate_ggx(strata: int = 96) -> Float32Array:
     """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): rows roughness, columns the viewer's cosine, once per slice.
 
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
