@@ -69,9 +69,7 @@ class RegionPicture:
         diagnostic = diagnostic_of(settings, options)
         state = (self.renderer.revision, diagnostic)
         divisor = 0
-        if self._view is None:
-            divisor = 1
-        elif state != self._state or not _is_same(self._view, view):
+        if self._view is None or state != self._state or not _is_same(self._view, view):
             self._changed_at = now
             divisor = DIVISORS.get(settings.motion_resolution, DIVISORS["HALF"])
         elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:

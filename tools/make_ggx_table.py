@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Integrates the GGX table anew and writes it where the renderer loads it.
 
-    python tools/make_ggx_table.py
+python tools/make_ggx_table.py
 """
 
 from __future__ import annotations

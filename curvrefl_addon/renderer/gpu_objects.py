@@ -78,12 +78,18 @@ def texture_2d(array: np.ndarray, fmt: str = "RGBA32F", linear: bool = False, re
 
 def record_texture(records: np.ndarray) -> Any:
     """RGBA32F texture, TEXTURE_WIDTH wide, of (n, 4) records; record i is at (i % width, i / width)."""
-    count = max(len(records), 1)
-    rows = -(-count // TEXTURE_WIDTH)
-    padded = np.empty((rows * TEXTURE_WIDTH, 4), np.float32)
-    padded[: len(records)] = records
-    padded[len(records) :] = 0.0
-    return texture_2d(padded.reshape(rows, TEXTURE_WIDTH, 4))
+    count = padded_count(len(records))
+    if count != len(records):
+        padded = np.empty((count, 4), np.float32)
+        padded[: len(records)] = records
+        padded[len(records) :] = 0.0
+        records = padded
+    return texture_2d(records.reshape(-1, TEXTURE_WIDTH, 4))
+
+
+def padded_count(count: int) -> int:
+    """Records in the whole rows that hold so many, at least one row."""
+    return max(-(-count // TEXTURE_WIDTH), 1) * TEXTURE_WIDTH
 
 
 def empty_record_texture(count: int) -> Any:

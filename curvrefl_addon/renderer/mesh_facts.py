@@ -9,7 +9,7 @@ from functools import cached_property
 
 from ..scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
-from .mesh_pieces import MeshPieces, mesh_pieces
+from .mesh_pieces import MeshPieces, box_of, mesh_pieces
 from .split import longest_edge
 
 
@@ -22,7 +22,7 @@ class MeshFacts:
     @cached_property
     def box(self) -> tuple[Float32Array, Float32Array]:
         """Lowest and highest corner (3,) of the box around the mesh."""
-        return self.mesh.positions.min(axis=0), self.mesh.positions.max(axis=0)
+        return box_of(self.mesh.positions)
 
     @cached_property
     def longest_edge(self) -> float:

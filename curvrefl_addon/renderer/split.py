@@ -9,6 +9,7 @@ opens, and not on the eye, so that an orbit splits nothing anew.
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -34,13 +35,18 @@ def split_angle(radius_pixels: float, tolerance_pixels: float) -> float:
 
 def longest_edge(mesh: MeshArrays) -> float:
     """Length of the mesh's longest edge, object space."""
-    longest = 0.0
-    for start in range(0, len(mesh.triangles), _BLOCK):
+    starts = range(0, len(mesh.triangles), _BLOCK)
+
+    def longest_in(start: int) -> float:
         places = mesh.positions[mesh.corner_vertex[mesh.triangles[start : start + _BLOCK]]]
-        for k in range(3):
-            edges = places[:, k] - places[:, k - 1]
-            longest = max(longest, float(np.einsum("ij,ij->i", edges, edges).max()))
-    return float(np.sqrt(longest))
+        edges = places[:, [1, 2, 0]] - places
+        return float(np.einsum("ijk,ijk->ij", edges, edges).max())
+
+    if len(starts) < 8:
+        return float(np.sqrt(max(map(longest_in, starts), default=0.0)))
+    # numpy lets go of the interpreter for such arrays.
+    with ThreadPoolExecutor(4) as workers:
+        return float(np.sqrt(max(workers.map(longest_in, starts))))
 
 
 _BLOCK = 1 << 15
