@@ -105,3 +105,42 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session) -> None
     assert inner.sum() > 10_000
     assert np.median(difference) < 3 / 255
     assert np.percentile(difference, 90) < 16 / 255
+
+
+@pytest.mark.usefixtures("gpu")
+def test_window_agrees_with_cycles(session: Session) -> None:
+    """The same view by a camera of its own, at half the size, direct light; on the mirror."""
+    if not (session.folder / "enabled.png").is_file():
+        pytest.skip("no ImageMagick to take a picture of the window")
+    import bpy
+    from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
+    from curvrefl.curvrefl_addon.report.display import display_transform
+    from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
+    from curvrefl.curvrefl_addon.scene.blend_file import open_blend
+    from mathutils import Matrix
+
+    x, y, width, height = session.seen["view"]["region"]
+    width, height = width // 2 * 2, height // 2 * 2
+    image = bpy.data.images.load(str(session.folder / "enabled.png"))
+    pixels = np.array(image.pixels, np.float32).reshape(image.size[1], image.size[0], 4)
+    window = pixels[y : y + height, x : x + width, :3]
+    window = window.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3))
+
+    open_blend(session.folder / "demo.blend")
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    camera = bpy.data.objects.new("Window", bpy.data.cameras.new("Window"))
+    scene.collection.objects.link(camera)
+    camera.matrix_world = Matrix(session.seen["view"]["view_matrix"]).inverted()
+    camera.data.sensor_fit = "VERTICAL"
+    camera.data.angle_y = 2.0 * np.arctan(1.0 / session.seen["view"]["window_matrix"][1][1])
+    scene.camera = camera
+    layer.update()
+    reference = render_reference(scene, layer, width // 2, height // 2, 32)
+    ids = {obj.name: number for number, obj in enumerate(scene.objects, 1)}
+    inner = render_geometry(scene, layer, width // 2, height // 2, ids, (ids["Kettle"],)).mask > 0
+    for _ in range(2):
+        inner[1:-1, 1:-1] &= inner[:-2, 1:-1] & inner[2:, 1:-1] & inner[1:-1, :-2] & inner[1:-1, 2:]
+    difference = np.abs(window - display_transform(reference.pixels[..., :3]))[inner]
+    assert inner.sum() > 3_000
+    assert np.median(difference) < 10 / 255
+    assert np.percentile(difference, 90) < 40 / 255
