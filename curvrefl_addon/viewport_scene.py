@@ -114,6 +114,7 @@ class ViewportScene:
         self._shown.clear()
         self._arrays = arrays
         if arrays is None:
+            self.free()
             return
         needed = estimated_bytes(arrays)
         if needed > memory_cap:

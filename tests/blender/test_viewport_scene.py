@@ -94,6 +94,7 @@ def test_mirrors_come_and_go(session: Session) -> None:
     mark(session, "Second", False)
     assert session.draw() is None
     assert session.scene.messages == []
+    assert not session.scene.renderers, "without a mirror nothing is kept"
 
 
 def test_what_moves_a_mirror_moves_its_map(session: Session) -> None:
