@@ -1,18 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the user has chosen in the preferences, and how a scene's settings are to be taken."""
+"""What the user has chosen in the preferences, and what the settings of scenes and objects mean.
+
+Light to import: the extension is enabled without its renderer.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from .diagnostic_colors import DiagnosticColors
+from .scene.arrays import MaterialArrays
+from .scene.blend_file import SURFACE_TYPES
+
+if TYPE_CHECKING:
+    from .renderer.frame import Settings
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
+QUALITY = ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution")
+"""Settings of `Scene.curvrefl` whose first values are preferences"""
 PACKAGE = __package__.removesuffix(".curvrefl_addon")
 """The extension as Blender knows it, for instance bl_ext.user_default.curvrefl"""
 _DEFAULTS = DiagnosticColors()
@@ -43,11 +54,7 @@ def current_options() -> Options:
         # Of other ends the five stops of the default are not the way from one to the other.
         ramp = (_triple(chosen.color_low), _triple(chosen.color_high))
     return Options(
-        method=chosen.method,
-        pixel_tolerance=chosen.pixel_tolerance,
-        samples=chosen.samples,
-        map_resolution=chosen.map_resolution,
-        motion_resolution=chosen.motion_resolution,
+        **{name: getattr(chosen, name) for name in QUALITY},
         memory_cap=chosen.memory_cap,
         colors=DiagnosticColors(
             converged=_triple(chosen.color_converged),
@@ -73,3 +80,38 @@ def newer_settings(scene: bpy.types.Scene) -> str:
     if scene.curvrefl.version <= SETTINGS_VERSION:
         return ""
     return "The file was saved with a newer Curvrefl: settings that this one does not know are left out. Update it."
+
+
+def settings_of(chosen: Any, samples: int | None = None) -> Settings:
+    """How to render by `Scene.curvrefl`; `samples` in place of its own."""
+    from .renderer.frame import Settings
+
+    return Settings(
+        # (what a newer extension has saved reads as nothing here)
+        method=chosen.method or Settings().method,
+        samples=chosen.samples if samples is None else samples,
+        pixel_tolerance=chosen.pixel_tolerance,
+        map_resolution=chosen.map_resolution,
+    )
+
+
+def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Objects of the scene that are marked as mirrors."""
+    return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
+
+
+def overrides_of(mirrors: Iterable[bpy.types.Object]) -> dict[int, MaterialArrays]:
+    """By session_uid, the materials that mirrors' settings put in place of their own."""
+    return {mirror.session_uid: material for mirror in mirrors if (material := _override_of(mirror)) is not None}
+
+
+def _override_of(mirror: bpy.types.Object) -> MaterialArrays | None:
+    settings = mirror.curvrefl
+    if not settings.override:
+        return None
+    red, green, blue = settings.tint
+    if settings.fresnel == "DIELECTRIC":
+        return MaterialArrays("override", (0.0, 0.0, 0.0), roughness=0.0, ior=settings.ior)
+    return MaterialArrays(
+        "override", (red, green, blue), metallic=1.0, roughness=0.0, glossy_only=settings.fresnel == "CONSTANT"
+    )

@@ -15,6 +15,7 @@ from mathutils import Vector
 
 from .errors import InputError
 from .optics.ray import ReflectedRay, reflect_ray
+from .options import marked_mirrors
 from .scene.arrays import Float64Array
 
 SELF_HIT = 1e-4
@@ -77,8 +78,7 @@ def trace(
     )
     if not hit:
         raise InputError("Nothing is there: click on a mirror.")
-    marked = any(obj.curvrefl.is_mirror for obj in scene.objects)
-    if marked and not placed.original.curvrefl.is_mirror:
+    if marked_mirrors(scene) and not placed.original.curvrefl.is_mirror:
         raise InputError(f'"{placed.name}" is not a mirror: click on one, or mark it in the sidebar.')
     evaluated = placed.evaluated_get(depsgraph)
     normal = _shading_normal(evaluated, face, np.array(matrix.inverted() @ point, np.float64))

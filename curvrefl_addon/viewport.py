@@ -24,11 +24,10 @@ import gpu
 from bpy.app.handlers import persistent
 
 from .diagnostic_colors import MODES, legend_of
-from .options import current_options
+from .options import current_options, settings_of
 from .renderer.diagnostic_legend import draw_legend
-from .renderer.frame import Settings
 from .viewport_region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
-from .viewport_scene import ViewportScene, look_of, marked_mirrors
+from .viewport_scene import ViewportScene, look_of
 
 IDLE_SECONDS = 0.02
 """Between the sub-frames of a view that rests"""
@@ -65,11 +64,6 @@ def switch(on: bool) -> None:
         _state.failure = ""
         _add_handlers()
     redraw_all()
-
-
-def mirrors_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Objects of the scene that are marked as mirrors."""
-    return marked_mirrors(scene)
 
 
 def messages() -> list[str]:
@@ -124,9 +118,9 @@ def mirrors_changed() -> None:
     redraw_all()
 
 
-def forget_scene(scene: bpy.types.Scene | None = None) -> None:
-    """Read the scene (or all) as if it had never been seen."""
-    for key in [key for key in _state.scenes if scene is None or key[0] == scene.session_uid]:
+def forget_scenes() -> None:
+    """Read all scenes as if they had never been seen."""
+    for key in list(_state.scenes):
         _free(key)
     redraw_all()
 
@@ -220,7 +214,7 @@ def _loaded(*_arguments: Any) -> None:
     """Another file: nothing of the last one is left."""
     if any(manager.curvrefl_enabled for manager in bpy.data.window_managers):
         _state.pictures.clear()
-        forget_scene()
+        forget_scenes()
     else:
         _stop()
 
@@ -279,15 +273,8 @@ def _draw(context: bpy.types.Context) -> None:
     if shown is None:
         shown = _state.scenes[key] = ViewportScene()
     chosen = scene.curvrefl
-    settings = Settings(
-        # (what a newer extension has saved reads as nothing here)
-        method=chosen.method or Settings().method,
-        samples=chosen.samples,
-        pixel_tolerance=chosen.pixel_tolerance,
-        map_resolution=chosen.map_resolution,
-    )
     options = current_options()
-    renderer = shown.renderer(context, look_of(space, chosen), settings, options.memory_cap << 20)
+    renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), options.memory_cap << 20)
     picture = _state.pictures.pop(region, None)
     if renderer is None:
         return

@@ -11,11 +11,10 @@ from typing import Any
 import bpy
 
 from .errors import InputError
-from .options import newer_settings
+from .options import marked_mirrors, newer_settings, overrides_of
 from .renderer.frame import Renderer, Settings
 from .renderer.scene_geometry import estimated_bytes
-from .scene.arrays import MaterialArrays, SceneArrays
-from .scene.blend_file import SURFACE_TYPES
+from .scene.arrays import SceneArrays
 from .scene.changes import Changes
 from .scene.extract import SceneReader
 from .viewport_environment import Environment, EnvironmentLights, environment_of
@@ -129,11 +128,12 @@ class ViewportScene:
     ) -> SceneArrays | None:
         """The scene with those of the mirrors that can be ones. Changes stay until there is something to show."""
         while usable := [mirror for mirror in seen if mirror.session_uid not in self._refused]:
-            overrides = {mirror.session_uid: material for mirror in usable if (material := override_of(mirror))}
             self._lights.forget_images(self.changes.images)
             changes, self.changes = self.changes, Changes()
             try:
-                return self._reader.read(context.evaluated_depsgraph_get(), scene, usable, changes, overrides)
+                return self._reader.read(
+                    context.evaluated_depsgraph_get(), scene, usable, changes, overrides_of(usable)
+                )
             except InputError as error:
                 uid = self._culprit(str(error))
                 if uid is None:
@@ -186,24 +186,6 @@ class ViewportScene:
 
 def _made(renderer: Renderer) -> dict[str, int]:
     return {**renderer.counters, **renderer.geometry.counters}
-
-
-def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Objects of the scene that are marked as mirrors."""
-    return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
-
-
-def override_of(mirror: bpy.types.Object) -> MaterialArrays | None:
-    """The material that a mirror's settings put in place of its own."""
-    settings = mirror.curvrefl
-    if not settings.override:
-        return None
-    red, green, blue = settings.tint
-    if settings.fresnel == "DIELECTRIC":
-        return MaterialArrays("override", (0.0, 0.0, 0.0), roughness=0.0, ior=settings.ior)
-    return MaterialArrays(
-        "override", (red, green, blue), metallic=1.0, roughness=0.0, glossy_only=settings.fresnel == "CONSTANT"
-    )
 
 
 def look_of(space: bpy.types.SpaceView3D, settings: Any) -> Look:

@@ -6,11 +6,6 @@
 
 #define INSTANCE_RECORDS 8
 
-ivec2 texel_of(int index)
-{
-  return ivec2(index % 2048, index / 2048);
-}
-
 void place_vertex(int index)
 {
   vec4 source = fetch_record(source_positions, index);
@@ -19,7 +14,7 @@ void place_vertex(int index)
   vec3 world = vec3(dot(fetch_record(instances, instance), point),
                     dot(fetch_record(instances, instance + 1), point),
                     dot(fetch_record(instances, instance + 2), point));
-  imageStore(positions, texel_of(index), vec4(world, fetch_record(instances, instance + 6).x));
+  imageStore(positions, texel_of_record(index), vec4(world, fetch_record(instances, instance + 6).x));
 }
 
 void place_corner(int index)
@@ -32,8 +27,8 @@ void place_corner(int index)
                      dot(fetch_record(instances, instance + 5).xyz, first.xyz));
   // As long as it was: normals between two others of a split mesh are shorter and must stay so (renderer/split.py).
   normal *= length(first.xyz) / max(length(normal), 1e-30);
-  imageStore(corners, texel_of(2 * index), vec4(normal, first.w));
-  imageStore(corners, texel_of(2 * index + 1), vec4(second.xyz, fetch_record(instances, instance + 6).y));
+  imageStore(corners, texel_of_record(2 * index), vec4(normal, first.w));
+  imageStore(corners, texel_of_record(2 * index + 1), vec4(second.xyz, fetch_record(instances, instance + 6).y));
 }
 
 void main()

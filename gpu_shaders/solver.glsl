@@ -22,7 +22,7 @@ vec3 vertex_in_map(int index)
 // virtual_positions: where the vertex seems to be, and |PV|.
 void store(int index, int status, int iterations, vec3 point, vec3 virtual_position, float length_to_vertex)
 {
-  ivec2 texel = ivec2(index % 2048, index / 2048);
+  ivec2 texel = texel_of_record(index);
   vec3 world_point = (solver.map_to_world * vec4(point, 1.0)).xyz;
   vec3 world_virtual = (solver.map_to_world * vec4(virtual_position, 1.0)).xyz;
   imageStore(reflection_points, texel, vec4(world_point, float(status + 4 * iterations)));

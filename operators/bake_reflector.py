@@ -5,13 +5,13 @@
 
 # No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
 
-from pathlib import Path
 from typing import Literal
 
 import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
+from .paths import output_path
 
 
 class CURVREFL_OT_bake_reflector(bpy.types.Operator):
@@ -53,7 +53,7 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
         scene = context.scene
         assert scene is not None
         try:
-            folder = checked_folder(self._folder())
+            folder = checked_folder(output_path(self.folder, "a folder for the maps"))
             chosen = find_reflectors(scene, [self._reflector_name(context)])
             arrays = extract_scene(context.evaluated_depsgraph_get(), scene, chosen)
             baked = bake_reflector(arrays, arrays.reflectors[0], self.resolution)
@@ -75,13 +75,6 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
         if context.active_object is None:
             raise InputError("No reflector: make a mesh object active or name one.")
         return context.active_object.name
-
-    def _folder(self) -> Path:
-        if not self.folder:
-            raise InputError("Choose a folder for the maps.")
-        if self.folder.startswith("//") and not bpy.data.filepath:
-            raise InputError("Save the file first, or choose a folder for the maps that does not depend on it.")
-        return Path(bpy.path.abspath(self.folder))
 
 
 CLASSES = (CURVREFL_OT_bake_reflector,)

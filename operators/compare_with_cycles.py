@@ -13,6 +13,8 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.optics.catalogue import METHODS
+from ..curvrefl_addon.options import marked_mirrors
+from .paths import output_path
 
 TEXT_NAME = "Curvrefl comparison"
 TICK = 0.05
@@ -85,7 +87,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
         try:
-            output = self._output_folder()
+            output = output_path(self.output, "a folder for the report")
             report = compare_open_scene(scene, view_layer, self._reflector_names(context), self._comparison(), output)
         except (InputError, RenderCanceledError) as error:
             self.report({"ERROR"}, str(error))
@@ -99,7 +101,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
         try:
-            self._output = self._output_folder()
+            self._output = output_path(self.output, "a folder for the report")
             names = self._reflector_names(context)
             self._steps = compare_steps(scene, view_layer, names, self._comparison(), self._output)
         except InputError as error:
@@ -198,17 +200,10 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         names = [name.strip() for name in self.reflectors.split(",") if name.strip()]
         names = names or [obj.name for obj in context.selected_objects if obj.type == "MESH"]
         if not names and context.scene is not None:
-            names = [obj.name for obj in context.scene.objects if obj.curvrefl.is_mirror]
+            names = [mirror.name for mirror in marked_mirrors(context.scene)]
         if not names:
             raise InputError("No reflector: mark an object as a mirror, select a mesh, or name one.")
         return names
-
-    def _output_folder(self) -> Path:
-        if not self.output:
-            raise InputError("Choose a folder for the report.")
-        if self.output.startswith("//") and not bpy.data.filepath:
-            raise InputError("Save the file first, or choose a folder for the report that does not depend on it.")
-        return Path(bpy.path.abspath(self.output))
 
 
 def _show_pictures(context: bpy.types.Context, report: dict[str, Any], output: Path) -> None:

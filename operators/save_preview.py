@@ -14,6 +14,8 @@ import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
+from ..curvrefl_addon.options import marked_mirrors
+from .paths import output_path
 
 SUFFIXES = (".png", ".exr")
 
@@ -59,7 +61,7 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         except (InputError, GpuUnavailableError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Saved {count} pictures" if self.animation else f"Saved {self._path(context, None)}")
+        self.report({"INFO"}, f"Saved {count} pictures" if self.animation else f"Saved {self._path(None)}")
         return {"FINISHED"}
 
     def _save(self, context: bpy.types.Context) -> int:
@@ -69,14 +71,14 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         assert scene is not None
         frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step) if self.animation else [None]
         for frame in frames:
-            self._path(context, frame)  # (before minutes of work)
+            self._path(frame)  # (before minutes of work)
         with _frame_kept(scene), PreviewRenderer(self._mirrors(context), self.samples) as renderer:
             context.window_manager.progress_begin(0, len(frames))
             try:
                 for number, frame in enumerate(frames):
                     if frame is not None:
                         scene.frame_set(frame)
-                    save_displayed(renderer.render(context), scene, self._path(context, frame))
+                    save_displayed(renderer.render(context), scene, self._path(frame))
                     context.window_manager.progress_update(number + 1)
             finally:
                 context.window_manager.progress_end()
@@ -84,8 +86,6 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
 
     def _mirrors(self, context: bpy.types.Context) -> list[str]:
         """Names of the marked mirrors, else of the selected meshes."""
-        from ..curvrefl_addon.viewport_scene import marked_mirrors
-
         assert context.scene is not None
         names = [mirror.name for mirror in marked_mirrors(context.scene)]
         names = names or [obj.name for obj in context.selected_objects if obj.type == "MESH"]
@@ -93,12 +93,10 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
             raise InputError("No object is marked as a mirror: mark one, or select a mesh.")
         return names
 
-    def _path(self, _context: bpy.types.Context, frame: int | None) -> Path:
+    def _path(self, frame: int | None) -> Path:
         from ..curvrefl_addon.output import checked_file
 
-        if self.filepath.startswith("//") and not bpy.data.filepath:
-            raise InputError("Save the file first, or choose a folder that does not depend on it.")
-        path = Path(bpy.path.abspath(self.filepath))
+        path = output_path(self.filepath, "a file for the picture")
         if frame is not None:
             stem = path.stem if "#" in path.stem else f"{path.stem}_####"
             digits = stem.count("#")

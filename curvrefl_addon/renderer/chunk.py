@@ -96,11 +96,6 @@ class Chunk:
         self._fill_table(range(len(meshes)))
         self._place(((0, self.position_count, 0, corner_count),))
 
-    @property
-    def bytes(self) -> int:
-        """GPU memory of the textures, about."""
-        return 32 * (self.position_count + 2 * int(self._corner_starts[-1]))
-
     def move(self, changed: Mapping[int, Placed]) -> None:
         """Replace instances by the same with another matrix, object_id or mirror number."""
         for index, item in changed.items():

@@ -114,7 +114,7 @@ class Renderer:
         _check(self.settings)
         require_gpu()
         self.counters = {"maps baked": 0}
-        """How often something was made, since the start; those of `geometry` and `lighting` beside it"""
+        """How often something was made, since the start; beside those of `geometry`"""
         self.revision = 0
         """Another one when pictures are not the same any more"""
         self._warnings: tuple[int, tuple[str, ...]] | None = None
@@ -176,12 +176,6 @@ class Renderer:
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         return (*found, *self._lighting.warnings)
-
-    @property
-    def bytes(self) -> int:
-        """GPU memory of meshes and pictures, about; shadow maps and textures come on top."""
-        pixels = sum(width * height for width, height in self._targets)
-        return self.geometry.bytes + 100 * pixels
 
     def free(self) -> None:
         """Let go of all GPU resources; the renderer is of no use afterwards."""

@@ -56,17 +56,13 @@ class Lighting:
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
-        self._lamp_warnings: tuple[str, ...] = ()
+        self.warnings: tuple[str, ...] = ()
+        """What could not be represented, one sentence each"""
         self._scene = scene
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
         self._plan_world_shadows()
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What could not be represented, one sentence each."""
-        return self._lamp_warnings
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
@@ -101,7 +97,6 @@ class Lighting:
     def _holds(self, moved: list[int]) -> bool:
         """Whether the maps' views serve for the scene with these instances where they are now."""
         corners = self._geometry.box_corners(moved)
-        balls = self._geometry.balls(np.array(moved))
         if not self._extent.spares(moved, corners):
             return False
         lamps = [
@@ -118,6 +113,7 @@ class Lighting:
         if not self._world_maps.hold(range(len(self._world_maps.views)), corners):
             return False
         cubes = [(place, layers) for place, layers in lamps if len(layers) == 6]
+        balls = self._geometry.balls(np.array(moved))
         return all(self._cube_holds(place[:3], layers, *balls) for place, layers in cubes)
 
     def _cube_holds(
@@ -179,13 +175,13 @@ class Lighting:
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if max(light.color) > 0.0]
         if len(shining) > MAX_LAMPS:
-            self._lamp_warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            self.warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
             shining.sort(key=lambda light: -sum(light.color))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self._lamp_warnings = ()
+        self.warnings = ()
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]

@@ -206,11 +206,6 @@ class SceneGeometry:
         items = [self.placed[index] for index in indices]
         return _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
 
-    @property
-    def bytes(self) -> int:
-        """GPU memory of all chunks, about."""
-        return sum(chunk.bytes for chunk in self.chunks)
-
     def _matched(self, instances: Sequence[InstanceArrays]) -> list[int | None]:
         """For each instance the index of the one it was before."""
         if len(self.placed) == len(instances):

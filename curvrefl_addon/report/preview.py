@@ -11,7 +11,8 @@ from typing import Self
 
 import bpy
 
-from ..renderer.frame import Renderer, Settings
+from ..options import overrides_of, settings_of
+from ..renderer.frame import Renderer
 from ..scene.arrays import Float32Array
 from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
 from ..scene.changes import Changes
@@ -44,14 +45,8 @@ class PreviewRenderer:
         view = view_of_camera(scene, find_camera(scene), width, height, depsgraph)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
         mirrors = find_reflectors(scene, self._mirrors)
-        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True))
-        chosen = scene.curvrefl
-        settings = Settings(
-            method=chosen.method,
-            samples=self._samples,
-            pixel_tolerance=chosen.pixel_tolerance,
-            map_resolution=chosen.map_resolution,
-        )
+        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True), overrides_of(mirrors))
+        settings = settings_of(scene.curvrefl, self._samples)
         if self._renderer is None:
             self._renderer = Renderer(arrays, settings)
         else:

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from ..diagnostic_colors import SOLVED_MODES
-from ..options import newer_settings
+from ..options import QUALITY, marked_mirrors, newer_settings
 from ..scene.blend_file import SURFACE_TYPES
 from .choices import PRESETS, active_preset
 from .messages import draw_message, draw_rows
@@ -56,7 +56,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
             layout.prop(item.curvrefl, "is_mirror", text=f"{item.name} is a Mirror")
         else:
             layout.label(text=f"{item.name} has no surface", icon="INFO")
-        mirrors = viewport.mirrors_of(scene)
+        mirrors = marked_mirrors(scene)
         if mirrors:
             _draw_list(layout, mirrors, context)
         else:
@@ -118,7 +118,7 @@ class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         settings = context.scene.curvrefl
-        for name in ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution"):
+        for name in QUALITY:
             layout.prop(settings, name)
 
 

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from ..diagnostic_colors import DiagnosticColors
-from ..options import PACKAGE
+from ..options import PACKAGE, QUALITY
 from .choices import METHOD_ITEMS, MOTION_ITEMS
 
 _COLORS = DiagnosticColors()
@@ -78,7 +78,7 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
         layout = self.layout
         layout.use_property_split = True
         column = layout.column(heading="New Scenes")
-        for name in ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution"):
+        for name in QUALITY:
             column.prop(self, name)
         layout.prop(self, "memory_cap")
         column = layout.column(heading="Diagnostic Views")

@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..options import SETTINGS_VERSION, current_options
+from ..options import QUALITY, SETTINGS_VERSION, current_options
 from .choices import ENVIRONMENT_ITEMS, FRESNEL_ITEMS, METHOD_ITEMS, MOTION_ITEMS, SHOW_ITEMS
 
 
@@ -189,7 +189,7 @@ def use_defaults() -> None:
         settings = scene.curvrefl
         if settings.version or not scene.is_editable:
             continue
-        for name in ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution"):
+        for name in QUALITY:
             if not settings.is_property_set(name):
                 setattr(settings, name, getattr(chosen, name))
         settings.version = SETTINGS_VERSION

@@ -83,6 +83,18 @@ def test_frame_range_follows_the_animation(tmp_path: Path) -> None:
     np.testing.assert_allclose(load_exr(tmp_path / "still.exr"), frames[1], atol=1e-3)
 
 
+def test_override_is_in_the_preview(tmp_path: Path) -> None:
+    settings = bpy.data.objects["Mirror"].curvrefl
+    settings.is_mirror = True
+    bpy.context.scene.frame_set(1)  # the cube stands to the right of the ball
+    bpy.ops.curvrefl.save_preview(filepath="//plain.exr", samples=1)
+    settings.override, settings.tint, settings.fresnel = True, (1.0, 0.0, 0.0), "CONSTANT"
+    bpy.ops.curvrefl.save_preview(filepath="//red.exr", samples=1)
+    plain, red = load_exr(tmp_path / "plain.exr"), load_exr(tmp_path / "red.exr")
+    assert plain[15, 14, 1] > 0.01 > 1e-4 > red[15, 14, 1]
+    assert red[15, 14, 0] > 0.01
+
+
 def test_selected_mesh_without_a_marked_one(tmp_path: Path) -> None:
     for obj in bpy.context.scene.objects:
         obj.select_set(obj.name == "Mirror")

@@ -122,7 +122,7 @@ def test_toggle_makes_all_selected_what_the_active_one_was_not() -> None:
     assert bpy.ops.curvrefl.toggle_mirror() == {"FINISHED"}
     assert [first.curvrefl.is_mirror, second.curvrefl.is_mirror, third.curvrefl.is_mirror] == [True, True, False]
     bpy.ops.curvrefl.toggle_mirror()
-    assert not viewport.mirrors_of(bpy.context.scene)
+    assert not options.marked_mirrors(bpy.context.scene)
 
 
 def test_toggle_needs_a_surface() -> None:

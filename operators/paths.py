@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Where operators write, from what the user typed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+from ..curvrefl_addon.errors import InputError
+
+
+def output_path(text: str, what: str) -> Path:
+    """The absolute path of a text that may start with // for the file's own folder; `what` for instance "a folder".
+
+    Raises InputError for no text, and for // in a file that has none.
+    """
+    if not text:
+        raise InputError(f"Choose {what}.")
+    if text.startswith("//") and not bpy.data.filepath:
+        raise InputError(f"Save the file first, or choose {what} that does not depend on it.")
+    return Path(bpy.path.abspath(text))
