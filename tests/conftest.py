@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -56,3 +57,8 @@ def gpu() -> Iterator[None]:
     if reason:
         pytest.skip(reason)
     yield
+    # What is left must go while the context is there.
+    from curvrefl.curvrefl_addon.gpu_caches import clear_gpu_caches
+
+    clear_gpu_caches()
+    gc.collect()

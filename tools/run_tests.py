@@ -71,7 +71,9 @@ def _run_pytest(folders: Sequence[Path]) -> bool:
 
         code = int(pytest.main(arguments))
     else:
-        code = subprocess.run([sys.executable, "-m", "pytest", *arguments], cwd=ROOT).returncode
+        code = subprocess.run([sys.executable, str(ROOT / "tools" / "run_pytest.py"), *arguments], cwd=ROOT).returncode
+        if code not in (0, 1, NO_TESTS_COLLECTED):
+            print(f"curvrefl: pytest ended with exit code {code}.", file=sys.stderr)
     return code in (0, NO_TESTS_COLLECTED)
 
 

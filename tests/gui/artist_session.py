@@ -8,8 +8,6 @@ Arguments after `--`: the zip, the demo's .blend file, the folder for what was s
 from __future__ import annotations
 
 import json
-import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -19,7 +17,7 @@ from typing import Any
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from scripted import Script, arguments, extension, install, play, view_3d
+from scripted import Script, arguments, extension, install, play, rests, screenshot, view_3d
 
 ARCHIVE, BLEND, FOLDER = arguments()[:3]
 seen: dict[str, Any] = {"steps": []}
@@ -45,18 +43,6 @@ def note(name: str) -> None:
             "enabled": bpy.context.window_manager.curvrefl_enabled,
         }
     )
-
-
-def screenshot(name: str) -> None:
-    """Blender's own is black on a virtual screen."""
-    if shutil.which("import"):
-        subprocess.run(["import", "-window", "root", str(Path(FOLDER) / name)], check=True)
-
-
-def rests() -> bool:
-    """All pictures are complete."""
-    pictures = viewport()._state.pictures.values()
-    return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
 
 
 def step(name: str, act: Callable[[], None]) -> Script:
@@ -134,7 +120,7 @@ def script() -> Script:
         "window_matrix": [list(row) for row in data.window_matrix],
         "region": [region.x, region.y, region.width, region.height],
     }
-    screenshot("enabled.png")
+    screenshot(Path(FOLDER) / "enabled.png")
     yield from step("moved the view", closer)
     yield from step("moved the view again", farther)
     yield from step("moved the camera", move_camera)
@@ -145,7 +131,7 @@ def script() -> Script:
     yield from step("painted", paint)
     yield from step("hid an object", lambda: bpy.data.objects["Ball"].hide_set(True))
     yield from step("showed zebra stripes", zebra)
-    screenshot("zebra.png")
+    screenshot(Path(FOLDER) / "zebra.png")
     bpy.context.window_manager.curvrefl_enabled = False
     yield 1.0
     note("disabled")

@@ -9,8 +9,6 @@ Arguments after `--`: the zip, the demo's .blend file, the folder for what was s
 from __future__ import annotations
 
 import json
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -18,7 +16,7 @@ from typing import Any
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from scripted import Script, arguments, extension, install, play, view_3d
+from scripted import Script, arguments, extension, in_view, install, play, rests, screenshot, view_3d
 
 ARCHIVE, BLEND, FOLDER = arguments()[:3]
 PANELS = ("main", "mirror", "quality", "environment", "diagnostics", "tools", "statistics")
@@ -29,21 +27,9 @@ def window() -> bpy.types.Window:
     return bpy.context.window_manager.windows[0]
 
 
-def screenshot(name: str) -> None:
-    """Blender's own is black on a virtual screen."""
-    if shutil.which("import"):
-        subprocess.run(["import", "-window", "root", str(Path(FOLDER) / f"{name}.png")], check=True)
-
-
-def rests() -> bool:
-    """All pictures are complete."""
-    pictures = extension("curvrefl_addon.viewport")._state.pictures.values()
-    return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
-
-
-def in_view() -> Any:
-    area, _space, region = view_3d()
-    return bpy.context.temp_override(window=window(), area=area, region=region)
+def keep(name: str) -> None:
+    """A picture for the documentation."""
+    screenshot(Path(FOLDER) / f"{name}.png")
 
 
 def event(kind: str, value: str = "PRESS", place: tuple[int, int] = (400, 400)) -> None:
@@ -94,7 +80,7 @@ def script() -> Script:
     yield rests
     area.tag_redraw()
     yield 1.0
-    screenshot("sidebar")
+    keep("sidebar")
     yield from panels()
     yield from diagnostics(space)
     yield from trace(area)
@@ -108,7 +94,7 @@ def panels() -> Script:
         with in_view():
             bpy.ops.wm.call_panel(name=f"CURVREFL_PT_{name}", keep_open=True)
         yield 1.0
-        screenshot(f"panel_{name}")
+        keep(f"panel_{name}")
         event("ESC")
         yield 0.4
         event("ESC", "RELEASE")
@@ -123,7 +109,7 @@ def panels() -> Script:
         with in_view():
             call()
         yield 1.0
-        screenshot(name)
+        keep(name)
         event("ESC")
         yield 0.4
         event("ESC", "RELEASE")
@@ -136,7 +122,7 @@ def diagnostics(space: bpy.types.SpaceView3D) -> Script:
         bpy.context.scene.curvrefl.show = name
         yield 1.0
         yield rests
-        screenshot(f"show_{name.lower()}")
+        keep(f"show_{name.lower()}")
     bpy.context.scene.curvrefl.show = "REFLECTION"
     yield 1.0
     yield rests
@@ -178,7 +164,7 @@ def trace(area: bpy.types.Area) -> Script:
     yield rests
     area.tag_redraw()
     yield 0.5
-    screenshot("trace")
+    keep("trace")
     tracing.clear()
     space.region_3d.view_perspective = "CAMERA"
     yield 1.0
@@ -192,7 +178,7 @@ def comparison() -> Script:
         bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options)
     yield 1.5
     seen["comparison is modal"] = is_modal("CURVREFL_OT_compare_with_cycles")
-    screenshot("compare_running")
+    keep("compare_running")
     event("ESC")
     yield lambda: not is_modal("CURVREFL_OT_compare_with_cycles")
     event("ESC", "RELEASE")
@@ -210,7 +196,7 @@ def comparison() -> Script:
     yield 1.0
     yield lambda: not is_modal("CURVREFL_OT_compare_with_cycles")
     yield 0.5
-    screenshot("compare_done")
+    keep("compare_done")
     seen["report of the modal run"] = json.loads((output / "report.json").read_text(encoding="utf-8"))
     seen["image editor shows"] = None if editor is None else getattr(editor.spaces.active.image, "name", "")
     seen["settings after all"] = settings()[:9] == before[:9]

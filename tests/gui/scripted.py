@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 import importlib
+import shutil
+import subprocess
 import sys
 import time
 import traceback
 from collections.abc import Callable, Generator
 from contextlib import AbstractContextManager
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -44,6 +47,18 @@ def view_3d() -> tuple[bpy.types.Area, bpy.types.SpaceView3D, bpy.types.Region]:
     window = bpy.context.window_manager.windows[0]
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     return area, area.spaces[0], next(region for region in area.regions if region.type == "WINDOW")
+
+
+def rests() -> bool:
+    """All 3D regions have complete pictures."""
+    pictures = extension("curvrefl_addon.viewport")._state.pictures.values()
+    return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
+
+
+def screenshot(path: Path) -> None:
+    """A picture of the screen where ImageMagick is there; Blender's own is black on a virtual screen."""
+    if shutil.which("import"):
+        subprocess.run(["import", "-window", "root", str(path)], check=True)
 
 
 def in_view() -> AbstractContextManager[Any]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from scripted import Script, arguments, extension, in_view, install, play, view_3d
+from scripted import Script, arguments, extension, in_view, install, play, rests, screenshot, view_3d
 
 ARCHIVE, BLEND, FOLDER = arguments()[:3]
 seen: dict[str, Any] = {"captures": {}}
@@ -27,11 +26,6 @@ seen: dict[str, Any] = {"captures": {}}
 
 def pictures() -> dict[int, Any]:
     return extension("curvrefl_addon.viewport")._state.pictures
-
-
-def rests() -> bool:
-    """All 3D regions have complete pictures."""
-    return bool(pictures()) and all(item.is_complete and not item.is_coarse for item in pictures().values())
 
 
 def regions() -> list[bpy.types.Region]:
@@ -52,7 +46,7 @@ def engine_draws() -> bool:
     _area, space, region = view_3d()
     place = location_3d_to_region_2d(region, space.region_3d, bpy.data.objects["Block"].matrix_world.translation)
     path = Path(FOLDER) / "engine.png"
-    subprocess.run(["import", "-window", "root", str(path)], check=True)
+    screenshot(path)
     image = bpy.data.images.load(str(path))
     start = 4 * ((int(place.y) + region.y) * image.size[0] + int(place.x) + region.x)
     red, green, blue = image.pixels[start : start + 3]
@@ -68,8 +62,7 @@ def capture(name: str) -> None:
         picture = pictures()[region.as_pointer()]
         np.save(Path(FOLDER) / f"{name}_{number}.npy", read(picture._texture) / picture._sub_frames)
         places.append([region.x, region.y, region.width, region.height])
-    if shutil.which("import"):
-        subprocess.run(["import", "-window", "root", str(Path(FOLDER) / f"{name}.png")], check=True)
+    screenshot(Path(FOLDER) / f"{name}.png")
     viewport = extension("curvrefl_addon.viewport")
     seen["captures"][name] = {"regions": places, "messages": viewport.messages(), "pictures": len(pictures())}
 
