@@ -101,7 +101,7 @@ def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
     for scene in _state.scenes.values():
         for renderer in scene.renderers.values():
             for baked in renderer.mirrors:
-                if baked.map.object_name == mirror.name:
+                if baked.map is not None and baked.object_name == mirror.name:
                     return [*baked.map.rows(), ("Bake Time", f"{baked.bake_ms:.0f} ms")]
     return []
 

@@ -3,11 +3,6 @@
 // Fermat's principle on the radial map; mirrors optics/fermat.py. The eye is homogeneous: w = 0 is at infinity.
 #include "radial_map.glsl"
 
-vec3 towards_eye(vec4 eye, vec3 point)
-{
-  return safe_unit(eye.xyz - point * eye.w);
-}
-
 vec3 path_gradient(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at)
 {
   vec3 h = towards_eye(eye, at.position) + safe_unit(vertex - at.position);
@@ -32,20 +27,4 @@ float path_change(vec4 eye, vec3 vertex, vec3 start, vec3 end)
 {
   float to_eye = eye.w > 0.0 ? leg_change(eye.xyz, start, end) : -dot(end - start, eye.xyz);
   return to_eye + leg_change(vertex, start, end);
-}
-
-// Pixels that an offset at a point covers as seen from the eye, as two-dimensional as a 3D vector can be.
-vec3 in_pixels(vec4 eye, float focal, vec3 point, vec3 offset)
-{
-  vec3 direction = towards_eye(eye, point);
-  float distance_to_eye = eye.w > 0.0 ? max(length(eye.xyz - point), 1e-30) : 1.0;
-  return (offset - dot(offset, direction) * direction) * (focal / distance_to_eye);
-}
-
-// Two unit vectors that complete u to a right-handed frame.
-void tangent_frame(vec3 u, out vec3 first, out vec3 second)
-{
-  vec3 helper = abs(u.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-  first = safe_unit(cross(u, helper));
-  second = cross(u, first);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Safeguarded Newton descent on the path length; mirrors optics/newton.py step for step.
 #include "fermat.glsl"
+#include "guess.glsl"
 
 #define DIFFERENCE 1e-3
 #define SMALLEST_DIFFERENCE 1e-5
@@ -13,23 +14,6 @@
 #define SUFFICIENT 1e-4
 #define ROUNDING 2e-7
 #define CONTRACTION 0.7
-
-vec3 newton_guess(vec4 eye, vec3 vertex)
-{
-  vec3 a = safe_unit(eye.xyz);
-  vec3 b = safe_unit(vertex);
-  float distance_to_eye = length(eye.xyz);
-  float share = eye.w > 0.0 ? distance_to_eye / (distance_to_eye + length(vertex)) : 1.0;
-  float cosine = clamp(dot(a, b), -1.0, 1.0);
-  vec3 across = b - cosine * a;
-  if (length(across) < 1e-6) {
-    vec3 other;
-    tangent_frame(a, across, other);
-  }
-  // Not acos: near 0 and pi it loses half the digits.
-  float angle = share * atan(length(b - cosine * a), cosine);
-  return cos(angle) * a + sin(angle) * safe_unit(across);
-}
 
 vec3 gradient_difference(vec4 eye, vec3 vertex, vec3 u, vec3 direction, float delta, vec3 g)
 {

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The reflector as a radial cube map (r, grad r), relative to its star centre; mirrors optics/fermat.py `sample`.
 // Needs the sampler (FLOAT_CUBE) `radial`.
-
-vec3 safe_unit(vec3 v)
-{
-  float length_squared = dot(v, v);
-  return length_squared > 0.0 ? v * inversesqrt(length_squared) : vec3(0.0);
-}
+#include "vectors.glsl"
 
 struct SurfaceSample {
   vec3 position;

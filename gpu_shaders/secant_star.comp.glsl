@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Secant search on a star-shaped reflector (Roger & Holzschuch 2006, section 3.3), one invocation per vertex;
 // mirrors optics/secant_star.py step for step.
-#include "invocation.glsl"
-#include "solver.glsl"
+#include "star_ending.glsl"
 
 #define SMALL_DETERMINANT 1e-5
 #define LONGEST_SECANT_STEP 0.7

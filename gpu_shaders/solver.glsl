@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every vertex solver shares: fetching the vertex, the ladder after the search, storing the result.
-// Needs the uniform block `solver` (renderer/solve.py), the samplers `positions` and `radial`, and the images
-// `reflection_points` and `virtual_positions`.
+// What every vertex solver shares: fetching the vertex, storing the result. Needs the uniform block `solver`
+// (renderer/solve.py), the sampler `positions` and the images `reflection_points` and `virtual_positions`.
 #include "status.glsl"
+#include "invocation.glsl"
 #include "records.glsl"
-#include "newton.glsl"
-#include "pierce.glsl"
-
-bool is_finite(vec3 v)
-{
-  return !any(isnan(v)) && !any(isinf(v));
-}
+#include "vectors.glsl"
 
 vec3 vertex_in_map(int index)
 {
@@ -43,40 +37,14 @@ void store_reflected(int index, int iterations, vec3 vertex, vec3 point)
 
 // A hidden vertex has no image. It is placed as its mirror image in the tangent plane at `point`, where the reflection of
 // the triangles that cross the horizon goes on: on the horizon itself both agree.
-void store_hidden(int index, int iterations, vec3 vertex, vec3 point)
+void store_hidden(int index, int iterations, vec3 vertex, vec3 point, vec3 normal)
 {
-  vec3 normal = surface_normal(sample_surface(safe_unit(point)));
   vec3 offset = vertex - point;
   store(index, HIDDEN, iterations, point, vertex - 2.0 * dot(normal, offset) * normal, length(offset));
 }
 
-// After a search that ended at u: reflected, else hidden, else one more descent from between eye and vertex.
-void finish(int index, vec3 vertex, vec3 u, bool converged, int iterations)
+// For a search that failed.
+void store_unsolved(int index, int iterations, vec3 vertex, vec3 point)
 {
-  vec4 eye = solver.eye;
-  SurfaceSample at = sample_surface(u);
-  if (converged && is_reflection_side(eye, vertex, at)) {
-    store_reflected(index, iterations, vertex, at.position);
-    return;
-  }
-  vec3 point;
-  if (pierce(eye, vertex, solver.screen.z, point)) {
-    store_hidden(index, iterations, vertex, point);
-    return;
-  }
-  if (!converged) {
-    u = newton_guess(eye, vertex);
-    converged = minimise(eye, solver.screen.x, vertex, solver.counts.z, solver.screen.y, u, iterations);
-    at = sample_surface(u);
-    if (converged && is_reflection_side(eye, vertex, at)) {
-      store_reflected(index, iterations, vertex, at.position);
-      return;
-    }
-  }
-  if (converged) {
-    store_hidden(index, iterations, vertex, at.position);
-  }
-  else {
-    store(index, UNSOLVED, iterations, at.position, vertex, length(vertex - at.position));
-  }
+  store(index, UNSOLVED, iterations, point, vertex, length(vertex - point));
 }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The methods by name: where each comes from and what it takes for granted."""
+"""The methods by name: where each comes from, what it takes for granted, and what trades its speed for accuracy."""
 
 from __future__ import annotations
 
@@ -15,8 +15,20 @@ class Method:
     source: str
     assumes: str
     """Of the reflector and the scene"""
-    solves_vertices: bool
-    """Whether there is a `gpu_shaders/<name>.comp.glsl`; else the mirror looks up an environment"""
+    sweep: tuple[str, tuple[float, ...]]
+    """The field of `renderer.frame.Settings` that trades speed for accuracy, and values of it to chart"""
+    maps: tuple[str, ...] = ()
+    """What of the reflector its shader `gpu_shaders/<name>.comp.glsl` reads (see `renderer.solve`); none for
+    a method that looks up an environment (`gpu_shaders/<name>.glsl`)"""
+    steps: int = 0
+    """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""
+    grid_search: str = ""
+    """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
+
+    @property
+    def solves_vertices(self) -> bool:
+        """Whether it finds reflection points; else it looks up an environment."""
+        return bool(self.maps)
 
 
 METHODS: dict[str, Method] = {
@@ -24,12 +36,53 @@ METHODS: dict[str, Method] = {
         "Secant Search",
         "Roger & Holzschuch 2006, section 3.3, with a safeguarded end",
         "every ray from the star center leaves the reflector once; one reflection per vertex",
-        True,
+        ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
+        maps=("radial",),
+        steps=6,
+    ),
+    "secant_uv": Method(
+        "Secant Search in UV",
+        "Roger & Holzschuch 2005, section 3",
+        "a grid-like mesh whose UV map covers the unit square once; one reflection per vertex",
+        ("steps", (3, 4, 5, 8, 12)),
+        maps=("parametric",),
+        steps=5,
+    ),
+    "bisector_cube": Method(
+        "Bisector Field",
+        "Estalella et al. 2005, section 4",
+        "a star-shaped reflector that is convex or concave all over",
+        ("steps", (3, 5, 7, 9, 15, 30)),
+        maps=("radial",),
+        steps=9,
+    ),
+    "bisector_grid": Method(
+        "Bisector Field on Grids",
+        "Estalella et al. 2005, section 5",
+        "as Bisector Field, and that reflections are smooth across a cell of each mesh's bounding grid",
+        ("grid_share", (0.041, 0.055, 0.096, 0.143, 0.5)),
+        maps=("radial",),
+        steps=9,
+        grid_search="bisector_cube",
+    ),
+    "bisector_screen": Method(
+        "Bisector on Screen",
+        "Estalella et al. 2006",
+        "the reflection point is in view, and no other part of the reflector is in front of it",
+        ("search_resolution", (0.25, 0.5, 1.0, 2.0)),
+        maps=("screen",),
+    ),
+    "planar": Method(
+        "Planar Mirror",
+        "McReynolds 1996; Roger & Holzschuch 2006, section 2",
+        "the reflector is flat",
+        ("pixel_tolerance", (0.5,)),
+        maps=("plane",),
     ),
     "environment_cube": Method(
         "Environment Cube",
         "Blinn & Newell 1976; six faces from the reflector's center",
         "everything is infinitely far away",
-        False,
+        ("environment_resolution", (64, 128, 256, 512)),
     ),
 }

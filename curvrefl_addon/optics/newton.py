@@ -44,15 +44,14 @@ def tangent_frame(u: Float64Array) -> tuple[Float64Array, Float64Array]:
 
 
 def guess(eye: Float64Array, vertices: Float64Array) -> Float64Array:
-    """Directions (n, 3) between eye and vertex, nearer to the one that is nearer to the centre.
+    """Directions (n, 3) between an eye (4,), or eyes (n, 4), and vertices, nearer to the one that is nearer the centre.
 
     On the great circle from the eye's direction to the vertex's, at the share d_E / (d_E + d_V).
     """
-    a, b = np.broadcast_to(unit(eye[:3]), vertices.shape), unit(vertices)
-    share = np.ones(len(vertices))
-    if eye[3]:
-        distance = np.linalg.norm(eye[:3])
-        share = distance / (distance + np.linalg.norm(vertices, axis=1))
+    eyes = np.broadcast_to(eye, (len(vertices), 4))
+    a, b = unit(eyes[:, :3]), unit(vertices)
+    distance = np.linalg.norm(eyes[:, :3], axis=1)
+    share = np.where(eyes[:, 3] > 0.0, distance / (distance + np.linalg.norm(vertices, axis=1)), 1.0)
     cosine = np.clip(np.einsum("ij,ij->i", a, b), -1.0, 1.0)
     across = b - cosine[:, None] * a
     across = np.where(np.linalg.norm(across, axis=1, keepdims=True) < 1e-6, tangent_frame(a)[0], unit(across))

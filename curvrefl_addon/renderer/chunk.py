@@ -164,15 +164,21 @@ class Chunk:
         self._table[rows, 6, 0] = [self.placed[index].instance.object_id for index in rows]
         self._table[rows, 6, 1] = [self.placed[index].mirror for index in rows]
 
-    def _place(self, ranges: Sequence[tuple[int, int, int, int]]) -> None:
+    def place_points(self, sources: Any, count: int) -> Any:
+        """World-space records of other points of the same instances: `sources` has (object xyz, index of instance)."""
+        points = empty_record_texture(count)
+        self._place(((0, count, 0, 0),), sources, points)
+        return points
+
+    def _place(self, ranges: Sequence[tuple[int, int, int, int]], sources: Any = None, positions: Any = None) -> None:
         """Run the compute pass over (first position, positions, first corner, corners)."""
         table = record_texture(self._table.reshape(-1, 4))
         shader = _place_shader()
         shader.bind()
-        shader.uniform_sampler("source_positions", self._source_positions)
+        shader.uniform_sampler("source_positions", sources or self._source_positions)
         shader.uniform_sampler("source_corners", self._source_corners)
         shader.uniform_sampler("instances", table)
-        shader.image("positions", self.positions)
+        shader.image("positions", positions or self.positions)
         shader.image("corners", self.corners)
         for numbers in ranges:
             shader.uniform_int("range", numbers)

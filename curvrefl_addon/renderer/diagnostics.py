@@ -26,7 +26,7 @@ from ..diagnostic_colors import (
 )
 from ..scene.arrays import Float32Array
 from .gpu_objects import drawing_state, full_screen_triangle, record_texture, texture_2d
-from .mirror import SolvedChunk
+from .solve import SolvedChunk
 from .surfaces import SurfaceBuffer
 from .view_block import TYPEDEF
 

@@ -43,8 +43,8 @@ class EnvironmentCube:
         resolution: int,
     ) -> None:
         """`reach`: distance from the mirror's centre to the farthest point of the scenery, metres, or more."""
-        near = 0.05 * mirror.map.r_min
-        self._views = faces_views(mirror.map.center, near, max(2.0 * reach, 10.0 * near), resolution)
+        near = 0.05 * mirror.nearest_surface
+        self._views = faces_views(mirror.center, near, max(2.0 * reach, 10.0 * near), resolution)
         self._scenery, self._materials = scenery, materials
         self._seen = SurfaceBuffer(resolution, resolution)
         self._nothing = SurfaceBuffer(1, 1)

@@ -23,11 +23,11 @@ from .environment_cube import EnvironmentCube
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
-from .mirror import Mirror, SolvedChunk
+from .mirror import Mirror
 from .pixel_filter import offsets
 from .scene_geometry import Difference, SceneGeometry
 from .shade import ShadePass
-from .solve import VertexSolution, statistics
+from .solve import SolvedChunk, VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, draw_primary, draw_reflected
 from .view_block import view_block
 
@@ -45,7 +45,15 @@ class Settings:
     map_resolution: int = 128
     """Texels along an edge of the reflector's radial cube map"""
     environment_resolution: int = 512
-    """Texels along an edge of `environment_cube`"""
+    """Texels along an edge of environment maps"""
+    steps: int = 0
+    """Of methods with a fixed number of search steps; 0: the method's own"""
+    grid_share: float = 0.1
+    """Points of bounding grids that are solved, as a share of the vertices (`bisector_grid`)"""
+    frustum: float = 1.25
+    """Width of the view that is searched, in widths of the picture (`bisector_screen`)"""
+    search_resolution: float = 1.0
+    """Texels per pixel of the view that is searched (`bisector_screen`)"""
 
 
 MOST_TARGETS = 3
@@ -153,6 +161,8 @@ class Renderer:
         try:
             if settings.map_resolution != before.map_resolution:
                 self._bake_mirrors(self.scene, keep=False)
+            for mirror in self.mirrors:
+                mirror.require(settings.method)
         except InputError:
             self.settings = before
             raise
@@ -172,7 +182,7 @@ class Renderer:
         return self._warnings[1]
 
     def _found_warnings(self) -> tuple[str, ...]:
-        found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.map.warnings)]
+        found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.warnings)]
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         return (*found, *self._lighting.warnings)
@@ -206,6 +216,7 @@ class Renderer:
                 facts = self.geometry.facts.of(scene.meshes[instance.mesh])
                 mirror = Mirror(scene, index, number, facts, self.settings.map_resolution)
                 self.counters["maps baked"] += 1
+            mirror.require(self.settings.method)
             mirrors.append(mirror)
         self.mirrors = mirrors
 
@@ -251,7 +262,13 @@ class Renderer:
         tolerance = self.settings.pixel_tolerance
         self.geometry.refine([mirror.sight(view, tolerance) for mirror in self.mirrors])
         parts = tuple(
-            mirror.solve(view, self.settings.method, tolerance, self.geometry.scenery(mirror.index))
+            mirror.solve(
+                view,
+                self.settings,
+                self.geometry.scenery(mirror.index),
+                self.geometry.of_instance(mirror.index),
+                self._materials,
+            )
             for mirror in self.mirrors
         )
         return Reflection(view, parts, None, self.warnings)
@@ -321,7 +338,7 @@ class Renderer:
                 EnvironmentCube(
                     mirror,
                     self.geometry.scenery(mirror.index),
-                    float((np.linalg.norm(centers - mirror.map.center, axis=1) + radii).max()),
+                    float((np.linalg.norm(centers - mirror.center, axis=1) + radii).max()),
                     self._materials,
                     self._lighting,
                     self._shade,
@@ -356,7 +373,7 @@ class Renderer:
                     parts,
                     self._materials,
                     uniforms,
-                    depth_scale=mirror.map.r_max,
+                    depth_scale=mirror.bound,
                     window=mirror.window(view),
                 )
         return uniforms
@@ -468,3 +485,13 @@ def _check(settings: Settings) -> None:
         raise InputError(f"A tolerance of {settings.pixel_tolerance} pixels is out of range: choose 0.01 to 100.")
     if not 8 <= settings.map_resolution <= 2048:
         raise InputError(f"A map of {settings.map_resolution} texels is out of range: choose 8 to 2048.")
+    if not 0 <= settings.steps <= 1000:
+        raise InputError(f"{settings.steps} search steps are out of range: choose 0 (the method's own) to 1000.")
+    if not 0.0 < settings.grid_share <= 1.0:
+        raise InputError(f"A grid share of {settings.grid_share} is out of range: choose more than 0, at most 1.")
+    if not 1.0 <= settings.frustum <= 4.0:
+        raise InputError(f"A frustum factor of {settings.frustum} is out of range: choose 1 to 4.")
+    if not 0.1 <= settings.search_resolution <= 4.0:
+        raise InputError(
+            f"A search resolution of {settings.search_resolution} texels per pixel is out of range: choose 0.1 to 4."
+        )

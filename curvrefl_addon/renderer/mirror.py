@@ -5,34 +5,38 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..errors import InputError
+from ..optics.catalogue import METHODS
 from ..optics.cube_map import CubeMapSurface
 from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk
+from .companion import closed_companion
 from .gpu_objects import cube_texture
+from .grid_solve import ChunkGrid
+from .materials import Materials
 from .mesh_facts import MeshFacts
+from .mirror_plane import Plane, facing_plane, flat_parts
 from .reflector_bake import bake_instance, polar
+from .reflector_map import ReflectorMap
 from .scene_geometry import CORNERS, Sight
-from .solve import VertexSolution, solve_vertices
+from .screen_maps import ScreenMaps, map_to_texels, widened
+from .solve import Reflector, SolvedChunk, VertexSolution, solve_vertices
 from .split import split_angle
+
+if TYPE_CHECKING:
+    from .frame import Settings
 
 SAME_STRETCH = 1e-6
 """Relative: a matrix whose stretch differs less only moves and turns"""
-
-
-@dataclass(frozen=True)
-class SolvedChunk:
-    """A part of a mirror's scenery with its reflection points."""
-
-    chunk: Chunk
-    batches: Batches
-    solution: VertexSolution
+OPEN = 0.02
+"""Share of directions without a surface from which on a mirror counts as open: it may show its inner side"""
 
 
 class Mirror:
@@ -41,17 +45,32 @@ class Mirror:
     def __init__(self, scene: SceneArrays, index: int, number: int, facts: MeshFacts, map_resolution: int) -> None:
         """Bakes the radial map of the instance `index`. `number` is 1, 2, ... in the order of the scene's instances.
 
-        Raises InputError where the shape cannot be one.
+        A shape that no radial map can hold has none: methods that need one raise its `refusal`.
         """
         start = perf_counter()
-        self.map = bake_instance(scene, index, map_resolution)
+        instance = scene.instances[index]
+        self.map: ReflectorMap | None = None
+        self.refusal: InputError | None = None
+        self.radial: Any = None
+        try:
+            self.map = bake_instance(scene, index, map_resolution)
+            self.radial = cube_texture(self.map.radial)
+            self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
+        except InputError as error:
+            self.refusal = error
+            self.world_to_map, self.bound = _bounding_frame(facts, instance)
         self.bake_ms = 1e3 * (perf_counter() - start)
-        self.radial = cube_texture(self.map.radial)
-        self._instance = scene.instances[index]
+        self._instance = instance
         self._mesh = facts.mesh
         self._box = facts.box
         self.may_hide_itself = not facts.is_convex
         self.index, self.number = index, number
+        self._parametric: Any = None
+        self._planes: Sequence[Plane] | None = None
+        self._companion: tuple[Chunk, Batches] | None = None
+        self._screen_maps = ScreenMaps()
+        self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
+        self._before: dict[int, tuple[Chunk, VertexSolution]] = {}
 
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
@@ -59,12 +78,41 @@ class Mirror:
         if scene.meshes[instance.mesh] is not self._mesh:
             return False
         if instance is not self._instance:
-            placed = _moved_map(self.map.world_to_map, self._instance, instance)
+            placed = _moved_map(self.world_to_map, self._instance, instance)
             if placed is None:
                 return False
-            self.map = replace(self.map, world_to_map=placed, object_name=instance.object_name)
+            self.world_to_map = placed
+            self._companion = None
+            if self.map is not None:
+                self.map = replace(self.map, world_to_map=placed, object_name=instance.object_name)
         self._instance, self.index, self.number = instance, index, number
         return True
+
+    def require(self, method: str) -> None:
+        """Raise InputError where a method cannot work on this shape."""
+        if "radial" in METHODS[method].maps and self.refusal is not None:
+            raise self.refusal
+        if "parametric" in METHODS[method].maps:
+            self._parametric_map()
+
+    @property
+    def object_name(self) -> str:
+        return self._instance.object_name
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence each."""
+        return () if self.map is None else self.map.warnings
+
+    @property
+    def center(self) -> Float64Array:
+        """(3,) star centre in world space; the middle of a shape without radial map."""
+        return -self.world_to_map[:3, :3].T @ self.world_to_map[:3, 3]
+
+    @property
+    def nearest_surface(self) -> float:
+        """Metres from the centre to the surface, or less."""
+        return self.map.r_min if self.map is not None else 1e-3 * self.bound
 
     @property
     def mesh(self) -> MeshArrays:
@@ -75,20 +123,25 @@ class Mirror:
     def object_id(self) -> int:
         return self._instance.object_id
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it may show its inner side."""
+        return self.map is not None and self.map.holes > OPEN
+
     def radius_pixels(self, view: View) -> float:
         """Size of the reflector's bounding ball in the picture."""
         distance = 1.0
         if not view.is_orthographic:
-            distance = max(float(np.linalg.norm(view.eye[:3] - self.map.center)), self.map.r_max)
-        return view.focal_pixels * self.map.r_max / distance
+            distance = max(float(np.linalg.norm(view.eye[:3] - self.center)), self.bound)
+        return view.focal_pixels * self.bound / distance
 
     def holds_eye(self, view: View) -> bool:
         """Whether the eye is inside the reflector."""
-        if view.is_orthographic:
+        if view.is_orthographic or self.map is None or self.is_open:
             return False
-        eye = (self.map.world_to_map @ view.eye)[:3]
+        eye = (self.world_to_map @ view.eye)[:3]
         distance = float(np.linalg.norm(eye))
-        if distance >= self.map.r_max:
+        if distance >= self.bound:
             return False
         if distance == 0.0:
             return True
@@ -111,30 +164,121 @@ class Mirror:
 
     def sight(self, view: View, tolerance: float) -> Sight:
         """How finely `tolerance` pixels want the scenery split at the mirror's size in this view."""
-        x, y, z = self.map.center.tolist()
+        x, y, z = self.center.tolist()
         return Sight((x, y, z), split_angle(self.radius_pixels(view), tolerance), self.index)
 
     def solve(
-        self, view: View, method: str, tolerance: float, scenery: Sequence[tuple[Chunk, Batches]]
+        self,
+        view: View,
+        settings: Settings,
+        scenery: Sequence[tuple[Chunk, Batches]],
+        own: tuple[Chunk, Batches],
+        materials: Materials,
     ) -> tuple[SolvedChunk, ...]:
-        """Reflection points of all vertices of the scenery."""
-        return tuple(
-            SolvedChunk(
-                chunk,
-                batches,
-                solve_vertices(
-                    method,
+        """Reflection points of all vertices of the scenery; `own` is the mirror's own surface.
+
+        Raises InputError where the method cannot work on this shape.
+        """
+        self.require(settings.method)
+        method = METHODS[settings.method]
+        reflector = self._reflector(view, settings, own, materials)
+        before, self._before = self._before, {}
+        parts = []
+        for chunk, batches in scenery:
+
+            def search(positions: Any, count: int, last: VertexSolution | None = None) -> VertexSolution:
+                return solve_vertices(
+                    method.grid_search or settings.method,
                     view,
-                    self.map.world_to_map,
-                    self.radial,
-                    self.map.r_max,
-                    chunk.positions,
-                    chunk.position_count,
-                    tolerance=0.1 * tolerance,
-                ),
+                    reflector,
+                    positions,
+                    count,
+                    steps=settings.steps,
+                    tolerance=0.1 * settings.pixel_tolerance,
+                    previous=last,
+                )
+
+            if method.grid_search:
+                solution = self._grid(chunk, settings.grid_share).solve(chunk, search)
+            else:
+                known = before.get(id(chunk))
+                solution = search(chunk.positions, chunk.position_count, None if known is None else known[1])
+            if "screen" in method.maps:
+                # The chunk is kept with it, so that no other chunk can get its id.
+                self._before[id(chunk)] = (chunk, solution)
+            parts.append(SolvedChunk(chunk, batches, solution))
+        used = {id(chunk) for chunk, _ in scenery}
+        self._grids = {key: grid for key, grid in self._grids.items() if key in used}
+        return tuple(parts)
+
+    def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
+        maps = METHODS[settings.method].maps
+        reflector = Reflector(self.world_to_map, self.bound, side=self._side(view))
+        if "radial" in maps:
+            reflector = replace(reflector, textures={"radial": self.radial})
+        if "parametric" in maps:
+            reflector = replace(reflector, textures=self._parametric_map().samplers())
+        if "plane" in maps:
+            if self._planes is None:
+                self._planes = flat_parts(self._mesh, self._instance, self.world_to_map)
+            reflector = replace(reflector, plane=facing_plane(self._planes, self.world_to_map @ view.eye))
+        if "screen" in maps:
+            wide = widened(view, settings.frustum, settings.search_resolution)
+            surface = own
+            if self.is_open and reflector.side > 0.0:
+                # What lies past the rim is searched for on the closed shape.
+                if self._companion is None and self.map is not None:
+                    self._companion = closed_companion(self.map, self._instance, self.world_to_map)
+                surface = self._companion or own
+            x, y, width, height = self.window(wide)
+            reflector = replace(
+                reflector,
+                textures=self._screen_maps.draw(surface, materials, wide),
+                map_to_search=map_to_texels(wide, self.world_to_map),
+                start=(x + 0.5 * width, y + 0.5 * height),
             )
-            for chunk, batches in scenery
-        )
+        return reflector
+
+    def _side(self, view: View) -> float:
+        """1 where the eye sees more of the outer side of the mirror, -1 where it sees more of the inner one."""
+        if not self.is_open:
+            return 1.0
+        eye = self.world_to_map @ view.eye
+        to_map = self.world_to_map @ self._instance.matrix
+        positions = self._mesh.positions @ to_map[:3, :3].T + to_map[:3, 3]
+        corners = positions[self._mesh.corner_vertex[self._mesh.triangles]]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        middle = corners.mean(axis=1)
+        normals *= np.sign(np.einsum("ij,ij->i", normals, middle))[:, None]
+        to_eye = eye[:3] - middle * eye[3]
+        seen = np.einsum("ij,ij->i", normals, to_eye) / np.maximum(np.linalg.norm(to_eye, axis=1), 1e-30) ** 3
+        return 1.0 if np.maximum(seen, 0.0).sum() >= np.maximum(-seen, 0.0).sum() else -1.0
+
+    def _grid(self, chunk: Chunk, share: float) -> ChunkGrid:
+        known = self._grids.get(id(chunk))
+        if known is None or known[1] != share:
+            known = self._grids[id(chunk)] = (chunk, share, ChunkGrid(chunk, share))
+        return known[2]
+
+    def _parametric_map(self) -> Any:
+        """Baked when first asked for. Raises InputError where the mesh has no UV map that serves."""
+        from .parametric_map import bake_parametric
+
+        if self._parametric is None:
+            self._parametric = bake_parametric(self._mesh, self._instance, self.world_to_map)
+        return self._parametric
+
+
+def _bounding_frame(facts: MeshFacts, instance: InstanceArrays) -> tuple[Float64Array, float]:
+    """World to a frame about the middle of an instance's box, and the box's half diagonal, metres."""
+    rotation, _ = polar(instance.matrix[:3, :3])
+    low, high = (np.asarray(end, np.float64) for end in facts.box)
+    center = instance.matrix[:3, :3] @ (0.5 * (low + high)) + instance.matrix[:3, 3]
+    world_to_map = np.eye(4)
+    world_to_map[:3, :3] = rotation.T
+    world_to_map[:3, 3] = -rotation.T @ center
+    corners = (np.where(CORNERS, high, low) - 0.5 * (low + high)) @ instance.matrix[:3, :3].T
+    return world_to_map, float(np.linalg.norm(corners, axis=1).max())
 
 
 def _moved_map(world_to_map: Float64Array, before: InstanceArrays, after: InstanceArrays) -> Float64Array | None:

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The vertex solve: a compute shader finds the reflection point of every position of a geometry.
 
-One shader file per method (`gpu_shaders/<method>.comp.glsl`) over `solver.glsl`; the float64 reference of each is in
-`optics/<method>.py`.
+One shader file per method (`gpu_shaders/<method>.comp.glsl`) over `solver.glsl`; what of the reflector it reads is
+named in the catalogue and bound from here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -17,21 +17,63 @@ import gpu
 import numpy as np
 
 from ...gpu_shaders.loader import load
-from ..optics import secant_star, status
+from ..optics import status
+from ..optics.catalogue import METHODS
+from ..optics.secant_star import NEWTON_STEPS
 from ..scene.arrays import Float64Array
 from ..scene.view import View
+from .chunk import Batches, Chunk
 from .gpu_objects import dispatch, empty_record_texture, read_records, uniform_block
 
 GROUP = 64
+SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
+    "radial": (("FLOAT_CUBE", "radial"),),
+    "parametric": (
+        ("FLOAT_2D", "surface_point"),
+        ("FLOAT_2D", "surface_du"),
+        ("FLOAT_2D", "surface_dv"),
+        ("FLOAT_CUBE", "uv_of_direction"),
+    ),
+    "screen": (("FLOAT_2D", "screen_position"), ("FLOAT_2D", "screen_normal"), ("FLOAT_2D", "previous_points")),
+    "plane": (),
+}
+"""What a method's `maps` are to its shader: kind and name of each sampler, beside `positions`"""
 _BLOCK = np.dtype(
     [
         ("world_to_map", "f4", (4, 4)),
         ("map_to_world", "f4", (4, 4)),
+        ("map_to_search", "f4", (4, 4)),
         ("eye", "f4", 4),
         ("counts", "i4", 4),
         ("screen", "f4", 4),
+        ("plane", "f4", 4),
+        ("start", "f4", 4),
     ]
 )
+_TYPEDEF = (
+    "struct Solver { mat4 world_to_map; mat4 map_to_world; mat4 map_to_search; vec4 eye; ivec4 counts; vec4 screen; "
+    "vec4 plane; vec4 start; };"
+)
+
+
+@dataclass(frozen=True)
+class Reflector:
+    """What a solve knows of one reflector. Map frame: `world_to_map`'s, metres."""
+
+    world_to_map: Float64Array
+    """(4, 4) rigid"""
+    bound: float
+    """No point of it is farther from the origin of the map frame, metres"""
+    textures: Mapping[str, Any] = field(default_factory=dict)
+    """By the sampler names of the method's maps"""
+    side: float = 1.0
+    """1: it reflects on its outer side, seen from the star centre; -1: on its inner side"""
+    plane: Sequence[float] = (0.0, 0.0, 1.0, 0.0)
+    """Unit normal n and offset d in the map frame, n . p = d"""
+    map_to_search: Float64Array = field(default_factory=lambda: np.eye(4))
+    """(4, 4) homogeneous point in the map frame to texels of the screen maps"""
+    start: Sequence[float] = (0.0, 0.0)
+    """Texel where a search on the screen maps begins"""
 
 
 @dataclass(frozen=True)
@@ -57,6 +99,15 @@ class VertexSolution:
             target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
 
+@dataclass(frozen=True)
+class SolvedChunk:
+    """A part of a mirror's scenery with its reflection points."""
+
+    chunk: Chunk
+    batches: Batches
+    solution: VertexSolution
+
+
 def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
     """Counts and iterations over all solutions as `report.json` has them; waits for the GPU."""
     parts = [solution.read() for solution in solutions]
@@ -80,27 +131,29 @@ def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
 def solve_vertices(
     method: str,
     view: View,
-    world_to_map: Float64Array,
-    radial: Any,
-    bound: float,
+    reflector: Reflector,
     positions: Any,
     count: int,
-    search_steps: int = secant_star.SEARCH_STEPS,
-    newton_steps: int = secant_star.NEWTON_STEPS,
+    steps: int = 0,
     tolerance: float = 0.05,
+    previous: VertexSolution | None = None,
 ) -> VertexSolution:
-    """Solve `count` records of the `positions` texture against the radial cube map `radial`.
+    """Solve `count` records of the `positions` texture with a method that has a compute shader of its own.
 
-    `world_to_map` (4, 4) is rigid, `bound` the largest radius in metres, `tolerance` in pixels of `view`.
+    `steps` of the search, 0 for the method's own number; `tolerance` in pixels of `view`; `previous` is the solution of
+    the same positions in the frame before, for methods that start from it.
     """
-    map_to_world = np.linalg.inv(world_to_map)
-    eye = world_to_map @ view.eye
+    world_to_map = reflector.world_to_map
+    chosen = METHODS[method]
     block = np.zeros(1, _BLOCK)
     block["world_to_map"] = world_to_map.T
-    block["map_to_world"] = map_to_world.T
-    block["eye"] = eye
-    block["counts"] = (count, search_steps, newton_steps, 0)
-    block["screen"] = (view.focal_pixels, tolerance, bound, 0.0)
+    block["map_to_world"] = np.linalg.inv(world_to_map).T
+    block["map_to_search"] = reflector.map_to_search.T
+    block["eye"] = world_to_map @ view.eye
+    block["counts"] = (count, steps or chosen.steps, NEWTON_STEPS, previous is not None)
+    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
+    block["plane"] = reflector.plane
+    block["start"][0, :2] = reflector.start
     solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
     # Bound by reference only: it has to outlive the dispatch.
     uniforms = uniform_block(block)
@@ -108,20 +161,29 @@ def solve_vertices(
     shader.bind()
     shader.uniform_block("solver", uniforms)
     shader.uniform_sampler("positions", positions)
-    shader.uniform_sampler("radial", radial)
+    for _, name in _samplers(method):
+        texture = reflector.textures.get(name)
+        if name == "previous_points":
+            texture = positions if previous is None else previous.reflection_points
+        shader.uniform_sampler(name, texture)
     shader.image("reflection_points", solution.reflection_points)
     shader.image("virtual_positions", solution.virtual_positions)
     dispatch(shader, count, GROUP)
     return solution
 
 
+def _samplers(method: str) -> list[tuple[str, str]]:
+    return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
+
+
 @cache
 def _solver_shader(method: str) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source("struct Solver { mat4 world_to_map; mat4 map_to_world; vec4 eye; ivec4 counts; vec4 screen; };")
+    info.typedef_source(_TYPEDEF)
     info.uniform_buf(0, "Solver", "solver")
     info.sampler(0, "FLOAT_2D", "positions")
-    info.sampler(1, "FLOAT_CUBE", "radial")
+    for slot, (kind, name) in enumerate(_samplers(method), 1):
+        info.sampler(slot, kind, name)
     info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
     info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
     info.local_group_size(GROUP, 1)

@@ -18,7 +18,7 @@ from ...gpu_shaders.loader import load
 from .chunk import Batches, Chunk
 from .gpu_objects import drawing_state, scissored
 from .materials import Materials
-from .mirror import SolvedChunk
+from .solve import SolvedChunk
 from .view_block import TYPEDEF
 
 

@@ -11,7 +11,7 @@ from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_direct
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
-from curvrefl.curvrefl_addon.renderer.solve import solve_vertices, statistics
+from curvrefl.curvrefl_addon.renderer.solve import Reflector, solve_vertices, statistics
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -48,9 +48,8 @@ def test_shader_follows_the_reference(name: str, orthographic: bool) -> None:
     world = (vertices @ turn + place).astype(np.float32)
 
     positions = record_texture(np.column_stack([world, np.ones(len(world))]))
-    solution = solve_vertices(
-        "secant_star", view, world_to_map, cube_texture(faces), surface.bound, positions, len(world)
-    )
+    reflector = Reflector(world_to_map, surface.bound, {"radial": cube_texture(faces)})
+    solution = solve_vertices("secant_star", view, reflector, positions, len(world))
     points, code, iterations, virtual = solution.read()
 
     eye = world_to_map @ view.eye
@@ -79,9 +78,7 @@ def test_broken_vertices_are_marked() -> None:
     solution = solve_vertices(
         "secant_star",
         view,
-        np.eye(4),
-        cube_texture(faces),
-        1.0,
+        Reflector(np.eye(4), 1.0, {"radial": cube_texture(faces)}),
         record_texture(np.column_stack([places, np.ones(4)])),
         4,
     )
@@ -91,12 +88,10 @@ def test_broken_vertices_are_marked() -> None:
 
 
 def test_same_input_same_bits() -> None:
-    faces = cube_texture(radial_map(Bumpy(0.15)))
+    reflector = Reflector(np.eye(4), 1.15, {"radial": cube_texture(radial_map(Bumpy(0.15)))})
     vertices = vertices_around(Bumpy(0.15), 3000)
     positions = record_texture(np.column_stack([vertices, np.ones(len(vertices))]))
     view = look_at(np.array([0.0, -4.0, 1.0]), np.zeros(3), 320, 240, np.radians(40))
-    first, second = (
-        solve_vertices("secant_star", view, np.eye(4), faces, 1.15, positions, len(vertices)).read() for _ in range(2)
-    )
+    first, second = (solve_vertices("secant_star", view, reflector, positions, len(vertices)).read() for _ in range(2))
     for one, other in zip(first, second, strict=True):
         assert np.array_equal(one, other)

@@ -43,7 +43,7 @@ class Session:
 
     def mirrors(self) -> list[str]:
         renderer = self.draw()
-        return [] if renderer is None else sorted(mirror.map.object_name for mirror in renderer.mirrors)
+        return [] if renderer is None else sorted(mirror.object_name for mirror in renderer.mirrors)
 
 
 @pytest.fixture
@@ -107,7 +107,7 @@ def test_what_moves_a_mirror_moves_its_map(session: Session) -> None:
     holder.location.z = 3.0
     again = session.draw()
     assert again is renderer
-    np.testing.assert_allclose(renderer.mirrors[0].map.center, [0.0, 0.0, 3.0], atol=1e-6)
+    np.testing.assert_allclose(renderer.mirrors[0].center, [0.0, 0.0, 3.0], atol=1e-6)
     assert session.scene.counters["maps baked"] == 1
     bpy.data.objects["Mirror"].scale.x = 2.0
     session.draw()

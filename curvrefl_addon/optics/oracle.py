@@ -1,0 +1,317 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All reflection points of vertices on a star-shaped surface, in float64: what every method is judged by.
+
+The gradient of the path length is bracketed on a dense grid of directions: a node whose bisector is closer to the
+normal than those of its neighbours starts a Newton search for a zero of the gradient, of any kind; so do a few
+directions between eye and vertex, for vertices in contact whose reflection hides between nodes. What converges, lies
+on the right side and is no copy is a reflection point. Two images closer together than a cell of the grid may be
+found as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cube_map import nearest_texel, texel_directions
+from .fermat import SurfaceSample, path_gradient, sample, towards_eye
+from .newton import guess, tangent_frame
+from .radial_surfaces import Float64Array, RadialSurface, unit
+
+MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
+"""Kinds of stationary points of the path length"""
+
+BLOCK = 1024
+"""Vertices that are bracketed at a time"""
+MOST_BRACKETS = 12
+"""Nodes of the grid from which one vertex's searches start"""
+FACING = -0.15
+"""Cosine: nodes whose normal turns farther from eye or vertex bracket nothing"""
+LARGEST_ERROR = 0.3
+"""(1 - B . N) / 2 of a node that brackets"""
+STEPS = 40
+LONGEST_STEP = 0.2
+"""Radians"""
+TRIALS = 8
+CONVERGED = 1e-9
+"""Radians that the last Newton step may move"""
+SAME = 1e-6
+"""Radians between two ends that count as one"""
+MARCH_STEPS = 96
+
+
+@dataclass(frozen=True)
+class ReflectionPoints:
+    """The k reflection points of n vertices, sorted by vertex and then by path length."""
+
+    vertex: NDArray[np.int64]
+    """(k,) index of the vertex"""
+    u: Float64Array
+    """(k, 3) direction from the star centre"""
+    point: Float64Array
+    """(k, 3) P"""
+    length: Float64Array
+    """(k,) |EP| + |PV|; for an eye at infinity |PV| minus the way towards the eye"""
+    signature: NDArray[np.int64]
+    """(k,) MINIMUM, SADDLE or MAXIMUM of the path length"""
+    visible: NDArray[np.bool_]
+    """(k,) whether no other part of the surface lies between P and eye or vertex"""
+
+    def counts(self, vertices: int) -> NDArray[np.int64]:
+        """(vertices,) how many visible ones each vertex has."""
+        return np.bincount(self.vertex[self.visible], minlength=vertices)
+
+    def nearest_to(self, points: Float64Array) -> Float64Array:
+        """(n, 3) per vertex the visible reflection point nearest to `points` (n, 3); NaN where there is none."""
+        result = np.full(points.shape, np.nan)
+        least = np.full(len(points), np.inf)
+        for vertex, point in self._by_rank():
+            distance = np.linalg.norm(points[vertex] - point, axis=1)
+            better = distance < least[vertex]
+            least[vertex[better]] = distance[better]
+            result[vertex[better]] = point[better]
+        return result
+
+    def first(self, vertices: int) -> Float64Array:
+        """(vertices, 3) per vertex the visible one of the shortest path; NaN where there is none."""
+        result = np.full((vertices, 3), np.nan)
+        for vertex, point in self._by_rank():
+            empty = np.isnan(result[vertex, 0])
+            result[vertex[empty]] = point[empty]
+        return result
+
+    def _by_rank(self) -> Iterator[tuple[NDArray[np.int64], Float64Array]]:
+        """First points of all vertices, then second ones, ..."""
+        seen, point = self.vertex[self.visible], self.point[self.visible]
+        rank = np.arange(len(seen)) - np.searchsorted(seen, seen)
+        for number in range(int(rank.max(initial=-1)) + 1):
+            yield seen[rank == number], point[rank == number]
+
+
+class Oracle:
+    """The surface, and its samples on the grid of directions."""
+
+    def __init__(self, surface: RadialSurface, resolution: int = 16, side: float = 1.0) -> None:
+        """`resolution` nodes along an edge of each of six faces; `side` -1 for a hollow mirror."""
+        self.surface = surface
+        self.side = side
+        u = texel_directions(resolution).reshape(-1, 3)
+        self._nodes = u
+        self._at = sample(surface, u)
+        self._neighbours = _neighbours(u, resolution)
+
+    def reflection_points(self, eye: Float64Array, vertices: Float64Array) -> ReflectionPoints:
+        """All of vertices (n, 3) for the homogeneous eye (4,), or for eyes (n, 4) one per vertex.
+
+        Everything relative to the star centre. A vertex that is not finite has none.
+        """
+        eyes = np.broadcast_to(eye, (len(vertices), 4))
+        rows, u = self._starts(eyes, vertices)
+        u, converged = self._polish(eyes[rows], vertices[rows], u)
+        rows, u = rows[converged], u[converged]
+        at = sample(self.surface, u)
+        kept = self._is_reflection(eyes[rows], vertices[rows], at)
+        rows, u = _without_copies(rows[kept], u[kept])
+        at = sample(self.surface, u)
+        here_eyes, here = eyes[rows], vertices[rows]
+        length = np.linalg.norm(here - at.position, axis=1) + _to_eye(here_eyes, at.position)
+        order = np.lexsort((length, rows))
+        rows, u, length, here_eyes, here = rows[order], u[order], length[order], here_eyes[order], here[order]
+        at = sample(self.surface, u)
+        return ReflectionPoints(
+            rows,
+            u,
+            at.position,
+            length,
+            self._signature(here_eyes, here, u),
+            self._is_free(at, here, np.ones(len(here))) & self._is_free(at, here_eyes[:, :3], here_eyes[:, 3]),
+        )
+
+    def _starts(self, eyes: Float64Array, vertices: Float64Array) -> tuple[NDArray[np.int64], Float64Array]:
+        """Directions (m, 3) to search from, and the vertex of each (m,)."""
+        finite = np.flatnonzero(np.isfinite(vertices).all(axis=1))
+        rows, directions = [], []
+        for first in range(0, len(finite), BLOCK):
+            block = finite[first : first + BLOCK]
+            error = self._node_errors(eyes[block], vertices[block])
+            smallest = np.ones(error.shape, bool)
+            for neighbour in self._neighbours.T:
+                smallest &= error <= error[:, neighbour]
+            smallest &= error < LARGEST_ERROR
+            found, node = np.nonzero(smallest)
+            rank = np.arange(len(found)) - np.searchsorted(found, found)
+            few = rank < MOST_BRACKETS
+            rows.append(block[found[few]])
+            directions.append(self._nodes[node[few]])
+        for start in self._between(eyes[finite], vertices[finite]):
+            rows.append(finite)
+            directions.append(start)
+        return np.concatenate([np.zeros(0, np.int64), *rows]), np.concatenate([np.zeros((0, 3)), *directions])
+
+    def _between(self, eyes: Float64Array, vertices: Float64Array) -> list[Float64Array]:
+        """For vertices and eyes in contact: between their heights over the surface, and next to either."""
+        if len(vertices) == 0:
+            return []
+        to_vertex, to_eye = unit(vertices), unit(eyes[:, :3])
+        height = np.linalg.norm(vertices, axis=1) - self.surface.radius(to_vertex)[0]
+        eye_height = np.linalg.norm(eyes[:, :3], axis=1) - self.surface.radius(to_eye)[0]
+        share = np.where(
+            eyes[:, 3] > 0.0, eye_height / np.where(height + eye_height == 0.0, 1.0, height + eye_height), 1.0
+        )
+        share = np.clip(share, 0.0, 1.0)[:, None]
+        by_height = unit((1.0 - share) * to_eye + share * to_vertex + 1e-9)
+        return [by_height, guess(eyes, vertices), self.side * unit(to_eye + to_vertex + 1e-9)]
+
+    def _node_errors(self, eyes: Float64Array, vertices: Float64Array) -> Float64Array:
+        """(n, nodes) (1 - B . N) / 2; 1 where the node cannot reflect. Products of matrices: this is the inner loop."""
+        at = self._at
+        normal = self.side * at.normal
+        along_normal = np.einsum("ij,ij->i", normal, at.position)
+        squared = np.einsum("ij,ij->i", at.position, at.position)
+
+        def towards(points: Float64Array, w: Float64Array) -> tuple[Float64Array, Float64Array]:
+            """Distance (or 1) and cosine to the normal, (n, nodes)."""
+            distance = (points**2).sum(axis=1)[:, None] - 2.0 * (w[:, None] * points) @ at.position.T
+            distance = np.where(w[:, None] > 0.0, np.sqrt(np.maximum(distance + squared, 1e-30)), 1.0)
+            return distance, (points @ normal.T - w[:, None] * along_normal) / distance
+
+        to_vertex, vertex_cosine = towards(vertices, np.ones(len(vertices)))
+        to_eye, eye_cosine = towards(eyes[:, :3], eyes[:, 3])
+        # (E - P w) . (V - P)
+        between = np.einsum("ij,ij->i", eyes[:, :3], vertices)[:, None] - eyes[:, :3] @ at.position.T
+        between += eyes[:, 3:] * (squared - vertices @ at.position.T)
+        bisector = np.sqrt(np.maximum(2.0 + 2.0 * between / (to_vertex * to_eye), 1e-12))
+        error = 0.5 - 0.5 * (vertex_cosine + eye_cosine) / bisector
+        return np.where((vertex_cosine > FACING) & (eye_cosine > FACING), error, 1.0)
+
+    def _polish(
+        self, eyes: Float64Array, vertices: Float64Array, start: Float64Array
+    ) -> tuple[Float64Array, NDArray[np.bool_]]:
+        """Newton on the gradient from directions (m, 3), damped so that it never grows."""
+        u = start.copy()
+        converged = np.zeros(len(u), bool)
+        active = np.arange(len(u))
+        for _ in range(STEPS):
+            if len(active) == 0:
+                break
+            here, eye, vertex = u[active], eyes[active], vertices[active]
+            g, first, second, jacobian = self._derivatives(eye, vertex, here)
+            step = _solved(jacobian, np.column_stack([_dot(g, first), _dot(g, second)]))
+            size = np.linalg.norm(step, axis=1)
+            converged[active[size < CONVERGED]] = True
+            step *= np.minimum(1.0, LONGEST_STEP / np.maximum(size, 1e-300))[:, None]
+            move = step[:, :1] * first + step[:, 1:] * second
+            length = np.linalg.norm(g, axis=1)
+            factor = np.ones(len(active))
+            accepted = np.zeros(len(active), bool)
+            for _ in range(TRIALS):
+                open_rows = np.flatnonzero(~accepted)
+                trial = unit(here[open_rows] + factor[open_rows, None] * move[open_rows])
+                there = path_gradient(eye[open_rows], vertex[open_rows], trial, sample(self.surface, trial))
+                better = np.linalg.norm(there, axis=1) < length[open_rows]
+                u[active[open_rows[better]]] = trial[better]
+                accepted[open_rows[better]] = True
+                factor[open_rows] *= 0.4
+                if accepted.all():
+                    break
+            active = active[accepted & (size >= CONVERGED)]
+        return u, converged
+
+    def _derivatives(
+        self, eye: Float64Array, vertex: Float64Array, u: Float64Array
+    ) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
+        """Gradient (m, 3), tangent frame, and the gradient's derivative in that frame (m, 2, 2) by differences."""
+        at = sample(self.surface, u)
+        g = path_gradient(eye, vertex, u, at)
+        first, second = tangent_frame(u)
+        nearest = np.linalg.norm(vertex - at.position, axis=1)
+        to_eye = np.linalg.norm(eye[:, :3] - at.position, axis=1)
+        nearest = np.where(eye[:, 3] > 0.0, np.minimum(nearest, to_eye), nearest)
+        delta = (1e-5 * np.minimum(1.0, nearest / at.radius) + 1e-12)[:, None]
+        jacobian = np.empty((len(u), 2, 2))
+        for column, direction in enumerate((first, second)):
+            ends = [unit(u + sign * delta * direction) for sign in (1.0, -1.0)]
+            up, down = (path_gradient(eye, vertex, end, sample(self.surface, end)) for end in ends)
+            change = (up - down) / (2.0 * delta)
+            jacobian[:, 0, column], jacobian[:, 1, column] = _dot(change, first), _dot(change, second)
+        return g, first, second, jacobian
+
+    def _is_reflection(self, eyes: Float64Array, vertices: Float64Array, at: SurfaceSample) -> NDArray[np.bool_]:
+        normal = self.side * at.normal
+        return (_dot(normal, towards_eye(eyes, at.position)) > 0.0) & (_dot(normal, vertices - at.position) > 0.0)
+
+    def _signature(self, eyes: Float64Array, vertices: Float64Array, u: Float64Array) -> NDArray[np.int64]:
+        *_, jacobian = self._derivatives(eyes, vertices, u)
+        determinant = jacobian[:, 0, 0] * jacobian[:, 1, 1] - jacobian[:, 0, 1] * jacobian[:, 1, 0]
+        trace = jacobian[:, 0, 0] + jacobian[:, 1, 1]
+        return np.where(determinant < 0.0, SADDLE, np.where(trace > 0.0, MINIMUM, MAXIMUM))
+
+    def _is_free(self, at: SurfaceSample, ends: Float64Array, w: Float64Array) -> NDArray[np.bool_]:
+        """(k,) whether the way from P to `ends` (k, 3), directions where w is 0, stays on the reflecting side.
+
+        Marched in steps that grow from P; a fold thinner than a step is not found. A hollow mirror's other parts lie
+        past its opening, which a radial surface does not know of: there only the side tests count.
+        """
+        free = np.ones(len(ends), bool)
+        if self.side < 0.0:
+            return free
+        way = ends - w[:, None] * at.position
+        way = np.where(w[:, None] > 0.0, way, 4.0 * self.surface.bound * ends)
+        for share in np.linspace(0.0, 1.0, MARCH_STEPS + 1)[1:-1] ** 2:
+            points = at.position + share * way
+            distance = np.linalg.norm(points, axis=1)
+            near = np.flatnonzero(free & (distance < self.surface.bound))
+            if len(near):
+                radius = self.surface.radius(unit(points[near]))[0]
+                free[near] = distance[near] > (1.0 - 1e-9) * radius
+        return free
+
+
+def _to_eye(eyes: Float64Array, points: Float64Array) -> Float64Array:
+    distance = np.linalg.norm(eyes[:, :3] - points, axis=1)
+    return np.where(eyes[:, 3] > 0.0, distance, -_dot(eyes[:, :3], points))
+
+
+def _neighbours(u: Float64Array, resolution: int) -> NDArray[np.int64]:
+    """(nodes, 8) the nodes around each: the texels where one would be on an endless face."""
+    first, second = tangent_frame(u)
+    spacing = 2.0 / resolution
+    # The largest coordinate is the face's axis; a step of a texel there is `spacing` over the distance to the face.
+    scale = spacing * np.abs(u).max(axis=1, keepdims=True)
+    around = []
+    for k in range(8):
+        angle = 0.25 * np.pi * k
+        moved = unit(u + scale * (1.0 if k % 2 == 0 else 1.3) * (np.cos(angle) * first + np.sin(angle) * second))
+        face, row, column = nearest_texel(resolution, moved)
+        around.append((face * resolution + row) * resolution + column)
+    return np.stack(around, axis=1)
+
+
+def _without_copies(rows: NDArray[np.int64], u: Float64Array) -> tuple[NDArray[np.int64], Float64Array]:
+    """Ends (m, 3) of which no two of the same vertex are the same."""
+    order = np.argsort(rows, kind="stable")
+    rows, u = rows[order], u[order]
+    rank = np.arange(len(rows)) - np.searchsorted(rows, rows)
+    kept = np.ones(len(rows), bool)
+    for back in range(1, int(rank.max(initial=0)) + 1):
+        later = np.flatnonzero(rank >= back)
+        same = np.linalg.norm(u[later] - u[later - back], axis=1) < SAME
+        kept[later[same & kept[later - back]]] = False
+    return rows[kept], u[kept]
+
+
+def _solved(jacobian: Float64Array, g: Float64Array) -> Float64Array:
+    """Newton steps (m, 2); along the gradient where the derivative is singular."""
+    determinant = jacobian[:, 0, 0] * jacobian[:, 1, 1] - jacobian[:, 0, 1] * jacobian[:, 1, 0]
+    safe = np.where(determinant == 0.0, 1.0, determinant)
+    x = -(jacobian[:, 1, 1] * g[:, 0] - jacobian[:, 0, 1] * g[:, 1]) / safe
+    y = -(jacobian[:, 0, 0] * g[:, 1] - jacobian[:, 1, 0] * g[:, 0]) / safe
+    return np.where((determinant == 0.0)[:, None], -g, np.column_stack([x, y]))
+
+
+def _dot(p: Float64Array, q: Float64Array) -> Float64Array:
+    return np.einsum("ij,ij->i", p, q)
