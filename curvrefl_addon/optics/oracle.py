@@ -4,14 +4,14 @@
 
 The gradient of the path length is bracketed on a dense grid of directions: a node whose bisector is closer to the
 normal than those of its neighbours starts a Newton search for a zero of the gradient, of any kind; so do a few
-directions between eye and vertex, for vertices in contact whose reflection hides between nodes. What converges, lies
-on the right side and is no copy is a reflection point. Two images closer together than a cell of the grid may be
-found as one.
+directions between eye and vertex, for vertices in contact whose reflection hides between nodes, and directions on both
+sides of a point that is nearly degenerate, for images about to merge at a caustic. What converges, lies on the right
+side and is no copy is a reflection point.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +41,11 @@ CONVERGED = 1e-9
 """Radians that the last Newton step may move"""
 SAME = 1e-6
 """Radians between two ends that count as one"""
+DEGENERATE = 0.35
+"""Ratio of the eigenvalues of the gradient's derivative under which another image may be close"""
+BESIDE = (0.02, 0.08, 0.25)
+"""Radians beside such a point where searches start again"""
+ROUNDS_BESIDE = 3
 MARCH_STEPS = 96
 
 
@@ -95,10 +100,19 @@ class ReflectionPoints:
 class Oracle:
     """The surface, and its samples on the grid of directions."""
 
-    def __init__(self, surface: RadialSurface, resolution: int = 16, side: float = 1.0) -> None:
-        """`resolution` nodes along an edge of each of six faces; `side` -1 for a hollow mirror."""
+    def __init__(
+        self,
+        surface: RadialSurface,
+        resolution: int = 16,
+        side: float = 1.0,
+        cover: Callable[[Float64Array], NDArray[np.bool_]] | None = None,
+    ) -> None:
+        """`resolution` nodes along an edge of each of six faces; `side` -1 for a hollow mirror; `cover` says which
+        directions (n, 3) of an open one meet it.
+        """
         self.surface = surface
         self.side = side
+        self.cover = cover
         u = texel_directions(resolution).reshape(-1, 3)
         self._nodes = u
         self._at = sample(surface, u)
@@ -112,10 +126,17 @@ class Oracle:
         eyes = np.broadcast_to(eye, (len(vertices), 4))
         rows, u = self._starts(eyes, vertices)
         u, converged = self._polish(eyes[rows], vertices[rows], u)
-        rows, u = rows[converged], u[converged]
-        at = sample(self.surface, u)
-        kept = self._is_reflection(eyes[rows], vertices[rows], at)
-        rows, u = _without_copies(rows[kept], u[kept])
+        rows, u = _without_copies(rows[converged], u[converged])
+        for _ in range(ROUNDS_BESIDE):
+            more_rows, more = self._beside(eyes, vertices, rows, u)
+            more, converged = self._polish(eyes[more_rows], vertices[more_rows], more)
+            known = len(u)
+            rows = np.concatenate([rows, more_rows[converged]])
+            rows, u = _without_copies(rows, np.concatenate([u, more[converged]]))
+            if len(u) == known:
+                break
+        kept = self._is_reflection(eyes[rows], vertices[rows], sample(self.surface, u))
+        rows, u = rows[kept], u[kept]
         at = sample(self.surface, u)
         here_eyes, here = eyes[rows], vertices[rows]
         length = np.linalg.norm(here - at.position, axis=1) + _to_eye(here_eyes, at.position)
@@ -128,7 +149,8 @@ class Oracle:
             at.position,
             length,
             self._signature(here_eyes, here, u),
-            self._is_free(at, here, np.ones(len(here))) & self._is_free(at, here_eyes[:, :3], here_eyes[:, 3]),
+            self.is_free(at.position, np.column_stack([here, np.ones(len(here))]))
+            & self.is_free(at.position, here_eyes),
         )
 
     def _starts(self, eyes: Float64Array, vertices: Float64Array) -> tuple[NDArray[np.int64], Float64Array]:
@@ -165,6 +187,23 @@ class Oracle:
         share = np.clip(share, 0.0, 1.0)[:, None]
         by_height = unit((1.0 - share) * to_eye + share * to_vertex + 1e-9)
         return [by_height, guess(eyes, vertices), self.side * unit(to_eye + to_vertex + 1e-9)]
+
+    def _beside(
+        self, eyes: Float64Array, vertices: Float64Array, rows: NDArray[np.int64], u: Float64Array
+    ) -> tuple[NDArray[np.int64], Float64Array]:
+        """Starts on both sides of ends that are nearly degenerate: images that are about to merge lie along the weaker
+        direction, closer than a cell of the grid.
+        """
+        _, first, second, jacobian = self._derivatives(eyes[rows], vertices[rows], u)
+        values, axes = np.linalg.eigh(0.5 * (jacobian + jacobian.transpose(0, 2, 1)))
+        weaker = np.abs(values).argmin(axis=1)
+        ratio = np.abs(values).min(axis=1) / np.maximum(np.abs(values).max(axis=1), 1e-300)
+        near = np.flatnonzero(ratio < DEGENERATE)
+        axis = axes[near, :, weaker[near]]
+        direction = axis[:, :1] * first[near] + axis[:, 1:] * second[near]
+        offsets = [sign * angle for angle in BESIDE for sign in (-1.0, 1.0)]
+        starts = np.concatenate([np.zeros((0, 3)), *(unit(u[near] + offset * direction) for offset in offsets)])
+        return np.tile(rows[near], len(offsets)), starts
 
     def _node_errors(self, eyes: Float64Array, vertices: Float64Array) -> Float64Array:
         """(n, nodes) (1 - B . N) / 2; 1 where the node cannot reflect. Products of matrices: this is the inner loop."""
@@ -250,24 +289,32 @@ class Oracle:
         trace = jacobian[:, 0, 0] + jacobian[:, 1, 1]
         return np.where(determinant < 0.0, SADDLE, np.where(trace > 0.0, MINIMUM, MAXIMUM))
 
-    def _is_free(self, at: SurfaceSample, ends: Float64Array, w: Float64Array) -> NDArray[np.bool_]:
-        """(k,) whether the way from P to `ends` (k, 3), directions where w is 0, stays on the reflecting side.
+    def is_free(self, points: Float64Array, ends: Float64Array) -> NDArray[np.bool_]:
+        """(k,) whether the way from points (k, 3) of the surface to homogeneous ends (k, 4) meets it nowhere else.
 
-        Marched in steps that grow from P; a fold thinner than a step is not found. A hollow mirror's other parts lie
-        past its opening, which a radial surface does not know of: there only the side tests count.
+        Marched in steps that grow from P; a fold thinner than a step is not found.
         """
-        free = np.ones(len(ends), bool)
-        if self.side < 0.0:
-            return free
-        way = ends - w[:, None] * at.position
-        way = np.where(w[:, None] > 0.0, way, 4.0 * self.surface.bound * ends)
-        for share in np.linspace(0.0, 1.0, MARCH_STEPS + 1)[1:-1] ** 2:
-            points = at.position + share * way
-            distance = np.linalg.norm(points, axis=1)
-            near = np.flatnonzero(free & (distance < self.surface.bound))
-            if len(near):
-                radius = self.surface.radius(unit(points[near]))[0]
-                free[near] = distance[near] > (1.0 - 1e-9) * radius
+        w = ends[:, 3:]
+        way = np.where(w > 0.0, ends[:, :3] - w * points, 4.0 * self.surface.bound * ends[:, :3])
+        # A convex closed shape is never in the way; a hollow one is left through its opening.
+        inside = np.full(len(points), self.side < 0.0)
+        free = np.ones(len(points), bool)
+        for share in np.linspace(0.0, 1.0, MARCH_STEPS + 1)[1:] ** 2:
+            rows = np.flatnonzero(free)
+            here = points[rows] + share * way[rows]
+            distance = np.linalg.norm(here, axis=1)
+            now = np.zeros(len(rows), bool)
+            near = np.flatnonzero(distance < self.surface.bound)
+            u = unit(here[near])
+            radius = self.surface.radius(u)[0] if len(near) else np.zeros(0)
+            # In doubt nothing is crossed: at P itself the way has not left the surface yet.
+            margin = np.where(inside[rows[near]], 1.0 + 1e-7, 1.0 - 1e-7)
+            now[near] = distance[near] < margin * radius
+            crossed = now != inside[rows]
+            if self.cover is not None and crossed.any():
+                crossed[crossed] = self.cover(unit(here[crossed]))
+            free[rows[crossed]] = False
+            inside[rows] = now
         return free
 
 

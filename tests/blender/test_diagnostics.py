@@ -31,7 +31,7 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     record_texture,
     texture_2d,
 )
-from curvrefl.curvrefl_addon.renderer.mirror import SolvedChunk
+from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk
 from curvrefl.curvrefl_addon.renderer.solve import VertexSolution, statistics
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.view_block import view_block

@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices around a reflector by construction: a reflection point first, then a vertex on the ray it reflects.
+
+So one right answer of every case is known without any search. Where a vertex has several images the others come from
+the oracle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .fermat import sample, towards_eye
+from .newton import tangent_frame
+from .oracle import Oracle
+from .pierce import pierce
+from .radial_surfaces import Float64Array, unit
+from .study_surfaces import Study
+
+REGIMES = (
+    "far",
+    "near",
+    "contact",
+    "grazing",
+    "silhouette",
+    "hidden",
+    "eye close",
+    "caustic",
+    "two or three images",
+    "axis, corner, pole",
+)
+MOST_TRIES = 40
+
+
+@dataclass(frozen=True)
+class Cases:
+    """n vertices of one regime; float64, relative to the star centre. May hold fewer than were asked for, or none."""
+
+    eye: Float64Array
+    """(4,) homogeneous"""
+    vertices: Float64Array
+    """(n, 3)"""
+    points: Float64Array
+    """(n, 3) the reflection point each was made from; NaN where it has none"""
+
+
+def make_cases(study: Study, regime: str, count: int, seed: int = 0) -> Cases:
+    """Up to `count` vertices of a regime; none where the reflector has none (a caustic before a convex mirror)."""
+    random = np.random.default_rng([seed, REGIMES.index(regime)])
+    eye = np.array([*study.eye, 1.0])
+    if regime == "eye close":
+        # Over the point of the surface that the usual eye looks at.
+        direction = unit(eye[None, :3])
+        if study.side > 0.0:
+            eye[:3] = (1.03 * study.surface.radius(direction)[0] * direction[0]).tolist()
+        else:
+            eye[:3] = -0.97 * study.surface.radius(-direction)[0] * direction[0]
+    if regime == "hidden":
+        return _hidden(study, eye, count, random)
+    if regime == "two or three images":
+        return _several(study, eye, count, random)
+    if regime == "caustic":
+        return _caustic(study, eye, count, random)
+    oracle = study.oracle()
+    vertices, points = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    found = 0
+    for _ in range(MOST_TRIES):
+        u = _special(random, count) if regime == "axis, corner, pole" else unit(random.normal(size=(4 * count, 3)))
+        point, ray, cosine = _rays(study, eye, u)
+        kept = cosine > 1e-4
+        distance = np.exp(random.uniform(np.log(0.1), np.log(3.0), len(u)))
+        if regime == "far":
+            distance = np.exp(random.uniform(np.log(10.0), np.log(100.0), len(u)))
+        elif regime == "contact":
+            # Down to a thousandth over the surface, along rays that leave it steeply or not.
+            height = np.exp(random.uniform(np.log(1e-3), np.log(2e-2), len(u)))
+            distance = height / np.maximum(cosine, 0.05)
+            kept &= cosine > 0.05
+        elif regime == "grazing":
+            kept &= (cosine > 0.02) & (cosine < 0.17)
+        elif regime == "silhouette":
+            kept &= cosine < 0.02
+        vertex = point + distance[:, None] * ray
+        vertex, point = _shown(study, oracle, eye, vertex[kept], point[kept])
+        vertices.append(vertex)
+        points.append(point)
+        found += len(vertex)
+        if found >= count:
+            break
+    return Cases(eye, np.concatenate(vertices)[:count], np.concatenate(points)[:count])
+
+
+def _rays(study: Study, eye: Float64Array, u: Float64Array) -> tuple[Float64Array, Float64Array, Float64Array]:
+    """Surface points (n, 3), reflected unit rays (n, 3) and cosines of incidence (n,)."""
+    at = sample(study.surface, u)
+    normal = study.side * at.normal
+    to_eye = towards_eye(eye, at.position)
+    cosine = np.einsum("ij,ij->i", normal, to_eye)
+    return at.position, 2.0 * cosine[:, None] * normal - to_eye, cosine
+
+
+def _special(random: np.random.Generator, count: int) -> Float64Array:
+    """Directions exactly at axes, edges and corners of the cube and at poles, many times over."""
+    grid = np.array(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3, indexing="ij")).reshape(3, -1).T
+    chosen = unit(grid[np.abs(grid).sum(axis=1) > 0.0])
+    return chosen[random.integers(len(chosen), size=4 * count)]
+
+
+def _shown(
+    study: Study, oracle: Oracle, eye: Float64Array, vertex: Float64Array, point: Float64Array
+) -> tuple[Float64Array, Float64Array]:
+    """Those vertices and points (n, 3) that are on the mirror, with free ways to eye and vertex."""
+    if study.cover is not None:
+        covered = study.cover(unit(point))
+        vertex, point = vertex[covered], point[covered]
+    for is_eye in (False, True):
+        end = np.tile(eye, (len(point), 1)) if is_eye else np.column_stack([vertex, np.ones(len(vertex))])
+        free = oracle.is_free(point, end)
+        vertex, point = vertex[free], point[free]
+    return vertex, point
+
+
+def _hidden(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
+    """Vertices that the reflector stands before, or that are inside it, and that have no reflection."""
+    u = unit(random.normal(size=(8 * count, 3)))
+    if study.cover is not None:
+        u = u[study.cover(u)]
+    vertices = u * (study.surface.radius(u)[0] * np.exp(random.uniform(0.01, 1.5, len(u))))[:, None]
+    if study.side > 0.0:
+        vertices = vertices[pierce(study.surface, eye, vertices)[0]]
+    vertices = vertices[: 2 * count]
+    none = study.oracle().reflection_points(eye, vertices).counts(len(vertices)) == 0
+    vertices = vertices[none][:count]
+    return Cases(eye, vertices, np.full(vertices.shape, np.nan))
+
+
+def _several(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
+    """Vertices that the oracle finds two or more visible images of."""
+    none = np.zeros((0, 3))
+    if not study.mixed:
+        return Cases(eye, none, none)
+    u = unit(random.normal(size=(8 * count, 3)))
+    point, ray, cosine = _rays(study, eye, u)
+    vertex = point + np.exp(random.uniform(np.log(0.3), np.log(10.0), len(u)))[:, None] * ray
+    kept = cosine > 1e-3
+    oracle = study.oracle()
+    vertex, point = _shown(study, oracle, eye, vertex[kept], point[kept])
+    several = oracle.reflection_points(eye, vertex).counts(len(vertex)) > 1
+    return Cases(eye, vertex[several][:count], point[several][:count])
+
+
+def _caustic(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
+    """Vertices within 5 percent of where neighbouring reflected rays cross, before a mirror hollow there."""
+    u = unit(random.normal(size=(16 * count, 3)))
+    point, ray, cosine = _rays(study, eye, u)
+    # Rays from the eye's neighbourhood of u: dP + t dR loses rank where the pencil focuses.
+    delta = 1e-5
+    frame = tangent_frame(u)
+    moved = [_rays(study, eye, unit(u + delta * direction)) for direction in frame]
+    across = tangent_frame(ray)
+    a = np.empty((len(u), 2, 2))
+    b = np.empty((len(u), 2, 2))
+    for column, (other_point, other_ray, _) in enumerate(moved):
+        for row, axis in enumerate(across):
+            a[:, row, column] = np.einsum("ij,ij->i", other_point - point, axis) / delta
+            b[:, row, column] = np.einsum("ij,ij->i", other_ray - ray, axis) / delta
+    # det(A + t B) = 0
+    first, last = np.linalg.det(a), np.linalg.det(b)
+    middle = a[:, 0, 0] * b[:, 1, 1] + a[:, 1, 1] * b[:, 0, 0] - a[:, 0, 1] * b[:, 1, 0] - a[:, 1, 0] * b[:, 0, 1]
+    root = np.sqrt(np.maximum(middle**2 - 4.0 * first * last, 0.0))
+    focal = (-middle + np.where(random.random(len(u)) < 0.5, 1.0, -1.0) * root) / np.where(
+        last == 0.0, 1e-30, 2.0 * last
+    )
+    vertex = point + (focal * random.uniform(0.95, 1.05, len(u)))[:, None] * ray
+    kept = (cosine > 1e-2) & (middle**2 >= 4.0 * first * last) & (focal > 1e-2) & (focal < 20.0)
+    vertex, point = _shown(study, study.oracle(), eye, vertex[kept], point[kept])
+    return Cases(eye, vertex[:count], point[:count])
