@@ -4,7 +4,7 @@
 // optics/bisector.py step for step.
 #include "bisector.glsl"
 #include "guess.glsl"
-#include "radial_map.glsl"
+#include "fermat.glsl"
 
 // The paper's threshold of the error function: 1e-4 radians.
 #define SMALLEST_ERROR 2.5e-9
@@ -76,9 +76,8 @@ void main()
   int iterations = 0;
   // Between eye and vertex, inside the region of interest of a convex reflector.
   vec3 u = guess_between(eye, vertex);
-  if (solver.screen.w < 0.0 && error_of(bisector_along(eye, vertex, -u, false)) < error_of(bisector_along(eye, vertex, u, false))) {
-    // A hollow mirror reflects on the far side of its centre what is before it.
-    u = -u;
+  if (solver.screen.w < 0.0) {
+    u = on_hollow_side(eye, vertex, u);
   }
   Bisector b = follow_field(eye, vertex, false, solver.counts.y, u, iterations);
   bool inverse = !is_in_front(vertex, b);

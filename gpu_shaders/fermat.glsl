@@ -10,10 +10,22 @@ vec3 path_gradient(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at)
   return -(along * at.gradient + at.radius * (h - along * u));
 }
 
-bool is_reflection_side(vec4 eye, vec3 vertex, SurfaceSample at)
+// `side` is -1 where the inner side reflects.
+bool is_reflection_side(vec4 eye, vec3 vertex, SurfaceSample at, float side)
 {
-  vec3 normal = surface_normal(at);
+  vec3 normal = side * surface_normal(at);
   return dot(normal, towards_eye(eye, at.position)) > 0.0 && dot(normal, vertex - at.position) > 0.0;
+}
+
+// The opposite of a direction where a hollow mirror reflects better there.
+vec3 on_hollow_side(vec4 eye, vec3 vertex, vec3 u)
+{
+  SurfaceSample ahead = sample_surface(u);
+  SurfaceSample behind = sample_surface(-u);
+  vec3 ahead_bisector = safe_unit(towards_eye(eye, ahead.position) + safe_unit(vertex - ahead.position));
+  vec3 behind_bisector = safe_unit(towards_eye(eye, behind.position) + safe_unit(vertex - behind.position));
+  bool turn = dot(behind_bisector, surface_normal(behind)) < dot(ahead_bisector, surface_normal(ahead));
+  return turn ? -u : u;
 }
 
 float leg_change(vec3 x, vec3 start, vec3 end)

@@ -7,13 +7,14 @@
 #define DIFFERENCE 1e-3
 #define SMALLEST_DIFFERENCE 1e-5
 #define FLATTEST 1e-5
-#define LONGEST_NEWTON_STEP 0.3
+#define LONGEST_NEWTON_STEP 0.5
 #define LONGEST_LAST_STEP 0.005
 #define TRIALS 6
 #define SHORTENING 0.35
 #define SUFFICIENT 1e-4
 #define ROUNDING 2e-7
 #define CONTRACTION 0.7
+#define SLACKENED 0.98
 
 vec3 gradient_difference(vec4 eye, vec3 vertex, vec3 u, vec3 direction, float delta, vec3 g)
 {
@@ -21,7 +22,7 @@ vec3 gradient_difference(vec4 eye, vec3 vertex, vec3 u, vec3 direction, float de
   return (path_gradient(eye, vertex, moved, sample_surface(moved)) - g) / delta;
 }
 
-vec3 newton_step(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 g, out bool regular)
+vec3 newton_step(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 g, bool any_kind, out bool regular)
 {
   vec3 first, second;
   tangent_frame(u, first, second);
@@ -41,12 +42,13 @@ vec3 newton_step(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 g, out bo
   float spread = length(vec2(0.5 * (hxx - hyy), hxy));
   float lowest = middle - spread;
   float highest = middle + spread;
-  float shift = max(0.0, max(abs(lowest), FLATTEST * abs(highest)) - lowest);
+  float shift = any_kind ? 0.0 : max(0.0, max(abs(lowest), FLATTEST * abs(highest)) - lowest);
   hxx += shift;
   hyy += shift;
   float determinant = hxx * hyy - hxy * hxy;
-  regular = shift == 0.0 && determinant > 0.0;
-  if (!(determinant > 0.0)) {
+  bool solvable = any_kind ? determinant != 0.0 : determinant > 0.0;
+  regular = shift == 0.0 && solvable;
+  if (!solvable) {
     return vec3(0.0);
   }
   vec2 s = -vec2(hyy * gx - hxy * gy, hxx * gy - hxy * gx) / determinant;
@@ -54,14 +56,16 @@ vec3 newton_step(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 g, out bo
   return s.x * first + s.y * second;
 }
 
-// Descends from u; returns whether it converged and adds its steps to `iterations`.
-bool minimise(vec4 eye, float focal, vec3 vertex, int steps, float tolerance, inout vec3 u, inout int iterations)
+// Descends from u; returns whether it converged and adds its steps to `iterations`. With `any_kind` to a zero of the
+// gradient that may be a maximum or a saddle.
+bool minimise(
+    vec4 eye, float focal, vec3 vertex, int steps, float tolerance, bool any_kind, inout vec3 u, inout int iterations)
 {
   SurfaceSample at = sample_surface(u);
   vec3 g = path_gradient(eye, vertex, u, at);
   for (int i = 0; i < steps; i++) {
     bool regular;
-    vec3 step_taken = newton_step(eye, vertex, u, at, g, regular);
+    vec3 step_taken = newton_step(eye, vertex, u, at, g, any_kind, regular);
     bool done = regular && length(step_taken) < LONGEST_LAST_STEP &&
                 length(in_pixels(eye, focal, at.position, at.radius * step_taken)) < tolerance;
     iterations++;
@@ -74,8 +78,9 @@ bool minimise(vec4 eye, float focal, vec3 vertex, int steps, float tolerance, in
       SurfaceSample there = sample_surface(trial);
       vec3 gradient_there = path_gradient(eye, vertex, trial, there);
       float change = path_change(eye, vertex, at.position, there.position);
-      accepted = change <= SUFFICIENT * factor * slope + ROUNDING * at.radius ||
-                 (regular && length(gradient_there) < CONTRACTION * gradient_length);
+      bool descends = !any_kind && change <= SUFFICIENT * factor * slope + ROUNDING * at.radius;
+      float share = any_kind ? SLACKENED : CONTRACTION;
+      accepted = descends || (regular && length(gradient_there) < share * gradient_length);
       if (accepted) {
         u = trial;
         at = there;

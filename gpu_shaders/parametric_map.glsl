@@ -62,5 +62,5 @@ vec2 clamped(vec2 wraps, vec2 uv)
 // What lies between parameters, the nearer way around.
 vec2 nearer(vec2 wraps, vec2 difference)
 {
-  return difference - wraps * round(difference);
+  return difference - wraps * roundEven(difference);
 }

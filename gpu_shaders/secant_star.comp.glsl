@@ -59,6 +59,13 @@ vec3 secant_search(vec4 eye, float focal, vec3 vertex, int steps, inout int iter
   vec3 u[3];
   vec3 g[3];
   start_triangle(eye, vertex, u);
+  if (solver.screen.w < 0.0) {
+    vec3 middle = safe_unit(u[0] + u[1] + u[2]);
+    float turned = sign(dot(on_hollow_side(eye, vertex, middle), middle));
+    for (int k = 0; k < 3; k++) {
+      u[k] *= turned;
+    }
+  }
   for (int k = 0; k < 3; k++) {
     g[k] = gradient_at(eye, vertex, u[k]);
   }
@@ -132,6 +139,6 @@ void main()
   float tolerance = solver.screen.y;
   int iterations = 0;
   vec3 u = secant_search(eye, focal, vertex, solver.counts.y, iterations);
-  bool converged = minimise(eye, focal, vertex, solver.counts.z, tolerance, u, iterations);
+  bool converged = minimise(eye, focal, vertex, solver.counts.z, tolerance, solver.screen.w < 0.0, u, iterations);
   finish(index, vertex, u, converged, iterations);
 }

@@ -38,7 +38,7 @@ METHODS: dict[str, Method] = {
         "every ray from the star center leaves the reflector once; one reflection per vertex",
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial",),
-        steps=6,
+        steps=4,
     ),
     "secant_uv": Method(
         "Secant Search in UV",

@@ -55,14 +55,14 @@ def path_gradient(eye: Float64Array, vertices: Float64Array, u: Float64Array, at
     return -(radial[:, None] * at.gradient + at.radius[:, None] * tangential(h, u))
 
 
-def is_reflection_side(eye: Float64Array, vertices: Float64Array, at: SurfaceSample) -> np.ndarray:
-    """(n,) whether eye and vertex both see the outer side of the surface at P.
+def is_reflection_side(eye: Float64Array, vertices: Float64Array, at: SurfaceSample, side: float = 1.0) -> np.ndarray:
+    """(n,) whether eye and vertex both see the outer side of the surface at P; the inner one where `side` is -1.
 
     The gradient also vanishes where the segment E-V pierces the reflector: without this test every hidden
     vertex looks solved.
     """
-    sees_eye = np.einsum("ij,ij->i", at.normal, towards_eye(eye, at.position)) > 0.0
-    sees_vertex = np.einsum("ij,ij->i", at.normal, vertices - at.position) > 0.0
+    sees_eye = side * np.einsum("ij,ij->i", at.normal, towards_eye(eye, at.position)) > 0.0
+    sees_vertex = side * np.einsum("ij,ij->i", at.normal, vertices - at.position) > 0.0
     return sees_eye & sees_vertex
 
 

@@ -5,6 +5,9 @@
 On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length
 E-P-V, so a descent that never accepts a longer path cannot cycle or wander off. Second derivatives come from
 differences of the gradient, because the map holds r and grad r only.
+
+On a hollow mirror the reflection may also be a maximum or a saddle. There Newton looks for a zero of the gradient of
+any kind, and never accepts a longer gradient.
 """
 
 from __future__ import annotations
@@ -20,10 +23,12 @@ DIFFERENCE = 1e-3
 SMALLEST_DIFFERENCE = 1e-5
 FLATTEST = 1e-5
 """Smallest eigenvalue of the second derivative, relative to the largest, that is not shifted."""
-LONGEST_STEP = 0.3
+LONGEST_STEP = 0.5
 """Radians"""
 LONGEST_LAST_STEP = 0.005
 """Radians: at the silhouette a long step along the line of sight covers few pixels, and leaves more"""
+SLACKENED = 0.98
+"""A step towards a point of any kind must shrink the gradient at least to this share."""
 TRIALS = 6
 """Lengths of one step that are tried"""
 SHORTENING = 0.35
@@ -74,11 +79,18 @@ def path_change(eye: Float64Array, vertices: Float64Array, start: Float64Array, 
 
 
 def minimise(
-    surface: RadialSurface, screen: Screen, vertices: Float64Array, start: Float64Array, steps: int, tolerance: float
+    surface: RadialSurface,
+    screen: Screen,
+    vertices: Float64Array,
+    start: Float64Array,
+    steps: int,
+    tolerance: float,
+    any_kind: bool = False,
 ) -> tuple[Float64Array, np.ndarray, np.ndarray]:
     """Descend from `start` (n, 3): directions (n, 3), converged (n,), steps taken (n,).
 
-    Converged means that a Newton step at a point of positive curvature moves less than `tolerance` pixels.
+    Converged means that a Newton step at a point of positive curvature moves less than `tolerance` pixels. With
+    `any_kind` the curvature may be of any sign.
     """
     eye = screen.eye
     u = start.copy()
@@ -92,7 +104,7 @@ def minimise(
         here, target = u[active], vertices[active]
         at = sample(surface, here)
         g = path_gradient(eye, target, here, at)
-        step, regular = _newton_step(surface, eye, target, here, at, g)
+        step, regular = _newton_step(surface, eye, target, here, at, g, any_kind)
         pixels = np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
         done = (pixels < tolerance) & (np.linalg.norm(step, axis=1) < LONGEST_LAST_STEP) & regular
         iterations[active] += 1
@@ -107,8 +119,9 @@ def minimise(
             there = sample(surface, trial)
             change = path_change(eye, target, at.position, there.position)
             descends = change <= SUFFICIENT * factor * slope + ROUNDING * at.radius
-            contracts = np.linalg.norm(path_gradient(eye, target, trial, there), axis=1) < CONTRACTION * length
-            good = ~accepted & (descends | (regular & contracts))
+            shortened = np.linalg.norm(path_gradient(eye, target, trial, there), axis=1)
+            contracts = shortened < (SLACKENED if any_kind else CONTRACTION) * length
+            good = ~accepted & regular & contracts if any_kind else ~accepted & (descends | (regular & contracts))
             moved[good] = trial[good]
             accepted |= good
             factor = np.where(accepted, factor, SHORTENING * factor)
@@ -128,6 +141,7 @@ def _newton_step(
     u: Float64Array,
     at: SurfaceSample,
     g: Float64Array,
+    any_kind: bool,
 ) -> tuple[Float64Array, np.ndarray]:
     """Tangent step (n, 3), and whether the second derivative was positive as it was, without a shift."""
     first, second = tangent_frame(u)
@@ -147,14 +161,16 @@ def _newton_step(
     middle, spread = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
     lowest, highest = middle - spread, middle + spread
     shift = np.maximum(0.0, np.maximum(np.abs(lowest), FLATTEST * np.abs(highest)) - lowest)
+    shift *= not any_kind
     hxx, hyy = hxx + shift, hyy + shift
     determinant = hxx * hyy - hxy * hxy
-    safe = np.where(determinant > 0.0, determinant, np.inf)
+    solvable = determinant != 0.0 if any_kind else determinant > 0.0
+    safe = np.where(solvable, determinant, np.inf)
     sx = -(hyy * gx - hxy * gy) / safe
     sy = -(hxx * gy - hxy * gx) / safe
     capped = np.minimum(1.0, LONGEST_STEP / np.maximum(np.hypot(sx, sy), 1e-30))
     step = (capped * sx)[:, None] * first + (capped * sy)[:, None] * second
-    return step, (shift == 0.0) & (determinant > 0.0)
+    return step, (shift == 0.0) & solvable
 
 
 def _dot(p: Float64Array, q: Float64Array) -> Float64Array:

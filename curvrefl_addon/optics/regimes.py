@@ -112,9 +112,8 @@ def _shown(
     study: Study, oracle: Oracle, eye: Float64Array, vertex: Float64Array, point: Float64Array
 ) -> tuple[Float64Array, Float64Array]:
     """Those vertices and points (n, 3) that are on the mirror, with free ways to eye and vertex."""
-    if study.cover is not None:
-        covered = study.cover(unit(point))
-        vertex, point = vertex[covered], point[covered]
+    covered = study.cover(unit(point))
+    vertex, point = vertex[covered], point[covered]
     for is_eye in (False, True):
         end = np.tile(eye, (len(point), 1)) if is_eye else np.column_stack([vertex, np.ones(len(vertex))])
         free = oracle.is_free(point, end)
@@ -125,8 +124,7 @@ def _shown(
 def _hidden(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
     """Vertices that the reflector stands before, or that are inside it, and that have no reflection."""
     u = unit(random.normal(size=(8 * count, 3)))
-    if study.cover is not None:
-        u = u[study.cover(u)]
+    u = u[study.cover(u)]
     vertices = u * (study.surface.radius(u)[0] * np.exp(random.uniform(0.01, 1.5, len(u))))[:, None]
     if study.side > 0.0:
         vertices = vertices[pierce(study.surface, eye, vertices)[0]]

@@ -29,7 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import status
-from .fermat import SurfaceSample, is_reflection_side, path_gradient, sample
+from .fermat import SurfaceSample, is_reflection_side, mirror_error, path_gradient, sample
 from .newton import guess, minimise, tangent_frame
 from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
@@ -41,7 +41,7 @@ LONGEST_STEP = 0.7
 """Radians on the sphere of directions."""
 SEARCH_TOLERANCE = 1.0
 """Pixels: the paper's stop, a projected triangle smaller than a pixel"""
-SEARCH_STEPS = 6
+SEARCH_STEPS = 4
 """A search that takes longer is wandering; the descent takes over."""
 NEWTON_STEPS = 20
 SMALLEST_START = 0.01
@@ -81,11 +81,13 @@ def start_triangle(eye: Float64Array, vertices: Float64Array) -> Float64Array:
 
 
 def secant_search(
-    surface: RadialSurface, screen: Screen, vertices: Float64Array, steps: int, tolerance: float
+    surface: RadialSurface, screen: Screen, vertices: Float64Array, steps: int, tolerance: float, side: float = 1.0
 ) -> tuple[Float64Array, np.ndarray]:
     """The paper's search: best direction (n, 3) and number of steps (n,); `tolerance` in pixels."""
     count = len(vertices)
     u = start_triangle(screen.eye, vertices)
+    if side < 0.0:
+        u = _on_hollow_side(surface, screen.eye, vertices, u)
 
     def gradient(directions: Float64Array, rows: np.ndarray) -> Float64Array:
         return path_gradient(screen.eye, vertices[rows], directions, sample(surface, directions))
@@ -151,30 +153,48 @@ def solve(
     steps: int = SEARCH_STEPS,
     newton_steps: int = NEWTON_STEPS,
     tolerance: float = 0.05,
+    side: float = 1.0,
 ) -> Solution:
-    """Reflection points of vertices (n, 3) relative to the star centre; `tolerance` in pixels."""
-    u, iterations = secant_search(surface, screen, vertices, steps, SEARCH_TOLERANCE)
-    u, converged, polished = minimise(surface, screen, vertices, u, newton_steps, tolerance)
+    """Reflection points of vertices (n, 3) relative to the star centre; `tolerance` in pixels.
+
+    `side` is -1 for a mirror that is hollow towards the eye. Such a one is open, so that nothing is said of what the
+    way from the eye pierces.
+    """
+    hollow = side < 0.0
+    u, iterations = secant_search(surface, screen, vertices, steps, SEARCH_TOLERANCE, side)
+    u, converged, polished = minimise(surface, screen, vertices, u, newton_steps, tolerance, hollow)
     iterations += polished
-    reflected = converged & is_reflection_side(screen.eye, vertices, sample(surface, u))
+    reflected = converged & is_reflection_side(screen.eye, vertices, sample(surface, u), side)
 
     left = np.flatnonzero(~reflected)
     pierced, point = pierce(surface, screen.eye, vertices[left])
+    pierced &= not hollow
     hidden = np.zeros(len(vertices), bool)
     hidden[left] = pierced | converged[left]
     u[left[pierced]] = unit(point[pierced])
 
     left = np.flatnonzero(~reflected & ~hidden)
     if len(left):
+        start = guess(screen.eye, vertices[left])
+        if hollow:
+            start = _on_hollow_side(surface, screen.eye, vertices[left], start[:, None])[:, 0]
         u[left], converged[left], polished = minimise(
-            surface, screen, vertices[left], guess(screen.eye, vertices[left]), newton_steps, tolerance
+            surface, screen, vertices[left], start, newton_steps, tolerance, hollow
         )
         iterations[left] += polished
-        side = is_reflection_side(screen.eye, vertices[left], sample(surface, u[left]))
-        reflected[left] = converged[left] & side
-        hidden[left] = converged[left] & ~side
+        right = is_reflection_side(screen.eye, vertices[left], sample(surface, u[left]), side)
+        reflected[left] = converged[left] & right
+        hidden[left] = converged[left] & ~right
     code = np.select([reflected, hidden], [status.REFLECTED, status.HIDDEN], status.UNSOLVED)
     return Solution(u, sample(surface, u), code, iterations)
+
+
+def _on_hollow_side(surface: RadialSurface, eye: Float64Array, vertices: Float64Array, u: Float64Array) -> Float64Array:
+    """Start directions (n, k, 3), or their opposites where a hollow mirror reflects better there."""
+    middle = unit(u.mean(axis=1))
+    ahead, behind = (mirror_error(eye, vertices, sample(surface, sign * middle)) for sign in (1.0, -1.0))
+    # The angle to the inward normal is the supplement.
+    return np.where((behind > ahead)[:, None, None], -u, u)
 
 
 def _least_squares(g: Float64Array) -> tuple[Float64Array, Float64Array, np.ndarray]:

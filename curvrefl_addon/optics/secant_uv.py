@@ -208,7 +208,9 @@ class SampledMap:
         return ParametricSample(point[:, :3], _across(du[:, :3], normal), _across(dv[:, :3], normal), normal)
 
     def uv_of_direction(self, directions: Float64Array) -> Float64Array:
-        return self.directions[nearest_texel(self.directions.shape[1], directions)][:, 1:3].astype(np.float64)
+        # The centre itself has no direction; any will do.
+        asked = np.where(directions.any(axis=1, keepdims=True), directions, [1.0, 0.0, 0.0])
+        return self.directions[nearest_texel(self.directions.shape[1], asked)][:, 1:3].astype(np.float64)
 
     @cached_property
     def _stacked(self) -> Float64Array:
@@ -255,8 +257,8 @@ def path_gradient(eye: Float64Array, vertices: Float64Array, at: ParametricSampl
 def start_triangle(surface: ParametricSurface, eye: Float64Array, vertices: Float64Array) -> Float64Array:
     """Start parameters (n, 3, 2): A towards the vertex, B towards the eye (section 3.3.1), C beside their middle.
 
-    Of the two sides C takes the one where the point half way on the sphere of directions lies: great circles bend towards
-    the poles of a longitude-latitude map, and the reflection point is on or near the one through A and B.
+    Of the two sides C takes the one where the point half way on the sphere of directions lies: great circles bend
+    towards the poles of a longitude-latitude map, and the reflection point is on or near the one through A and B.
     """
     to_vertex, to_eye = unit(vertices), unit(np.broadcast_to(eye[:3], vertices.shape))
     a, b = surface.uv_of_direction(to_vertex), surface.uv_of_direction(to_eye)

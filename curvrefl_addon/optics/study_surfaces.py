@@ -7,7 +7,6 @@ Each is a radius over the unit sphere of directions (see `radial_surfaces`), abo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,10 +31,10 @@ class Revolved:
 
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         z = u[:, 2]
-        slope = np.polynomial.polynomial.polyval(z, np.polynomial.polynomial.polyder(np.array(self.coefficients)))
-        return np.polynomial.polynomial.polyval(z, self.coefficients), slope[:, None] * tangential(
-            np.tile(Z, (len(u), 1)), u
-        )
+        radius: Float64Array = np.polynomial.polynomial.polyval(z, self.coefficients)
+        derivative = np.polynomial.polynomial.polyder(np.array(self.coefficients))
+        slope: Float64Array = np.polynomial.polynomial.polyval(z, derivative)
+        return radius, slope[:, None] * tangential(np.tile(Z, (len(u), 1)), u)
 
 
 @dataclass(frozen=True)
@@ -141,16 +140,16 @@ class Study:
     """-1: it is hollow, and reflects on its inner side"""
     mixed: bool = False
     """It bends both ways somewhere: a vertex may have several images"""
-    cover: Callable[[Float64Array], NDArray[np.bool_]] | None = None
-    """Which directions (n, 3) meet the mirror; None for all: it is closed"""
+    rim: float = 1.0
+    """No mirror in directions whose z is greater: it is open there"""
+
+    def cover(self, u: Float64Array) -> NDArray[np.bool_]:
+        """(n,) which unit directions (n, 3) meet the mirror."""
+        return u[:, 2] <= self.rim
 
     def oracle(self) -> Oracle:
         """The oracle of this reflector."""
-        return Oracle(self.surface, 24 if self.mixed else 16, self.side, self.cover)
-
-
-def _lower_half(u: Float64Array) -> NDArray[np.bool_]:
-    return u[:, 2] < 0.0
+        return Oracle(self.surface, 24 if self.mixed else 16, self.side, self.cover if self.rim < 1.0 else None)
 
 
 STUDIES: dict[str, Study] = {
@@ -159,7 +158,7 @@ STUDIES: dict[str, Study] = {
     "bumpy": Study(Bumpy(0.15), (2.3, -2.9, 1.8), mixed=True),
     "strongly bumpy": Study(Bumpy(0.6), (2.3, -2.9, 1.8), mixed=True),
     "kettle": Study(Revolved((0.85, -0.1, -0.2, 0.0, 0.0, 0.0, 0.0, 0.25, 0.25)), (2.3, -2.9, 1.2), mixed=True),
-    "bowl": Study(Ellipsoid(1.0, 1.0, 0.8), (0.4, -0.3, 2.6), side=-1.0, cover=_lower_half),
+    "bowl": Study(Ellipsoid(1.0, 1.0, 0.8), (0.4, -0.3, 2.6), side=-1.0, rim=0.0),
     "saddle": Study(Saddle(), (0.6, -0.5, 3.6), mixed=True),
     "torus section": Study(TorusSection(), (-2.6, -0.6, 1.6), mixed=True),
     "tip": Study(Tip(), (2.0, -2.6, 2.2), mixed=True),

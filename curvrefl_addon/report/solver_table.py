@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every vertex method, reflector by reflector and regime by regime, against the oracle.
+
+Errors are distances on screen between a method's reflection point and the nearest true one. Where a method that looks
+up an environment shows a vertex follows from the oracle too: it shows it as if it were at the environment's distance.
+"""
+
+from __future__ import annotations
+
+import csv
+import statistics
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from ..errors import InputError
+from ..optics import status
+from ..optics.catalogue import METHODS, Method
+from ..optics.oracle import Oracle
+from ..optics.radial_surfaces import Float64Array, unit
+from ..optics.regimes import REGIMES, Cases, make_cases
+from ..optics.screen import Screen
+from ..optics.study_surfaces import STUDIES
+from ..renderer.frame import Settings
+from ..renderer.gpu_objects import record_texture
+from ..renderer.study_reflector import StudyReflector
+from ..scene.view import View
+
+WIDTH, HEIGHT, FIELD_OF_VIEW = 640, 480, np.radians(40.0)
+OFF = 0.5
+"""Pixels from which on a reflected vertex counts as off"""
+TIMED_VERTICES = 1 << 17
+TIMED_REPEATS = 5
+FAR_AWAY = 1e6
+"""Radii: where environment maps take things to be"""
+
+type Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One method with one setting on one reflector in one regime. Shares are of all vertices, errors of those that
+    both the method and the oracle call reflected."""
+
+    reflector: str
+    regime: str
+    method: str
+    setting: str
+    value: float
+    vertices: int
+    error_median_px: float
+    error_p95_px: float
+    error_p99_px: float
+    error_max_px: float
+    off: float
+    """Share of the vertices with a reflection that are shown more than OFF pixels off"""
+    misclassified: float
+    """Share shown though hidden, or called hidden though shown"""
+    unconverged: float
+    iterations_mean: float
+    iterations_p99: float
+    iterations_max: int
+    ms_per_million: float
+    """Milliseconds of the solve per million vertices, median; NaN for environments"""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """A method that cannot work on a reflector."""
+
+    reflector: str
+    method: str
+    reason: str
+
+
+def study_view(eye: Float64Array) -> View:
+    """From a homogeneous eye (4,) at a point towards the origin."""
+    back = unit(eye[None, :3])[0]
+    up = np.array([0.0, 0.0, 1.0]) if abs(back[2]) < 0.95 else np.array([0.0, 1.0, 0.0])
+    right = unit(np.cross(up, back)[None])[0]
+    world_to_view = np.eye(4)
+    world_to_view[:3, :3] = np.stack([right, np.cross(back, right), back])
+    world_to_view[:3, 3] = -world_to_view[:3, :3] @ eye[:3]
+    scale = 1.0 / np.tan(0.5 * FIELD_OF_VIEW)
+    near, far = 1e-3, 1e3
+    projection = np.zeros((4, 4))
+    projection[0, 0], projection[1, 1] = scale * HEIGHT / WIDTH, scale
+    projection[2, 2:] = -(far + near) / (far - near), -2.0 * far * near / (far - near)
+    projection[3, 2] = -1.0
+    return View(world_to_view, projection, WIDTH, HEIGHT)
+
+
+def settings_of(method: Method, name: str, value: float) -> Settings:
+    """The default settings with one value of the method's sweep."""
+    field, _ = method.sweep
+    kind = type(getattr(Settings(), field))
+    return replace(Settings(method=name), **{field: kind(value)})
+
+
+def solver_table(
+    count: int,
+    reflectors: Sequence[str] = tuple(STUDIES),
+    regimes: Sequence[str] = REGIMES,
+    methods: Sequence[str] = tuple(METHODS),
+    timed: bool = True,
+    only_defaults: bool = False,
+    progress: Progress = lambda _: None,
+) -> tuple[list[Row], list[Refusal]]:
+    """Rows for `count` vertices a regime; with `only_defaults` one setting per method, the default.
+
+    A method that works on whole meshes (`bisector_grid`) or flat mirrors alone (`planar`) has no rows here.
+    """
+    rows: list[Row] = []
+    refusals: list[Refusal] = []
+    for name in reflectors:
+        study = STUDIES[name]
+        progress(f"Solving around the {name}")
+        oracle = study.oracle()
+        reflector = StudyReflector(study)
+        times: dict[tuple[str, float], float] = {}
+        refused: set[str] = set()
+        for regime in regimes:
+            cases = make_cases(study, regime, count)
+            if len(cases.vertices) == 0:
+                continue
+            truth = _Truth(oracle, cases)
+            for method_name in methods:
+                method = METHODS[method_name]
+                if method.grid_search or "plane" in method.maps or method_name in refused:
+                    continue
+                for settings, value in _settings(method_name, only_defaults):
+                    try:
+                        found = _solve(reflector, method_name, settings, cases, oracle)
+                        key = (method_name, value)
+                        if timed and method.solves_vertices and key not in times:
+                            times[key] = _time(reflector, method_name, settings, cases)
+                    except InputError as error:
+                        refusals.append(Refusal(name, method_name, str(error)))
+                        refused.add(method_name)
+                        break
+                    rows.append(
+                        truth.row(
+                            name, regime, method_name, method.sweep[0], value, found, times.get(key, float("nan"))
+                        )
+                    )
+    return rows, refusals
+
+
+def _settings(name: str, only_defaults: bool) -> Iterator[tuple[Settings, float]]:
+    method = METHODS[name]
+    if only_defaults or not method.solves_vertices:
+        field = method.sweep[0]
+        default = float(getattr(Settings(), field)) or float(method.steps)
+        yield Settings(method=name), default
+        return
+    for value in method.sweep[1]:
+        yield settings_of(method, name, value), value
+
+
+@dataclass(frozen=True)
+class _Found:
+    points: Float64Array
+    status: np.ndarray
+    iterations: np.ndarray
+
+
+class _Truth:
+    """What the oracle says of a regime's cases."""
+
+    def __init__(self, oracle: Oracle, cases: Cases) -> None:
+        self.cases = cases
+        self.all = oracle.reflection_points(cases.eye, cases.vertices)
+        self.is_reflected = (self.all.counts(len(cases.vertices)) > 0) | np.isfinite(cases.points[:, 0])
+        self.screen = Screen(cases.eye, study_view(cases.eye).focal_pixels)
+
+    def pixels(self, points: Float64Array) -> Float64Array:
+        """(n,) to the nearest true reflection point; that of the construction counts even if the oracle missed it."""
+        error = np.full(len(points), np.inf)
+        for other in (self.all.nearest_to(points), self.cases.points):
+            known = np.isfinite(other[:, 0])
+            off = self.screen.pixels(other[known], points[known] - other[known])
+            error[known] = np.minimum(error[known], np.linalg.norm(off, axis=1))
+        return error
+
+    def row(
+        self, reflector: str, regime: str, method: str, setting: str, value: float, found: _Found, time: float
+    ) -> Row:
+        claimed = found.status == status.REFLECTED
+        both = claimed & self.is_reflected
+        error = self.pixels(found.points)[both]
+        iterations = found.iterations[both]
+        shown = max(int(self.is_reflected.sum()), 1)
+        wrong = (claimed & ~self.is_reflected) | ((found.status == status.HIDDEN) & self.is_reflected)
+        median, p95, p99, worst = np.percentile(error, [50, 95, 99, 100]) if len(error) else [float("nan")] * 4
+        return Row(
+            reflector,
+            regime,
+            method,
+            setting,
+            value,
+            len(claimed),
+            float(median),
+            float(p95),
+            float(p99),
+            float(worst),
+            float((error > OFF).sum() / shown),
+            float(wrong.mean()),
+            float((found.status >= status.UNSOLVED).mean()),
+            float(iterations.mean()) if len(iterations) else 0.0,
+            float(np.percentile(iterations, 99)) if len(iterations) else 0.0,
+            int(iterations.max(initial=0)),
+            time,
+        )
+
+
+def _solve(reflector: StudyReflector, method: str, settings: Settings, cases: Cases, oracle: Oracle) -> _Found:
+    if METHODS[method].solves_vertices:
+        solution = reflector.solve(method, study_view(cases.eye), settings, cases.vertices)
+        points, code, iterations, _ = solution.read()
+        return _Found(points.astype(np.float64), code, iterations)
+    distance = np.linalg.norm(cases.vertices, axis=1)
+    radius = FAR_AWAY
+    if method == "environment_parallax":
+        radius = max(float(np.median(distance)), reflector.study.surface.bound)
+    shown_at = cases.vertices * (radius / np.maximum(distance, 1e-30))[:, None]
+    points = oracle.reflection_points(cases.eye, shown_at).first(len(distance))
+    code = np.where(np.isfinite(points[:, 0]), status.REFLECTED, status.HIDDEN)
+    return _Found(np.nan_to_num(points), code, np.zeros(len(code), int))
+
+
+def _time(reflector: StudyReflector, method: str, settings: Settings, cases: Cases) -> float:
+    """Milliseconds per million vertices, the regime's own over and over; median of repeats after a first run."""
+    vertices = np.resize(cases.vertices, (TIMED_VERTICES, 3))
+    records = np.zeros((TIMED_VERTICES, 4), np.float32)
+    records[:, :3] = vertices
+    positions = record_texture(records)
+    view = study_view(cases.eye)
+    reflector.solve_records(method, view, settings, positions, TIMED_VERTICES).wait()
+    times = []
+    for _ in range(TIMED_REPEATS):
+        start = perf_counter()
+        reflector.solve_records(method, view, settings, positions, TIMED_VERTICES).wait()
+        times.append(perf_counter() - start)
+    return 1e9 * statistics.median(times) / TIMED_VERTICES
+
+
+def write_csv(rows: Iterable[Row], path: Path) -> None:
+    """All columns, shares as they are."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
+        writer.writeheader()
+        writer.writerows(asdict(row) for row in rows)
+
+
+def readable(rows: Sequence[Row], refusals: Sequence[Refusal]) -> str:
+    """The same as text, a block per reflector and regime."""
+    lines = []
+    block = None
+    for row in rows:
+        if (row.reflector, row.regime) != block:
+            block = (row.reflector, row.regime)
+            lines.append(f"\n{row.reflector}, {row.regime}: {row.vertices} vertices")
+            lines.append(
+                f"  {'':26} {'setting':26}  px: median     p95      p99      max   off >{OFF} px  wrong side  unsolved"
+                "  iterations: mean  p99   max   ms per million"
+            )
+        time = "-" if np.isnan(row.ms_per_million) else f"{row.ms_per_million:.0f}"
+        lines.append(
+            f"  {row.method:26} {row.setting + ' ' + format(row.value, 'g'):26}  {row.error_median_px:10.3g} "
+            f"{row.error_p95_px:8.3g} {row.error_p99_px:8.3g} {row.error_max_px:8.3g} {row.off:11.2%} "
+            f"{row.misclassified:11.2%} {row.unconverged:9.2%}  {row.iterations_mean:16.1f} {row.iterations_p99:4.0f} "
+            f"{row.iterations_max:5d} {time:>16}"
+        )
+    lines += [f"\n{refusal.method} on the {refusal.reflector}: {refusal.reason}" for refusal in refusals]
+    return "\n".join(lines).lstrip("\n") + "\n"
