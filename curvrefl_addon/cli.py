@@ -23,6 +23,7 @@ from .verbs import say
 
 DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
+ALL_PEERS = "eevee,cycles1,cycles8,cycles64"
 MAX_SIDE = 8192
 """Largest side of a picture in pixels"""
 MAX_FRAME = 1048574
@@ -114,9 +115,35 @@ def _parser() -> argparse.ArgumentParser:
         help="direct: no indirect diffuse light; full: as the scene renders in Cycles (%(default)s)",
     )
     compare.add_argument(
-        "--peers", default="eevee,cycles1,cycles8", metavar="P[,P..]", help="of %(default)s, or none (%(default)s)"
+        "--peers",
+        default="eevee,cycles1,cycles8",
+        metavar="P[,P..]",
+        help=f"of {ALL_PEERS}, or none (%(default)s)",
     )
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    chart = verb(
+        "chart", verbs.chart, "Chart time against error, of methods with all their settings, and time against vertices."
+    )
+    chart.add_argument("files", nargs="+", metavar="FILE.blend")
+    chart.add_argument(
+        "--reflector", metavar="A[,B..]", help="names of the mirror objects in all files (those marked as mirrors)"
+    )
+    chart.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
+    chart.add_argument("--method", default="all", metavar="M[,M..]", help="or all (%(default)s)")
+    chart.add_argument(
+        "--samples", type=_between(1, 65536), default=64, metavar="N", help="of the references (%(default)s)"
+    )
+    chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
+    chart.add_argument("--peers", default=ALL_PEERS, metavar="P[,P..]", help="or none (%(default)s)")
+    chart.add_argument(
+        "--vertices",
+        type=_between(1000, 10_000_000),
+        default=1_000_000,
+        metavar="N",
+        help="largest number in the chart of time against vertices (%(default)s)",
+    )
+    chart.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.set_defaults(camera=None, frame=None, resolution=None)

@@ -38,6 +38,8 @@ _METHOD_PALETTE: tuple[Color, ...] = (
     (0.660, 0.080, 0.020),
     (0.860, 0.720, 0.060),
     (0.350, 0.350, 0.350),
+    (0.040, 0.040, 0.040),
+    (0.450, 0.300, 0.900),
 )
 """Told apart by lightness too, as people with color blindness need; in the order of the catalogue"""
 

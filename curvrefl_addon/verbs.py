@@ -26,6 +26,7 @@ from .output import checked_file, checked_folder, folder_to_publish
 if TYPE_CHECKING:
     import bpy
 
+    from .report.chart import ChartFile
     from .report.compare import Comparison
     from .scene.arrays import SceneArrays
     from .scene.view import View
@@ -101,6 +102,81 @@ def compare(options: argparse.Namespace) -> int:
     comparison = replace(comparison, width=width, height=height)
     _compare_and_print(scene, reflectors, comparison, output, options.camera)
     return 0
+
+
+def chart(options: argparse.Namespace) -> int:
+    """Time against error, and against vertices; see `report.chart`."""
+    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
+    _known(methods, list(METHODS), "method")
+    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
+    reflectors = [] if options.reflector is None else _names(options.reflector, "reflector")
+    output = checked_folder(options.output)
+    _start_gpu()
+
+    from .report.chart import chart_steps
+    from .report.chart_draw import require_matplotlib
+    from .report.chart_table import format_chart
+    from .report.compare import Comparison
+
+    require_matplotlib()
+    comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
+    # All files are looked at first: what is wrong with the last one shows before minutes of Cycles.
+    files = [_chart_file(options, file, name, reflectors) for file, name in _scene_names(options.files)]
+    with _dropped(STDOUT) as stdout:
+        steps = chart_steps(files, comparison, options.vertices, output)
+        while True:
+            try:
+                step = next(steps)
+            except StopIteration as end:
+                charts = end.value
+                break
+            print(f"{100.0 * step.done:3.0f} %  {step.label}", file=stdout, flush=True)
+    _warn(charts.warnings)
+    print(format_chart(charts))
+    print(f"Charts: {output / 'chart.png'}")
+    return 0
+
+
+def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:
+    """The files, once each, with their names in a chart: the name of the file, or its path where two share it."""
+    stems = [Path(file).stem for file in dict.fromkeys(files)]
+    return [
+        (file, stem if stems.count(stem) == 1 else file) for file, stem in zip(dict.fromkeys(files), stems, strict=True)
+    ]
+
+
+def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: Sequence[str]) -> ChartFile:
+    """What to chart of a file. Raises InputError where that cannot be."""
+    from .report.chart import ChartFile
+    from .scene.blend_file import find_camera, find_reflectors
+
+    scene = _open_scene(file)
+    find_camera(scene)
+    chosen = list(reflectors) or _marked_mirrors(scene)
+    if not chosen:
+        raise InputError(
+            f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
+        )
+    find_reflectors(scene, chosen)
+    return ChartFile(name, Path(file), tuple(chosen), *_resolution(options, scene))
+
+
+def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
+    """Names of the objects whose Mirror switch is on."""
+    import bpy
+
+    from . import registration
+    from .options import marked_mirrors
+
+    # In the installed extension the switch is there already; in a plain Python Blender does not know it yet.
+    is_known = hasattr(bpy.types.Object, "curvrefl")
+    if not is_known:
+        registration.register()
+    try:
+        return [mirror.name for mirror in marked_mirrors(scene)]
+    finally:
+        if not is_known:
+            registration.unregister()
 
 
 def bake(options: argparse.Namespace) -> int:

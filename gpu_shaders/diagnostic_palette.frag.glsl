@@ -14,7 +14,7 @@ void main()
   if (at.is_mirror && shown.w > 0.0) {
     rgb = fetch_record(palette, int(at.number + 0.5)).rgb;
     // A little of the shape of what is shown, or of the mirror, so that the colour says where it is.
-#ifdef ENVIRONMENT_CUBE
+#ifdef ENVIRONMENT
     float facing = abs(dot(at.ray, at.normal));
 #else
     float facing = abs(dot(texelFetch(reflected_normal, pixel, 0).xyz, normalize(shown.xyz - at.point)));

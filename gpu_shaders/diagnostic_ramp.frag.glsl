@@ -11,11 +11,18 @@ void main()
   vec4 shown = shown_position(pixel, at);
 #ifdef ANGLE_ERROR
   vec3 to_shown = shown.xyz - at.point;
+  // What is infinitely far away is where its ray goes, unless a lookup goes elsewhere.
+  if (shown.w == 0.0) {
+#ifdef ENVIRONMENT
+    to_shown = environment_direction(at.point, at.ray);
+#else
+    to_shown = at.ray;
+#endif
+  }
   // By sine and cosine: the cosine alone does not know small angles.
   float angle = degrees(atan(length(cross(at.ray, to_shown)), dot(at.ray, to_shown)));
-  // What is infinitely far away is where its ray goes.
-  float value = shown.w > 0.0 ? log2(max(angle, 1e-9)) : range.x;
-#elif defined(ENVIRONMENT_CUBE)
+  float value = log2(max(angle, 1e-9));
+#elif defined(ENVIRONMENT)
   float value = 0.0;
 #else
   float value = texelFetch(reflected_color, pixel, 0).w;

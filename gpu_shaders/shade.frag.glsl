@@ -12,7 +12,7 @@ void main()
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
   bool on_mirror = position.w > 0.0 && base.w > 0.5;
-#ifdef ENVIRONMENT_CUBE
+#ifdef ENVIRONMENT
   // One pass per mirror; the first also does all that is no mirror.
   if ((on_mirror ? base.w : 1.0) != mirror) {
     discard;
@@ -26,7 +26,7 @@ void main()
     tint = mirror_reflectance(reflector, max(-dot(normal.xyz, direction), 0.0));
     origin = position.xyz;
     direction = reflect(direction, normal.xyz);
-#ifndef ENVIRONMENT_CUBE
+#ifndef ENVIRONMENT
     position = texelFetch(reflected_position, pixel, 0);
     normal = texelFetch(reflected_normal, pixel, 0);
     base = texelFetch(reflected_color, pixel, 0);
@@ -41,8 +41,8 @@ void main()
     range = 2e30;
   }
   if (on_mirror) {
-#ifdef ENVIRONMENT_CUBE
-    radiance = texture(environment, direction).rgb;
+#ifdef ENVIRONMENT
+    radiance = environment_at(origin, direction).rgb;
 #else
     radiance += lamps_seen(origin, direction, range).rgb;
 #endif

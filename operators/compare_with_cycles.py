@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.optics.catalogue import METHODS
@@ -23,6 +23,7 @@ _PEERS = (
     ("eevee", "EEVEE", "Blender's real-time engine"),
     ("cycles1", "Cycles, 1 Sample", "One path per pixel"),
     ("cycles8", "Cycles, 8 Samples", "Eight paths per pixel"),
+    ("cycles64", "Cycles, 64 Samples", "Sixty-four paths per pixel"),
 )
 
 
@@ -69,6 +70,12 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Of the reference in Cycles", default=128, min=1, max=65536
     )
+    every_setting: BoolProperty(  # type: ignore[valid-type]
+        name="Every Setting",
+        description="Measure each method at all values of the setting that trades speed for accuracy: a table of times "
+        "and errors, and charts of it where matplotlib is installed, instead of pictures side by side",
+        default=False,
+    )
     output: StringProperty(  # type: ignore[valid-type]
         name="Output", description="Folder of the report", subtype="DIR_PATH", default="//curvrefl_comparison"
     )
@@ -81,6 +88,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
+        from ..curvrefl_addon.report.chart import chart_open_scene
         from ..curvrefl_addon.report.compare import compare_open_scene
         from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
 
@@ -88,14 +96,16 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         assert scene is not None and view_layer is not None
         try:
             output = output_path(self.output, "a folder for the report")
-            report = compare_open_scene(scene, view_layer, self._reflector_names(context), self._comparison(), output)
+            measure = chart_open_scene if self.every_setting else compare_open_scene
+            result = measure(scene, view_layer, self._reflector_names(context), self._comparison(), output)
         except (InputError, RenderCanceledError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._show(context, report, output)
+        self._show(context, result, output)
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
+        from ..curvrefl_addon.report.chart import open_scene_steps
         from ..curvrefl_addon.report.compare import compare_steps
 
         scene, view_layer = context.scene, context.view_layer
@@ -103,7 +113,8 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         try:
             self._output = output_path(self.output, "a folder for the report")
             names = self._reflector_names(context)
-            self._steps = compare_steps(scene, view_layer, names, self._comparison(), self._output)
+            steps = open_scene_steps if self.every_setting else compare_steps
+            self._steps = steps(scene, view_layer, names, self._comparison(), self._output)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -187,12 +198,19 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
             tuple(name for name, *_ in _PEERS if name in self.peers),
         )
 
-    def _show(self, context: bpy.types.Context, report: dict[str, Any], output: Path) -> None:
+    def _show(self, context: bpy.types.Context, result: Any, output: Path) -> None:
+        """`result`: of a comparison, or `Charts` with every setting."""
+        from ..curvrefl_addon.report.chart_table import format_chart
         from ..curvrefl_addon.report.table import format_table
 
-        _show_pictures(context, report, output)
-        _show_text(f"{format_table(report)}\n\n{output / 'report.html'}\n")
-        for warning in report.get("warnings", ()):
+        if self.every_setting:
+            warnings = result.warnings
+            _show_text(f"{format_chart(result)}\n\n{output / 'chart.csv'}\n")
+        else:
+            warnings = result.get("warnings", ())
+            _show_pictures(context, result, output)
+            _show_text(f"{format_table(result)}\n\n{output / 'report.html'}\n")
+        for warning in warnings:
             self.report({"WARNING"}, warning)
         self.report({"INFO"}, f"The report is in {output} and in the text '{TEXT_NAME}'")
 

@@ -85,4 +85,22 @@ METHODS: dict[str, Method] = {
         "everything is infinitely far away",
         ("environment_resolution", (64, 128, 256, 512)),
     ),
+    "environment_cube_vertex": Method(
+        "Environment at Vertices",
+        "COMP 557, lecture 18: colors looked up at the mirror's vertices and interpolated",
+        "as Environment Cube, and that what is reflected does not change within a triangle of the mirror",
+        ("environment_resolution", (64, 128, 256, 512)),
+    ),
+    "environment_sphere": Method(
+        "Environment Sphere Map",
+        "COMP 557, lecture 18; a disk map along the axis to the eye",
+        "as Environment Cube, and that nothing of interest lies straight behind the mirror",
+        ("environment_resolution", (64, 128, 256, 512, 1024)),
+    ),
+    "environment_parallax": Method(
+        "Environment on a Sphere",
+        "Bjorke 2004; Roger & Holzschuch 2006, section 2",
+        "everything lies on one sphere about the reflector",
+        ("environment_resolution", (64, 128, 256, 512)),
+    ),
 }

@@ -40,7 +40,7 @@ def pierce(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) ->
         points = vertices - back[:, None] * direction
         length = np.linalg.norm(points, axis=1)
         # The star centre itself has no direction; any will do, it is inside.
-        points[length == 0.0] = direction[length == 0.0]
+        points[length == 0.0] = (0.0, 0.0, 1.0)
         return length - surface.radius(unit(points))[0]
 
     outside, inside = first.copy(), first.copy()

@@ -31,9 +31,9 @@ class Revolved:
 
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         z = u[:, 2]
-        radius: Float64Array = np.polynomial.polynomial.polyval(z, self.coefficients)
+        radius = np.asarray(np.polynomial.polynomial.polyval(z, self.coefficients), np.float64)
         derivative = np.polynomial.polynomial.polyder(np.array(self.coefficients))
-        slope: Float64Array = np.polynomial.polynomial.polyval(z, derivative)
+        slope = np.asarray(np.polynomial.polynomial.polyval(z, derivative), np.float64)
         return radius, slope[:, None] * tangential(np.tile(Z, (len(u), 1)), u)
 
 

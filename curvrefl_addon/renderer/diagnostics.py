@@ -25,6 +25,7 @@ from ..diagnostic_colors import (
     ramp_colors,
 )
 from ..scene.arrays import Float32Array
+from .environment import Environment, declare
 from .gpu_objects import drawing_state, full_screen_triangle, record_texture, texture_2d
 from .solve import SolvedChunk
 from .surfaces import SurfaceBuffer
@@ -51,7 +52,7 @@ class DiagnosticPass:
         self,
         target: Any,
         seen: SurfaceBuffer,
-        reflected: SurfaceBuffer | Sequence[Any],
+        reflected: SurfaceBuffer | Sequence[Environment],
         view_uniforms: Any,
         weight: float,
         mode: str,
@@ -62,42 +63,43 @@ class DiagnosticPass:
         """Add view `mode` (of `MODES`), times `weight`, to the frame buffer `target` on the pixels of mirrors.
 
         Writes premultiplied scene-linear color with alpha = `weight`, as the shade pass does. `reflected` is the
-        reflected scene's surface buffer, or for each mirror a cube texture of (world position, object_id) by direction;
-        views that are not in `SOLVED_MODES` do not look at it.
+        reflected scene's surface buffer, or for each mirror the environment whose positions stand for it; views that
+        are not in `SOLVED_MODES` do not look at it.
         `methods` are the catalogue names by which each mirror is drawn; the status view shows the vertices of `parts`,
         per mirror.
         """
         if mode not in MODES:
             raise ValueError(f"no diagnostic view {mode}")
-        cubes: Sequence[Any] | None = None
-        if not isinstance(reflected, SurfaceBuffer) and mode in SOLVED_MODES:
-            cubes = reflected
         marks = None
         if mode == "STATUS" and isinstance(reflected, SurfaceBuffer):
             marks = self._draw_marks(seen, reflected, view_uniforms, options, parts)
-        shader = _shader(mode, cubes is not None, marks is not None)
+        environments: Sequence[Environment | None] = (None,)
+        if not isinstance(reflected, SurfaceBuffer) and mode in SOLVED_MODES:
+            environments = reflected
+        # Before the frame buffer is bound: what is made only now draws, too.
+        textures = [environment.positions() if environment else None for environment in environments]
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            shader.bind()
-            shader.uniform_block("view", view_uniforms)
-            shader.uniform_float("weight", weight)
-            for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
-                shader.uniform_sampler(name, texture)
-            # Held until the draw: a sampler is bound by reference.
-            palette = self._set_look(shader, mode, options, methods)
-            if mode in SOLVED_MODES and isinstance(reflected, SurfaceBuffer):
-                textures = (reflected.position, reflected.normal, reflected.color)
-                for name, texture in zip(_REFLECTED, textures, strict=True):
+            for number, (environment, positions) in enumerate(zip(environments, textures, strict=True), 1):
+                shader = _shader(mode, environment.lookup if environment else "", marks is not None)
+                shader.bind()
+                shader.uniform_block("view", view_uniforms)
+                shader.uniform_float("weight", weight)
+                for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
                     shader.uniform_sampler(name, texture)
-            if marks is not None:
-                shader.uniform_sampler("marks", marks)
-            if cubes is None:
+                # Held until the draw: a sampler is bound by reference.
+                palette = self._set_look(shader, mode, options, methods)
+                if environment is not None:
+                    shader.uniform_float("mirror", float(number))
+                    environment.bind(shader, positions)
+                elif mode in SOLVED_MODES and isinstance(reflected, SurfaceBuffer):
+                    buffers = (reflected.position, reflected.normal, reflected.color)
+                    for name, texture in zip(_REFLECTED, buffers, strict=True):
+                        shader.uniform_sampler(name, texture)
+                if marks is not None:
+                    shader.uniform_sampler("marks", marks)
                 full_screen_triangle().draw(shader)
-            for number, cube in enumerate(cubes or (), 1):
-                shader.uniform_float("mirror", float(number))
-                shader.uniform_sampler("environment", cube)
-                full_screen_triangle().draw(shader)
-            del palette
+                del palette
 
     def _set_look(self, shader: Any, mode: str, options: DiagnosticOptions, methods: Sequence[str]) -> Any:
         """Set a view's own constants on the bound shader; returns what has to live until the draw."""
@@ -220,7 +222,7 @@ class _Marks:
 
 
 @cache
-def _shader(mode: str, cube: bool, marks: bool) -> Any:
+def _shader(mode: str, lookup: str, marks: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(TYPEDEF)
     info.vertex_in(0, "VEC2", "pos")
@@ -232,10 +234,8 @@ def _shader(mode: str, cube: bool, marks: bool) -> Any:
         info.define("SHOWS_SCENE")
         if mode != "ANGLE_ERROR":
             info.push_constant("VEC3", "background")
-        if cube:
-            info.define("ENVIRONMENT_CUBE")
+        if lookup:
             info.push_constant("FLOAT", "mirror")
-            samplers.append(("environment", "FLOAT_CUBE"))
         else:
             samplers += [(name, "FLOAT_2D") for name in _REFLECTED]
     if mode in ("ITERATIONS", "ANGLE_ERROR"):
@@ -257,8 +257,10 @@ def _shader(mode: str, cube: bool, marks: bool) -> Any:
     info.define(mode)
     for slot, (name, kind) in enumerate(samplers):
         info.sampler(slot, kind, name)
+    # Views of the surface alone do not look anything up.
+    lookup_source = declare(info, lookup, len(samplers)) if lookup else ""
     info.vertex_source(load("full_screen.vert.glsl"))
-    info.fragment_source(load(source))
+    info.fragment_source(lookup_source + load(source))
     return gpu.shader.create_from_info(info)
 
 

@@ -15,11 +15,13 @@ import numpy as np
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..errors import InputError
 from ..optics.catalogue import METHODS
-from ..optics.cube_map import nearest_texel
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
 from .diagnostics import DiagnosticPass
+from .environment import Environment
 from .environment_cube import EnvironmentCube
+from .environment_hits import environment_hits
+from .environment_vertex import VertexLookups
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
@@ -45,7 +47,7 @@ class Settings:
     map_resolution: int = 128
     """Texels along an edge of the reflector's radial cube map"""
     environment_resolution: int = 512
-    """Texels along an edge of environment maps"""
+    """Texels along an edge of environment maps: of a cube's faces, of a sphere map's square"""
     steps: int = 0
     """Of methods with a fixed number of search steps; 0: the method's own"""
     grid_share: float = 0.1
@@ -69,6 +71,8 @@ class _Targets:
     seen: SurfaceBuffer = field(init=False)
     reflected: SurfaceBuffer = field(init=False)
     back_faces: BackFaces = field(init=False)
+    vertex_lookups: VertexLookups | None = None
+    """Made where a method needs them"""
 
     def __post_init__(self) -> None:
         self.seen = SurfaceBuffer(self.width, self.height)
@@ -98,8 +102,8 @@ class Reflection:
     view: View
     parts: tuple[tuple[SolvedChunk, ...], ...]
     """Per mirror, where vertices are solved, its scenery with the reflection points"""
-    cubes: tuple[Any, ...] | None
-    """Per mirror the environment cube that stands for what it reflects; None where vertices are solved"""
+    environments: tuple[Environment, ...] | None
+    """Per mirror the environment that stands for what it reflects; None where vertices are solved"""
     warnings: tuple[str, ...]
     """One sentence each"""
 
@@ -130,7 +134,6 @@ class Renderer:
         self.geometry = SceneGeometry()
         self._targets: dict[tuple[int, int], _Targets] = {}
         self._cubes: list[EnvironmentCube] | None = None
-        self._position_cubes: tuple[Any, ...] | None = None
         self._diagnostics: DiagnosticPass | None = None
         self._jitter = offsets(self.settings.samples)
         self._follow_scene(scene)
@@ -151,7 +154,7 @@ class Renderer:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
-        self._cubes = self._position_cubes = None
+        self._cubes = None
         self.revision += 1
 
     def configure(self, settings: Settings) -> None:
@@ -171,7 +174,7 @@ class Renderer:
             self._lighting.free()
             self._lighting = Lighting(self.scene, self.geometry, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
-        self._cubes = self._position_cubes = None
+        self._cubes = None
         self.revision += 1
 
     @property
@@ -193,7 +196,7 @@ class Renderer:
         self.mirrors = []
         self.geometry = SceneGeometry()
         self._targets.clear()
-        self._cubes = self._position_cubes = self._diagnostics = None
+        self._cubes = self._diagnostics = None
 
     def _follow_scene(self, scene: SceneArrays) -> Difference:
         """Mirrors and geometry."""
@@ -253,12 +256,14 @@ class Renderer:
         if not solve:
             return Reflection(view, (), (), self.warnings)
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
-            black = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
+            black_cube = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
+            black = Environment("environment_cube", black_cube, lambda: black_cube)
             warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
             return Reflection(view, (), (black,) * len(self.mirrors), (*self.warnings, warning))
-        if self.settings.method == "environment_cube" and self.mirrors:
-            cubes = tuple(cube.color for cube in self.environment_cubes())
-            return Reflection(view, (), cubes, self.warnings)
+        if not METHODS[self.settings.method].solves_vertices:
+            environments = tuple(cube.environment(self.settings.method, view) for cube in self.environment_cubes())
+            # Without a mirror the empty reflected buffer does.
+            return Reflection(view, (), environments or None, self.warnings)
         tolerance = self.settings.pixel_tolerance
         self.geometry.refine([mirror.sight(view, tolerance) for mirror in self.mirrors])
         parts = tuple(
@@ -294,7 +299,7 @@ class Renderer:
             self._add_diagnostic(canvas, reflection, targets, uniforms, weight, diagnostic)
             return
         self._lighting.prepare(index)
-        shown = targets.reflected if reflection.cubes is None else reflection.cubes
+        shown = self._shown(targets, reflection, uniforms, of_positions=False)
         self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
 
     def _add_diagnostic(
@@ -308,7 +313,7 @@ class Renderer:
     ) -> None:
         if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
             self._diagnostics = DiagnosticPass(diagnostic.colors)
-        shown = targets.reflected if reflection.cubes is None else self._cubes_of_positions(reflection.cubes)
+        shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
         methods = (self.settings.method,) * len(self.mirrors)
         self._diagnostics.add(
             canvas,
@@ -322,13 +327,22 @@ class Renderer:
             reflection.parts,
         )
 
-    def _cubes_of_positions(self, cubes: tuple[Any, ...]) -> tuple[Any, ...]:
-        """World position and object by direction, where the cubes have radiance; black ones hold "nothing" already."""
-        if not cubes or self._cubes is None or cubes[0] is not self._cubes[0].color:
-            return cubes
-        if self._position_cubes is None:
-            self._position_cubes = tuple(cube_texture(cube.geometry(), linear=False) for cube in self._cubes)
-        return self._position_cubes
+    def _shown(
+        self, targets: _Targets, reflection: Reflection, uniforms: Any, of_positions: bool
+    ) -> SurfaceBuffer | tuple[Environment, ...]:
+        """What stands for the reflected scene in the view of `uniforms`: light, or with `of_positions` geometry."""
+        environments = reflection.environments
+        if environments is None:
+            return targets.reflected
+        if not any(environment.lookup == "environment_cube_vertex" for environment in environments):
+            return environments
+        if targets.vertex_lookups is None:
+            targets.vertex_lookups = VertexLookups(targets.width, targets.height)
+        mirrors = [
+            (mirror.number, self.geometry.of_instance(mirror.index), environment)
+            for mirror, environment in zip(self.mirrors, environments, strict=True)
+        ]
+        return tuple(targets.vertex_lookups.draw(mirrors, targets.seen, uniforms, of_positions))
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -360,7 +374,7 @@ class Renderer:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
         draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms)
-        if reflection.cubes is None:
+        if reflection.environments is None:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):
                 if mirror.may_hide_itself:
@@ -381,15 +395,18 @@ class Renderer:
     def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
         """Surface buffers through the pixel centres, read back (see `Frame`)."""
         targets = self._targets_for(reflection.view)
-        self._draw_surfaces(targets, reflection.view, reflection)
+        uniforms = self._draw_surfaces(targets, reflection.view, reflection)
         arrays = {
             "seen_position": read_texture(targets.seen.position),
             "seen_normal": read_texture(targets.seen.normal),
             "seen_color": read_texture(targets.seen.color),
         }
-        if reflection.cubes is None:
-            arrays["reflected_position"] = read_texture(targets.reflected.position)
-            arrays["reflected_color"] = read_texture(targets.reflected.color)
+        shown = self._shown(targets, reflection, uniforms, of_positions=True)
+        if isinstance(shown, SurfaceBuffer):
+            arrays["reflected_position"] = read_texture(shown.position)
+            arrays["reflected_color"] = read_texture(shown.color)
+        else:
+            arrays["reflected_position"] = environment_hits(targets.seen, shown, uniforms)
         return arrays
 
 
@@ -415,7 +432,8 @@ class Frame:
     @cached_property
     def surfaces(self) -> dict[str, Float32Array]:
         """Surface buffers through the pixels' centres (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
-        seen_color and, where vertices are solved, reflected_position, reflected_color."""
+        seen_color, reflected_position and, where vertices are solved, reflected_color. From an environment,
+        reflected_position has the direction of the background, too, with w = 0."""
         return self._renderer.surfaces_of(self._reflection)
 
     def color(self) -> Float32Array:
@@ -453,27 +471,15 @@ class Frame:
         to_eye = eye[:3] - seen * eye[3]
         to_eye /= np.maximum(np.linalg.norm(to_eye, axis=-1, keepdims=True), 1e-30)
         direction = 2.0 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
-        if "reflected_position" in self.surfaces:
-            hits = self.surfaces["reflected_position"]
-        elif self._renderer.settings.method == "environment_cube" and self._renderer.mirrors:
-            hits = self._cube_hits(direction)
-        else:
-            hits = np.zeros((*mask.shape, 4), np.float32)
+        hits = self.surfaces["reflected_position"]
         ids = np.where(mask, np.rint(hits[..., 3]), 0).astype(np.int32)
         position = np.zeros((*mask.shape, 4), np.float32)
-        position[..., :3] = np.where((ids > 0)[..., None], hits[..., :3], direction)
+        # Environment lookups say themselves in which direction they see the background.
+        found = (hits[..., :3] != 0.0).any(axis=-1, keepdims=True)
+        position[..., :3] = np.where(found, hits[..., :3], direction)
         position[..., 3] = ids > 0
         position[~mask] = 0.0
         return position, ids
-
-    def _cube_hits(self, direction: Float32Array) -> Float32Array:
-        number = np.rint(self.surfaces["seen_color"][..., 3]).astype(np.int32)
-        hits = np.zeros((*number.shape, 4), np.float32)
-        for mirror, cube in zip(self._renderer.mirrors, self._renderer.environment_cubes(), strict=True):
-            here = number == mirror.number
-            faces = cube.geometry()
-            hits[here] = faces[nearest_texel(faces.shape[1], direction[here])]
-        return hits
 
 
 def _check(settings: Settings) -> None:
@@ -485,6 +491,10 @@ def _check(settings: Settings) -> None:
         raise InputError(f"A tolerance of {settings.pixel_tolerance} pixels is out of range: choose 0.01 to 100.")
     if not 8 <= settings.map_resolution <= 2048:
         raise InputError(f"A map of {settings.map_resolution} texels is out of range: choose 8 to 2048.")
+    if not 8 <= settings.environment_resolution <= 4096:
+        raise InputError(
+            f"An environment map of {settings.environment_resolution} texels is out of range: choose 8 to 4096."
+        )
     if not 0 <= settings.steps <= 1000:
         raise InputError(f"{settings.steps} search steps are out of range: choose 0 (the method's own) to 1000.")
     if not 0.0 < settings.grid_share <= 1.0:

@@ -213,7 +213,7 @@ class Mirror:
 
     def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
         maps = METHODS[settings.method].maps
-        reflector = Reflector(self.world_to_map, self.bound, side=self._side(view))
+        reflector = Reflector(self.world_to_map, self.bound, side=self.side(view))
         if "radial" in maps:
             reflector = replace(reflector, textures={"radial": self.radial})
         if "parametric" in maps:
@@ -239,7 +239,7 @@ class Mirror:
             )
         return reflector
 
-    def _side(self, view: View) -> float:
+    def side(self, view: View) -> float:
         """1 where the eye sees more of the outer side of the mirror, -1 where it sees more of the inner one."""
         if not self.is_open:
             return 1.0

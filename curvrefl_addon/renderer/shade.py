@@ -12,6 +12,7 @@ import gpu
 
 from ...gpu_shaders.loader import load
 from ..scene.arrays import SceneArrays
+from .environment import Environment, declare
 from .gpu_objects import drawing_state, full_screen_triangle
 from .lighting import Lighting
 from .materials import Materials
@@ -45,31 +46,31 @@ class ShadePass:
         self,
         target: Any,
         seen: SurfaceBuffer,
-        reflected: SurfaceBuffer | Sequence[Any],
+        reflected: SurfaceBuffer | Sequence[Environment],
         view_uniforms: Any,
         weight: float,
         mirrors_only: bool = False,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
 
-        `reflected` is the reflected scene's surface buffer, or for each mirror the environment cube texture that stands
-        for it. With `mirrors_only` no other pixel is touched.
+        `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it. With
+        `mirrors_only` no other pixel is touched.
         """
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             if isinstance(reflected, SurfaceBuffer):
-                shader = self._bound(_shade_shader(False), seen, view_uniforms, weight)
+                shader = self._bound(_shade_shader(""), seen, view_uniforms, weight)
                 shader.uniform_float("mirrors_only", float(mirrors_only))
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
                 full_screen_triangle().draw(shader)
             else:
-                shader = self._bound(_shade_shader(True), seen, view_uniforms, weight)
-                shader.uniform_float("mirrors_only", float(mirrors_only))
-                for number, cube in enumerate(reflected, 1):
+                for number, environment in enumerate(reflected, 1):
+                    shader = self._bound(_shade_shader(environment.lookup), seen, view_uniforms, weight)
+                    shader.uniform_float("mirrors_only", float(mirrors_only))
                     shader.uniform_float("mirror", float(number))
-                    shader.uniform_sampler("environment", cube)
+                    environment.bind(shader, environment.radiance)
                     full_screen_triangle().draw(shader)
             if self._has_base or (self._has_bodies and not mirrors_only):
                 shader = self._bound(_front_shader(self._has_base), seen, view_uniforms, weight)
@@ -103,19 +104,20 @@ def _info() -> Any:
 
 
 @cache
-def _shade_shader(cube: bool) -> Any:
+def _shade_shader(lookup: str) -> Any:
+    """With the name of an environment's lookup, or none for reflected surface buffers."""
     info = _info()
-    if cube:
-        info.define("ENVIRONMENT_CUBE")
+    source = ""
+    if lookup:
         info.push_constant("FLOAT", "mirror")
-        info.sampler(4, "FLOAT_CUBE", "environment")
+        source = declare(info, lookup, 4)
         used = 5
     else:
         for slot, name in enumerate(_REFLECTED, 4):
             info.sampler(slot, "FLOAT_2D", name)
         used = 7
     Lighting.declare(info, used)
-    info.fragment_source(load("shade.frag.glsl"))
+    info.fragment_source(source + load("shade.frag.glsl"))
     return gpu.shader.create_from_info(info)
 
 

@@ -10,14 +10,12 @@ They are moved there at the end: a comparison that fails leaves nothing.
 from __future__ import annotations
 
 import json
-import math
-import statistics
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import bpy
 import gpu
@@ -26,44 +24,24 @@ from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..output import checked_folder, folder_to_publish
 from ..renderer.frame import Renderer, Settings
-from ..scene.arrays import Float32Array, Int32Array, SceneArrays
+from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
 from ..scene.extract import extract_scene
 from ..scene.view import View
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .display import inverse_display_transform
-from .geometry_reference import GeometryReference, render_geometry
+from .geometry_reference import render_geometry
 from .html import report_page
 from .images import save_png
-from .metrics import BoolArray, error_map, flip_in_mask, geometry_error, mask_mismatch, missing_flip, psnr_in_mask
+from .measured_frame import RendererLike, frame_geometry_error, image_error, measure_frame
+from .metrics import error_map, mask_mismatch, missing_flip
 
 DEFAULT_METHODS = ("secant_star", "environment_cube")
+DEFAULT_PEERS = ("eevee", "cycles1", "cycles8")
 LARGEST_SIDE = 8192
 MOST_SAMPLES = 65536
-TIMED_FRAMES = 3
 
 type Progress = Callable[[str], None]
-
-
-class FrameLike(Protocol):
-    """What a comparison reads of `renderer.frame.Frame`."""
-
-    times_ms: dict[str, float]
-    warnings: tuple[str, ...]
-
-    @property
-    def solve(self) -> dict[str, Any]: ...
-    def color(self) -> Float32Array: ...
-    def mask(self) -> Int32Array: ...
-    def reflected_position(self) -> Float32Array: ...
-    def reflected_object(self) -> Int32Array: ...
-
-
-class RendererLike(Protocol):
-    """What a comparison uses of `renderer.frame.Renderer`."""
-
-    def render(self, view: View) -> FrameLike: ...
-    def free(self) -> None: ...
 
 
 type MakeRenderer = Callable[[SceneArrays, str], RendererLike]
@@ -79,7 +57,7 @@ class Comparison:
     height: int = 480
     samples: int = 256
     light: str = "direct"
-    peers: tuple[str, ...] = PEERS
+    peers: tuple[str, ...] = DEFAULT_PEERS
 
     def __post_init__(self) -> None:
         if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
@@ -242,7 +220,7 @@ def _run(
     for method in comparison.methods:
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
-        frames[method] = _measure(arrays, view, method, extract_ms, make_renderer)
+        frames[method] = measure_frame(make_renderer(arrays, method), view)
 
     yield "Tracing the mirrors' geometry in Cycles"
     object_ids = {instance.object_name: instance.object_id for instance in arrays.instances}
@@ -263,9 +241,9 @@ def _run(
         difference = inverse_display_transform(error_map(frame.color, reference.pixels))
         save_png(folder / f"{method}_error.png", difference)
         methods[method] = {
-            "image": _image_error(frame.color, reference.pixels, mask),
-            "geometry": _geometry_error(frame, truth),
-            "time_ms": frame.times_ms,
+            "image": image_error(frame.color, reference.pixels, mask),
+            "geometry": frame_geometry_error(frame, truth),
+            "time_ms": {"extract": extract_ms, **frame.times_ms},
             "solve": frame.solve,
         }
         mismatch[method] = mask_mismatch(frame.mask, truth.mask)
@@ -276,7 +254,7 @@ def _run(
         still = render_peer(scene, view_layer, peer, width, height, comparison.light)
         save_png(folder / f"{peer}.png", _opaque(still.pixels))
         peers[peer] = {
-            "image": _image_error(still.pixels, reference.pixels, mask),
+            "image": image_error(still.pixels, reference.pixels, mask),
             "time_ms": 1e3 * still.seconds,
         }
 
@@ -297,68 +275,6 @@ def _run(
     if warnings:
         report["warnings"] = warnings
     return report, mismatch
-
-
-@dataclass(frozen=True, slots=True)
-class _MeasuredFrame:
-    """Everything that is read of a frame, so that its renderer can be freed."""
-
-    color: Float32Array
-    mask: Int32Array
-    reflected_position: Float32Array
-    reflected_object: Int32Array
-    times_ms: dict[str, float]
-    solve: dict[str, Any]
-    warnings: tuple[str, ...]
-
-
-def _measure(
-    arrays: SceneArrays,
-    view: View,
-    method: str,
-    extract_ms: float,
-    make_renderer: MakeRenderer,
-) -> _MeasuredFrame:
-    """One warming frame (shaders compile, resources load), then the median times of `TIMED_FRAMES` more."""
-    renderer = make_renderer(arrays, method)
-    try:
-        renderer.render(view)
-        frames = [renderer.render(view) for _ in range(TIMED_FRAMES)]
-        times = {name: statistics.median(frame.times_ms[name] for frame in frames) for name in frames[0].times_ms}
-        frame = frames[-1]
-        return _MeasuredFrame(
-            color=frame.color(),
-            mask=frame.mask(),
-            reflected_position=frame.reflected_position(),
-            reflected_object=frame.reflected_object(),
-            times_ms={"extract": extract_ms, **times},
-            solve=frame.solve,
-            warnings=frame.warnings,
-        )
-    finally:
-        renderer.free()
-
-
-def _image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
-    psnr = psnr_in_mask(test, reference, mask)
-    # JSON has no infinity.
-    flip = None if missing_flip() else flip_in_mask(test, reference, mask)
-    return {"flip": flip, "psnr": None if psnr == math.inf else psnr}
-
-
-def _geometry_error(frame: _MeasuredFrame, truth: GeometryReference) -> dict[str, Any]:
-    return dict(
-        geometry_error(
-            mask=frame.mask,
-            reflected_position=frame.reflected_position,
-            reflected_object=frame.reflected_object,
-            reference_mask=truth.mask,
-            reference_reflector_position=truth.reflector_position,
-            reference_reflected_position=truth.reflected_position,
-            reference_reflected_object=truth.reflected_object,
-            reference_valid=truth.valid,
-        )
-    )
 
 
 def _opaque(pixels: Float32Array) -> Float32Array:

@@ -24,11 +24,13 @@ import bpy
 from ..errors import InputError
 from ..scene.arrays import Float32Array
 from .images import load_exr
+from .repeats import Timing, repeated
 from .temporary_settings import TemporarySettings, temporary_settings
 
 LIGHTS = ("direct", "full")
-PEERS = ("eevee", "cycles1", "cycles8")
+PEERS = ("eevee", "cycles1", "cycles8", "cycles64")
 EEVEE_SAMPLES = 16
+MOST_SEEDS = 2**31
 
 
 class RenderCanceledError(RuntimeError):
@@ -43,6 +45,14 @@ class Still:
     """(height, width, 4) scene-linear"""
     seconds: float
     """Of the render call that made it, scene synchronisation included"""
+
+
+@dataclass(frozen=True, slots=True)
+class PeerStill(Still):
+    """A picture that was rendered for its time."""
+
+    timing: Timing
+    """Of all repeats, milliseconds; `seconds` is their median"""
 
 
 def render_reference(
@@ -72,26 +82,35 @@ def render_peer(
     width: int,
     height: int,
     light: str = "direct",
-) -> Still:
-    """The scene in one of `PEERS`. It is rendered twice; the second is kept and timed, the first compiles and loads.
+    repeats: int = 1,
+    seconds: float = 0.0,
+) -> PeerStill:
+    """The scene in one of `PEERS`. A first render compiles and loads; then come up to `repeats` timed ones, as long as
+    `seconds` have not passed.
 
     'eevee' has ray tracing on and 16 samples; with `light` 'direct' its fast global illumination only occludes.
+    Cycles has another seed than the reference: with the same its samples would be among those of the reference.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
         use_viewport_geometry(changes, scene, view_layer)
+        # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
         if peer == "eevee":
             _use_eevee(changes, scene, light)
-            # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
             changes.set(scene.eevee, taa_render_samples=1)
-        elif peer in ("cycles1", "cycles8"):
-            use_cycles(changes, scene, view_layer, int(peer.removeprefix("cycles")), light)
+            render_still(scene, view_layer)
+            changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES)
+        elif peer in PEERS:
+            use_cycles(changes, scene, view_layer, 1, light)
+            cycles = cycles_settings(scene)
+            changes.set(cycles, seed=(cycles.seed + 1) % MOST_SEEDS)
+            render_still(scene, view_layer)
+            changes.set(cycles, samples=int(peer.removeprefix("cycles")))
         else:
             raise InputError(f"Unknown peer '{peer}': choose from {', '.join(PEERS)}, or none.")
-        render_still(scene, view_layer)
-        if peer == "eevee":
-            changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES)
-        return render_still(scene, view_layer)
+        stills = repeated(lambda: render_still(scene, view_layer), repeats, seconds)
+    timing = Timing(tuple(1e3 * still.seconds for still in stills))
+    return PeerStill(stills[-1].pixels, 1e-3 * timing.median, timing)
 
 
 def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int) -> None:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 NO_NUMBER = "-"
@@ -92,11 +93,16 @@ def rows(report: dict[str, Any]) -> list[tuple[str, ...]]:
 
 def format_table(report: dict[str, Any]) -> str:
     """The report of `compare` as lines of text, columns aligned."""
-    table = rows(report)
-    widths = [max(len(row[column]) for row in table) for column in range(len(_COLUMNS))]
-    lines = [headline(report), ""]
+    lines = [headline(report), "", *aligned(rows(report))]
+    lines += [f"Warning: {warning}" for warning in report.get("warnings", ())]
+    return "\n".join(lines)
+
+
+def aligned(table: Sequence[tuple[str, ...]]) -> list[str]:
+    """Lines of cells, the first column to the left."""
+    widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
+    lines = []
     for row in table:
         cells = [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
         lines.append("  ".join(cells).rstrip())
-    lines += [f"Warning: {warning}" for warning in report.get("warnings", ())]
-    return "\n".join(lines)
+    return lines

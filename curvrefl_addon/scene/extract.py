@@ -96,6 +96,8 @@ class SceneReader:
         self._world_warnings: list[str] = []
         self._listing: tuple[Any, ...] = ()
         self._overrides: dict[int, MaterialArrays] = {}
+        self._mapped: frozenset[int] = frozenset()
+        """Reflectors: their UV map is read also where no material needs it, for methods that search in it"""
         self._last: SceneArrays | None = None
 
     @property
@@ -124,6 +126,10 @@ class SceneReader:
         assert view_layer is not None
         if dict(overrides or {}) != self._overrides:
             self._overrides = dict(overrides or {})
+            changes.instances = True
+        mapped = frozenset(obj.original.session_uid for obj in reflectors)
+        if mapped != self._mapped:
+            self._mapped = mapped
             changes.instances = True
         if changes.everything:
             self._images.forget_all()
@@ -259,6 +265,8 @@ class SceneReader:
         slots = self._slots(obj, uid, override)
         warnings: list[str] = [slot.warning for slot in slots if slot.warning]
         needs = _needs(name, slots, warnings)
+        if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
+            needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
         warnings += stored.warnings
         error = (

@@ -216,7 +216,12 @@ def test_peers_agree_on_a_plain_floor(scene: bpy.types.Scene, peer: str, monkeyp
 
 @pytest.mark.parametrize(
     ("peer", "engine", "samples"),
-    [("eevee", "BLENDER_EEVEE", [1, 16]), ("cycles1", "CYCLES", [1, 1]), ("cycles8", "CYCLES", [8, 8])],
+    [
+        ("eevee", "BLENDER_EEVEE", [1, 16]),
+        ("cycles1", "CYCLES", [1, 1]),
+        ("cycles8", "CYCLES", [1, 8]),
+        ("cycles64", "CYCLES", [1, 64]),
+    ],
 )
 def test_the_second_render_is_the_one_that_counts(
     scene: bpy.types.Scene, monkeypatch: pytest.MonkeyPatch, peer: str, engine: str, samples: list[int]
@@ -232,6 +237,25 @@ def test_the_second_render_is_the_one_that_counts(
     monkeypatch.setattr(cycles_reference, "render_still", record)
     assert render_peer(scene, bpy.context.view_layer, peer, WIDTH, HEIGHT).seconds == 2.0
     assert used == samples
+
+
+def test_peers_are_timed_again_and_draw_other_samples_than_the_reference(
+    scene: bpy.types.Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene.cycles.seed = 5
+    seeds: list[int] = []
+
+    def record(scene: bpy.types.Scene, _view_layer: bpy.types.ViewLayer) -> Still:
+        seeds.append(scene.cycles.seed)
+        return Still(np.zeros((1, 1, 4), np.float32), float(len(seeds)))
+
+    monkeypatch.setattr(cycles_reference, "render_still", record)
+    still = render_peer(scene, bpy.context.view_layer, "cycles8", WIDTH, HEIGHT, repeats=3, seconds=60.0)
+    assert still.timing.times == (2000.0, 3000.0, 4000.0)
+    assert still.seconds == 3.0
+    assert seeds == [6] * 4 and scene.cycles.seed == 5
+    render_reference(scene, bpy.context.view_layer, WIDTH, HEIGHT, 8)
+    assert seeds[-1] == 5
 
 
 def test_unknown_peer_is_named(scene: bpy.types.Scene) -> None:

@@ -20,9 +20,11 @@ from curvrefl.curvrefl_addon.diagnostic_colors import (
 )
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics import status
+from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.diagnostic_legend import draw_layout, layout
 from curvrefl.curvrefl_addon.renderer.diagnostics import DiagnosticPass
+from curvrefl.curvrefl_addon.renderer.environment import Environment
 from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
 from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     cube_texture,
@@ -31,8 +33,7 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     record_texture,
     texture_2d,
 )
-from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk
-from curvrefl.curvrefl_addon.renderer.solve import VertexSolution, statistics
+from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk, VertexSolution, statistics
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.view_block import view_block
 from curvrefl.curvrefl_addon.scene.view import View
@@ -46,6 +47,7 @@ VIEW = look_at(EYE, np.zeros(3), 160, 120, np.radians(36))
 COLORS = DiagnosticColors()
 PLAIN = DiagnosticOptions()
 SECANT = ("secant_star",)
+ENVIRONMENTS = [name for name, method in METHODS.items() if not method.solves_vertices]
 
 
 class Ball:
@@ -209,7 +211,8 @@ def test_angle_error_of_an_environment_cube() -> None:
     faces = np.ones((6, size, size, 4), np.float32)
     faces[..., :3] = distance * texel_directions(size).reshape(6, size, size, 3)
     cube = cube_texture(faces, linear=True)
-    picture = drawn(VIEW, ball.seen(), (cube,), "ANGLE_ERROR", DiagnosticOptions(angles=(0.1, 90.0)))
+    environment = Environment("environment_cube", None, lambda: cube)
+    picture = drawn(VIEW, ball.seen(), (environment,), "ANGLE_ERROR", DiagnosticOptions(angles=(0.1, 90.0)))
     to_shown = unit(distance * ball.ray - ball.point)
     angle = np.degrees(np.arccos(np.clip((to_shown * ball.ray).sum(-1), -1, 1)))
     ours = 10 ** (place_on_ramp(picture) * np.log10(900.0) - 1.0)
@@ -365,15 +368,14 @@ def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
     reflection = renderer.reflect(VIEW)
     renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True)
     targets = renderer._targets_for(VIEW)
-    shown = targets.reflected
-    if reflection.cubes is not None:
-        shown = [cube_texture(cube.geometry(), linear=False) for cube in renderer.environment_cubes()]
+    # Without jitter the uniforms of the view are those of the sub-frame.
+    shown = renderer._shown(targets, reflection, view_block(VIEW), of_positions=True)
     picture = drawn(VIEW, targets.seen, shown, mode, methods=(method,), parts=reflection.parts)
     return picture, read_texture(color), renderer
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("method", ["secant_star", "environment_cube"])
+@pytest.mark.parametrize("method", ["secant_star", *ENVIRONMENTS])
 def test_covers_what_the_shade_pass_covers(method: str, mode: str) -> None:
     picture, shaded, _ = rendered(method, mode)
     assert 0.2 < (shaded[..., 3] == 1.0).mean() < 0.9

@@ -96,8 +96,10 @@ def test_a_uv_map_without_seams_leaves_the_vertices_whole() -> None:
     np.testing.assert_allclose(mesh.corner_uv, 0.5 * mesh.positions[:, :2] + 0.5, atol=1e-5)
 
 
-def test_a_uv_map_is_read_only_where_a_material_needs_it() -> None:
-    assert mesh_of(extracted(add_square()), "square").corner_uv is None
+def test_a_uv_map_is_read_where_a_material_needs_it_and_of_reflectors() -> None:
+    square = add_square()
+    assert mesh_of(extracted(), "square").corner_uv is None
+    assert mesh_of(extracted(square), "square").corner_uv is not None
 
 
 def test_the_map_active_for_rendering_and_a_named_map() -> None:

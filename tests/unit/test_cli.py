@@ -12,7 +12,7 @@ import pytest
 from curvrefl.curvrefl_addon import cli, verbs
 from curvrefl.curvrefl_addon.errors import InputError
 
-VERBS = ("demo", "test", "render", "compare", "bake", "build")
+VERBS = ("demo", "test", "render", "compare", "chart", "bake", "build")
 FILE = ("x.blend", "--reflector", "Ball")
 
 
@@ -69,6 +69,13 @@ def test_every_verb_has_help(verb: str, capfd: pytest.CaptureFixture[str]) -> No
         (["compare", *FILE, "--output", "OUT/new", "--light", "candle"], "candle"),
         (["compare", *FILE, "--output", "OUT/new", "--samples", "0"], "0"),
         (["compare", *FILE, "--output", "OUT/new", "--resolution", "1x"], "1x"),
+        (["chart", "--output", "OUT/new"], "FILE.blend"),
+        (["chart", *FILE], "--output"),
+        (["chart", *FILE, "--output", "OUT/a-file"], "a-file"),
+        (["chart", *FILE, "--output", "OUT/new", "--method", "magic"], "magic"),
+        (["chart", *FILE, "--output", "OUT/new", "--peers", "luxrender"], "luxrender"),
+        (["chart", *FILE, "--output", "OUT/new", "--light", "candle"], "candle"),
+        (["chart", *FILE, "--output", "OUT/new", "--vertices", "999"], "999"),
         (["bake", *FILE, "--output", "OUT/new", "--resolution", "4"], "4"),
         (["bake", *FILE, "--output", "OUT/new", "--resolution", "100000"], "100000"),
         (["bake", "x.blend", "--reflector", "A,B", "--output", "OUT/new"], "one reflector"),

@@ -178,7 +178,7 @@ def test_small_triangles_end_the_search() -> None:
     eye, vertex = np.array([0.8, -0.3, 2.0, 1.0]), np.array([[-0.4, 0.9, 1.2]])
     coarse = secant_uv.secant_search(Paraboloid(), Screen(eye, FOCAL), vertex, 50, 1.0)[1]
     fine = secant_uv.secant_search(Paraboloid(), Screen(eye, FOCAL), vertex, 50, 1e-3)[1]
-    assert 0 < coarse[0] <= fine[0] < 20
+    assert 0 < coarse[0] < fine[0] < 20
 
 
 def test_sheet_reflects_on_the_side_of_the_eye() -> None:

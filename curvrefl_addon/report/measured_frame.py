@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One picture of a renderer with its times, and its errors against what Cycles shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from ..scene.arrays import Float32Array, Int32Array
+from ..scene.view import View
+from .geometry_reference import GeometryReference
+from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask
+from .repeats import Timing
+
+TIMED_FRAMES = 3
+
+
+class FrameLike(Protocol):
+    """What is read of `renderer.frame.Frame`."""
+
+    times_ms: dict[str, float]
+    warnings: tuple[str, ...]
+
+    @property
+    def solve(self) -> dict[str, Any]: ...
+    def color(self) -> Float32Array: ...
+    def mask(self) -> Int32Array: ...
+    def reflected_position(self) -> Float32Array: ...
+    def reflected_object(self) -> Int32Array: ...
+
+
+class RendererLike(Protocol):
+    """What is used of `renderer.frame.Renderer`."""
+
+    def render(self, view: View) -> FrameLike: ...
+    def free(self) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredFrame:
+    """Everything that is read of a frame, so that its renderer can be freed."""
+
+    color: Float32Array
+    mask: Int32Array
+    reflected_position: Float32Array
+    reflected_object: Int32Array
+    times: dict[str, Timing]
+    """By step: bake, solve, draw, and frame = solve + draw"""
+    solve: dict[str, Any]
+    warnings: tuple[str, ...]
+
+    @property
+    def times_ms(self) -> dict[str, float]:
+        """Medians by step."""
+        return {name: timing.median for name, timing in self.times.items()}
+
+
+def measure_frame(renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES) -> MeasuredFrame:
+    """The picture and its times; frees the renderer."""
+    try:
+        frame, times = _timed_frames(renderer, view, repeats)
+        return MeasuredFrame(
+            color=frame.color(),
+            mask=frame.mask(),
+            reflected_position=frame.reflected_position(),
+            reflected_object=frame.reflected_object(),
+            times=times,
+            solve=frame.solve,
+            warnings=frame.warnings,
+        )
+    finally:
+        renderer.free()
+
+
+def measure_times(renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES) -> dict[str, Timing]:
+    """The times alone; frees the renderer."""
+    try:
+        return _timed_frames(renderer, view, repeats)[1]
+    finally:
+        renderer.free()
+
+
+def _timed_frames(renderer: RendererLike, view: View, repeats: int) -> tuple[FrameLike, dict[str, Timing]]:
+    """One warming frame (shaders compile, resources load), then the timed ones; the last of them, and times by step."""
+    renderer.render(view)
+    frames = [renderer.render(view) for _ in range(repeats)]
+    steps = frames[0].times_ms
+    return frames[-1], {name: Timing(tuple(frame.times_ms[name] for frame in frames)) for name in steps}
+
+
+def image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
+    """FLIP and PSNR over `mask` (h, w); None where there is no number: no pixels, no FLIP package, equal pictures."""
+    psnr = psnr_in_mask(test, reference, mask)
+    # JSON has no infinity.
+    flip = None if missing_flip() else flip_in_mask(test, reference, mask)
+    return {"flip": flip, "psnr": None if psnr == math.inf else psnr}
+
+
+def frame_geometry_error(frame: MeasuredFrame, truth: GeometryReference) -> GeometryError:
+    """See `metrics.geometry_error`."""
+    return geometry_error(
+        mask=frame.mask,
+        reflected_position=frame.reflected_position,
+        reflected_object=frame.reflected_object,
+        reference_mask=truth.mask,
+        reference_reflector_position=truth.reflector_position,
+        reference_reflected_position=truth.reflected_position,
+        reference_reflected_object=truth.reflected_object,
+        reference_valid=truth.valid,
+    )
