@@ -145,6 +145,23 @@ def _parser() -> argparse.ArgumentParser:
     )
     chart.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
+    stability = verb("stability", verbs.stability, "Try methods where they fail: motion, contact, caustics, any input.")
+    stability.add_argument(
+        "--vertices",
+        type=_between(10, 100_000),
+        default=400,
+        metavar="N",
+        help="per reflector and regime of the solver table (%(default)s)",
+    )
+    stability.add_argument(
+        "--fuzz",
+        type=_between(1000, 100_000_000),
+        default=1_000_000,
+        metavar="N",
+        help="random eyes, vertices and reflectors a method (%(default)s)",
+    )
+    stability.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.set_defaults(camera=None, frame=None, resolution=None)
     bake.add_argument("file", metavar="FILE.blend")

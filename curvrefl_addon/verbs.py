@@ -137,6 +137,22 @@ def chart(options: argparse.Namespace) -> int:
     return 0
 
 
+def stability(options: argparse.Namespace) -> int:
+    """Where methods fail; see `report.stability`."""
+    output = checked_folder(options.output)
+    _start_gpu()
+
+    from .report.stability import format_stability, measure_stability
+
+    with _dropped(STDOUT) as stdout:
+        report = measure_stability(
+            output, options.vertices, options.fuzz, lambda line: print(line, file=stdout, flush=True)
+        )
+    print(format_stability(report))
+    print(f"Page: {output / 'stability.html'}")
+    return 0
+
+
 def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:
     """The files, once each, with their names in a chart: the name of the file, or its path where two share it."""
     stems = [Path(file).stem for file in dict.fromkeys(files)]

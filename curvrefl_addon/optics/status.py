@@ -13,5 +13,5 @@ SENTENCES = {
     REFLECTED: "A reflection point was found; eye and vertex are on the outer side there.",
     HIDDEN: "The reflector hides the vertex from the eye or the vertex is inside it; it has no reflection.",
     UNSOLVED: "The search did not converge within its steps; the vertex is left out.",
-    INVALID: "The vertex has no finite position; it is left out.",
+    INVALID: "The vertex has no finite position, or one too far away to compute with; it is left out.",
 }

@@ -33,8 +33,8 @@ from ..scene.view import View
 WIDTH, HEIGHT, FIELD_OF_VIEW = 640, 480, np.radians(40.0)
 OFF = 0.5
 """Pixels from which on a reflected vertex counts as off"""
-TIMED_VERTICES = 1 << 17
-TIMED_REPEATS = 5
+TIMED_VERTICES = 1 << 14
+TIMED_REPEATS = 3
 FAR_AWAY = 1e6
 """Radii: where environment maps take things to be"""
 

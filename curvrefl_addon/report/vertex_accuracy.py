@@ -152,7 +152,7 @@ class VertexTruth:
         def cover(u: Float64Array) -> NDArray[np.bool_]:
             return met[nearest_texel(fine.resolution, u)]
 
-        oracle = Oracle(CubeMapSurface(fine.radial), NODES, mirror._side(self._view), cover if mirror.is_open else None)
+        oracle = Oracle(CubeMapSurface(fine.radial), NODES, mirror.side(self._view), cover if mirror.is_open else None)
         truth = oracle.reflection_points(eye, vertices)
         return _Judge(mirror, fine, chosen, truth, Screen(eye, self._view.focal_pixels))
 

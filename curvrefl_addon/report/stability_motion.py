@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How steadily reflection points move: slow paths of the eye and of the vertices, against the oracle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..optics import status
+from ..optics.catalogue import METHODS
+from ..optics.oracle import Oracle
+from ..optics.radial_surfaces import Float64Array
+from ..optics.regimes import make_cases
+from ..optics.study_surfaces import STUDIES
+from ..renderer.frame import Settings
+from ..renderer.solve import VertexSolution
+from ..renderer.study_reflector import StudyReflector
+from .solver_table import study_view
+
+FRAMES = 16
+STEP = np.radians(0.25)
+"""The eye's turn, or the vertices', from frame to frame"""
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """One method on one path. Pixels of vertices that both the method and the oracle reflect in all frames."""
+
+    reflector: str
+    path: str
+    """"eye" or "objects\""""
+    method: str
+    vertices: int
+    jitter_median_px: float
+    """Second difference of the reflection point on screen, less the oracle's"""
+    jitter_p99_px: float
+    worst_pop_px: float
+    """Largest move from frame to frame that the oracle does not make"""
+    iterations_first: float
+    """Mean of the first frame"""
+    iterations_later: float
+    """Mean of the others, for methods that start where the last frame ended"""
+    identical_at_rest: bool
+    """The last frame, solved again, has the same bits"""
+
+
+def measure_motion(reflectors: Sequence[str], count: int) -> list[Motion]:
+    """All methods that solve vertex by vertex, on a path of the eye around the reflector and one of the vertices."""
+    found = []
+    for name in reflectors:
+        study = STUDIES[name]
+        cases = make_cases(study, "near", count)
+        reflector, oracle = StudyReflector(study), study.oracle()
+        for path in ("eye", "objects"):
+            eyes, vertices = _path(path, cases.eye, cases.vertices)
+            views = [study_view(eye) for eye in eyes]
+            truth = _true_pixels(oracle, eyes, vertices)
+            for method, entry in METHODS.items():
+                if not entry.solves_vertices or entry.grid_search or "plane" in entry.maps:
+                    continue
+                settings = Settings(method=method)
+                pixels, reflected, iterations = [], [], []
+                previous: VertexSolution | None = None
+                for view, here in zip(views, vertices, strict=True):
+                    previous = reflector.solve(method, view, settings, here, previous)
+                    points, code, steps, _ = previous.read()
+                    pixels.append(view.project(points.astype(np.float64)))
+                    reflected.append(code == status.REFLECTED)
+                    iterations.append(float(steps[code == status.REFLECTED].mean()) if reflected[-1].any() else 0.0)
+                again = reflector.solve(method, views[-1], settings, vertices[-1], previous)
+                assert previous is not None
+                same = all(np.array_equal(a, b) for a, b in zip(previous.read(), again.read(), strict=True))
+                kept = np.all(reflected, axis=0) & np.isfinite(truth).all(axis=(0, 2))
+                error = np.array(pixels)[:, kept] - truth[:, kept]
+                # Another image of the same vertex is no error of the motion, unless the method jumps to it.
+                jitter = np.linalg.norm(np.diff(error, 2, axis=0), axis=2)
+                pop = np.linalg.norm(np.diff(error, axis=0), axis=2)
+                found.append(
+                    Motion(
+                        name,
+                        path,
+                        method,
+                        int(kept.sum()),
+                        float(np.median(jitter)) if jitter.size else float("nan"),
+                        float(np.percentile(jitter, 99)) if jitter.size else float("nan"),
+                        float(pop.max(initial=0.0)),
+                        iterations[0],
+                        float(np.mean(iterations[1:])),
+                        same,
+                    )
+                )
+    return found
+
+
+def _path(kind: str, eye: Float64Array, vertices: Float64Array) -> tuple[list[Float64Array], list[Float64Array]]:
+    eyes, moved = [], []
+    for frame in range(FRAMES):
+        angle = STEP * frame
+        turn = np.eye(4)
+        turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        eyes.append(turn @ eye if kind == "eye" else eye)
+        moved.append(vertices if kind == "eye" else vertices @ turn[:3, :3].T)
+    return eyes, moved
+
+
+def _true_pixels(oracle: Oracle, eyes: Sequence[Float64Array], vertices: Sequence[Float64Array]) -> Float64Array:
+    """(frames, n, 2); NaN where a vertex has no reflection or several, between which nothing says which is meant."""
+    frames = []
+    for eye, here in zip(eyes, vertices, strict=True):
+        points = oracle.reflection_points(eye, here)
+        first = points.first(len(here))
+        first[points.counts(len(here)) != 1] = np.nan
+        frames.append(study_view(eye).project(first))
+    return np.array(frames)

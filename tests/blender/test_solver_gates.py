@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""No method gets worse unnoticed: errors, losses and operation counts on a small fixed solver table. Never time."""
+
+from __future__ import annotations
+
+import pytest
+from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.report.solver_table import Row, solver_table
+from curvrefl.curvrefl_addon.report.stability_fuzz import fuzz
+from curvrefl.curvrefl_addon.report.stability_motion import measure_motion
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+USUAL = ("far", "near", "contact", "grazing", "axis, corner, pole")
+
+
+@pytest.fixture(scope="module")
+def rows() -> dict[tuple[str, str, str], Row]:
+    table, refusals = solver_table(
+        200, ("sphere", "ellipsoid", "bumpy", "bowl"), (*USUAL, "hidden"), timed=False, only_defaults=True
+    )
+    assert not refusals
+    return {(row.reflector, row.regime, row.method): row for row in table}
+
+
+@pytest.mark.parametrize("reflector", ["sphere", "ellipsoid", "bumpy"])
+def test_secant_star(rows: dict[tuple[str, str, str], Row], reflector: str) -> None:
+    here = [rows[reflector, regime, "secant_star"] for regime in USUAL]
+    assert max(row.unconverged for row in here) <= 0.01
+    assert max(row.error_p95_px for row in here) < 0.15
+    assert max(row.off for row in here) == 0.0
+    assert max(row.misclassified for row in here) <= 0.01
+    # The paper's 5 to 10 steps.
+    assert 5.0 <= sum(row.iterations_mean for row in here) / len(here) <= 10.0
+    assert max(row.iterations_max for row in here) <= 40
+    hidden = rows[reflector, "hidden", "secant_star"]
+    assert hidden.misclassified == 0.0
+
+
+def test_secant_star_in_a_hollow_mirror(rows: dict[tuple[str, str, str], Row]) -> None:
+    here = [rows["bowl", regime, "secant_star"] for regime in ("far", "near", "contact")]
+    assert max(row.error_p95_px for row in here) < 0.1
+    assert max(row.misclassified + row.unconverged for row in here) <= 0.1
+
+
+BOUNDS = {
+    # method: (median px far, off near, unconverged far, mean iterations far)
+    "secant_uv": (0.1, 0.2, 0.2, 5.0),
+    "bisector_cube": (0.4, 0.15, 0.05, 9.0),
+    "bisector_screen": (0.6, 0.35, 0.01, 250.0),
+}
+
+
+@pytest.mark.parametrize("method", BOUNDS)
+def test_other_methods_on_the_sphere(rows: dict[tuple[str, str, str], Row], method: str) -> None:
+    median, off, unconverged, iterations = BOUNDS[method]
+    far, near = rows["sphere", "far", method], rows["sphere", "near", method]
+    assert far.error_median_px < median
+    assert near.off < off
+    assert far.unconverged < unconverged
+    assert far.iterations_mean <= iterations
+    assert rows["sphere", "hidden", method].misclassified == 0.0
+
+
+def test_environments_are_right_far_away_and_wrong_nearby(rows: dict[tuple[str, str, str], Row]) -> None:
+    assert rows["sphere", "far", "environment_cube"].error_median_px < 2.0
+    assert rows["sphere", "contact", "environment_cube"].error_median_px > 20.0
+    near, far = (rows["sphere", "near", name].error_median_px for name in ("environment_parallax", "environment_cube"))
+    assert near < far
+
+
+def test_any_input_ends_with_a_code() -> None:
+    results = fuzz(100_000)
+    assert {item.method for item in results} == {
+        name for name, entry in METHODS.items() if entry.solves_vertices and not entry.grid_search and name != "planar"
+    }
+    for item in results:
+        assert (item.not_finite, item.wild, item.without_code) == (0, 0, 0), item.method
+        assert item.invalid > 0 and item.reflected > 0 and item.hidden > 0
+
+
+def test_reflections_move_steadily() -> None:
+    found = {(item.path, item.method): item for item in measure_motion(("ellipsoid",), 300)}
+    for item in found.values():
+        # The search on the screen starts where the last one ended, and may find another texel as good from there.
+        assert item.identical_at_rest or item.method == "bisector_screen", item.method
+    for path in ("eye", "objects"):
+        assert found[path, "secant_star"].jitter_p99_px < 0.3
+        assert found[path, "secant_star"].worst_pop_px < 1.0
+        # A search from texel to texel cannot be steadier than its texels, and starts where it ended.
+        assert found[path, "bisector_screen"].jitter_p99_px < 8.0
+        assert found[path, "bisector_screen"].iterations_later < 0.2 * found[path, "bisector_screen"].iterations_first
