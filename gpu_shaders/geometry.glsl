@@ -4,6 +4,7 @@
 // Needs the samplers (FLOAT_2D) `positions` and `corners`.
 
 #include "records.glsl"
+#include "vertex_color.glsl"
 
 struct Corner {
   vec3 position;  // world space
@@ -26,9 +27,7 @@ Corner fetch_corner(int index)
   corner.object_id = place.w;
   corner.normal = first.xyz;
   corner.uv = second.xy;
-  int packed_color = int(second.z + 0.5);
-  vec3 root = vec3(packed_color & 255, (packed_color >> 8) & 255, packed_color >> 16) / 255.0;
-  corner.color = root * root;
+  corner.color = unpack_vertex_color(second.z);
   corner.mirror = second.w;
   return corner;
 }

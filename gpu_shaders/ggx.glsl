@@ -5,6 +5,8 @@
 // lobe scaled by its missing energy as Turquin, "Practical multiple scattering compensation" (2019).
 // Needs the sampler (FLOAT_2D) `lighting_ggx` of renderer/lighting_ggx.py.
 
+#include "fresnel.glsl"
+
 #define GGX_TABLE_SIZE 32
 #define GGX_IOR_SLICES 16
 // Below this squared roughness squared a lobe is a mirror, which no lamp sample can hit.
@@ -24,40 +26,6 @@ struct Lobes {
   float cos_viewer;
   vec3 specular_albedo; // of the whole lobe: metal and dielectric
 };
-
-// Never below the reflectance at normal incidence, as Cycles' generalised Schlick term.
-float fresnel_dielectric(float cosine, float eta)
-{
-  float root = (eta - 1.0) / (eta + 1.0);
-  float c = abs(cosine);
-  float g = eta * eta - 1.0 + c * c;
-  if (g <= 0.0) {
-    return 1.0;  // total reflection
-  }
-  g = sqrt(g);
-  float a = (g - c) / (g + c);
-  float b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
-  return max(0.5 * a * a * (1.0 + b * b), root * root);
-}
-
-// IOR whose reflectance at normal incidence is that of `ior` times 2 * level.
-float leveled_ior(float ior, float level)
-{
-  if (level == 0.5) {
-    return ior;
-  }
-  float root = (ior - 1.0) / (ior + 1.0);
-  float f0 = min(root * root * 2.0 * max(level, 0.0), 0.99);
-  float eta = (1.0 + sqrt(f0)) / (1.0 - sqrt(f0));
-  return ior < 1.0 ? 1.0 / eta : eta;
-}
-
-vec3 schlick(vec3 f0, float edge, float cosine)
-{
-  float s = clamp(1.0 - cosine, 0.0, 1.0);
-  float s2 = s * s;
-  return mix(f0, vec3(1.0), edge * s2 * s2 * s);
-}
 
 // x: albedo of the lobe with Fresnel 1; y: mean over it of Schlick's (1 - cos)^5; z, w: mean share of a dielectric's
 // Fresnel term between F0 and 1, of this slice's IOR and the next's. In the slice after the last, x: cosine between the
@@ -144,15 +112,4 @@ vec3 glossy_lobe(Lobes lobes, float alpha, vec3 normal, vec3 to_viewer, vec3 to_
     fresnel += lobes.dielectric_weight * fresnel_dielectric(cos_difference, lobes.eta);
   }
   return fresnel * (distribution * visibility * cos_light);
-}
-
-// Sharp reflectance, without microfacets.
-vec3 mirror_reflectance(Surface s, float cos_viewer)
-{
-  if (s.glossy_only) {
-    return s.base_color;
-  }
-  float metallic = clamp(s.metallic, 0.0, 1.0);
-  float eta = leveled_ior(s.ior, s.specular_level);
-  return mix(vec3(fresnel_dielectric(cos_viewer, eta)), schlick(s.base_color, 1.0, cos_viewer), metallic);
 }

@@ -4,6 +4,7 @@
 // One call of each lighting function for both: many drivers run all branches of a pixel group.
 #include "lighting.glsl"
 #include "shade_surfaces.glsl"
+#include "mirror_tint.glsl"
 
 void main()
 {
@@ -12,6 +13,11 @@ void main()
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
   bool on_mirror = position.w > 0.0 && base.w > 0.5;
+#ifdef NO_MIRRORS
+  if (on_mirror) {
+    discard;
+  }
+#endif
 #ifdef ENVIRONMENT
   // One pass per mirror; the first also does all that is no mirror.
   if ((on_mirror ? base.w : 1.0) != mirror) {
@@ -21,9 +27,9 @@ void main()
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
   vec3 tint = vec3(1.0);
+#ifndef NO_MIRRORS
   if (on_mirror) {
-    Surface reflector = surface_of(position, normal, base.rgb);
-    tint = mirror_reflectance(reflector, max(-dot(normal.xyz, direction), 0.0));
+    tint = mirror_tint(int(normal.w + 0.5), base.rgb, max(-dot(normal.xyz, direction), 0.0));
     origin = position.xyz;
     direction = reflect(direction, normal.xyz);
 #ifndef ENVIRONMENT
@@ -34,6 +40,7 @@ void main()
     direction = position.w > 0.0 ? normalize(position.xyz - origin) : direction;
 #endif
   }
+#endif
   vec3 radiance = shade_surface(surface_of(position, normal, base.rgb), -direction);
   float range = distance(position.xyz, origin);
   if (position.w == 0.0) {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces out of the buffers of renderer/surfaces.py. Needs the uniform block `view` and the sampler `materials`.
-#include "records.glsl"
+#include "material_records.glsl"
 
 Surface surface_of(vec4 position, vec4 normal, vec3 color)
 {
-  int record = 2 * max(int(normal.w + 0.5), 0);
+  int record = MATERIAL_RECORDS * max(int(normal.w + 0.5), 0);
   vec4 first = fetch_record(materials, record);
   vec4 second = fetch_record(materials, record + 1);
   Surface s;

@@ -24,14 +24,28 @@ class Method:
     """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""
     grid_search: str = ""
     """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
+    follows_rays: bool = False
+    """Whether every mirror pixel follows its own reflected ray"""
 
     @property
     def solves_vertices(self) -> bool:
-        """Whether it finds reflection points; else it looks up an environment."""
+        """Whether it finds the reflection points of vertices."""
         return bool(self.maps)
+
+    @property
+    def is_environment(self) -> bool:
+        """Whether it looks up a map of the surroundings."""
+        return not self.maps and not self.follows_rays
 
 
 METHODS: dict[str, Method] = {
+    "exact": Method(
+        "Exact",
+        "each mirror pixel's reflected ray through bounding-volume hierarchies; Whitted 1980, Wald 2007",
+        "nothing",
+        ("samples", (1, 2, 4, 8)),
+        follows_rays=True,
+    ),
     "secant_star": Method(
         "Secant Search",
         "Roger & Holzschuch 2006, section 3.3, with a safeguarded end",

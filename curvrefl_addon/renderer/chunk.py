@@ -85,7 +85,7 @@ class Chunk:
             if mesh.corner_uv is not None:
                 corners[here, 1, :2] = mesh.corner_uv
             if mesh.corner_color is not None:
-                corners[here, 1, 2] = _pack_color(mesh.corner_color)
+                corners[here, 1, 2] = pack_color(mesh.corner_color)
         self._source_positions = record_texture(sources)
         self._source_corners = record_texture(corners.reshape(-1, 4))
         self.positions = empty_record_texture(self.position_count)
@@ -217,7 +217,7 @@ def _by_material(triangles: Int32Array, material: Int32Array) -> Batches:
     )
 
 
-def _pack_color(color: Float32Array) -> Float32Array:
+def pack_color(color: Float32Array) -> Float32Array:
     """24-bit colour in a float (exact up to 2^24): vertex colours are smooth, 8 bits of their square root suffice."""
     levels = np.rint(np.sqrt(np.clip(color[:, :3], 0.0, 1.0)) * 255.0).astype(np.int32)
     return (levels[:, 0] + 256 * levels[:, 1] + 65536 * levels[:, 2]).astype(np.float32)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
@@ -22,11 +23,13 @@ from .environment import Environment
 from .environment_cube import EnvironmentCube
 from .environment_hits import environment_hits
 from .environment_vertex import VertexLookups
+from .exact import PathBuffer, Window
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
 from .mirror import Mirror
 from .pixel_filter import offsets
+from .ray_scene import RayScene
 from .scene_geometry import Difference, SceneGeometry
 from .shade import ShadePass
 from .solve import SolvedChunk, VertexSolution, statistics
@@ -56,6 +59,8 @@ class Settings:
     """Width of the view that is searched, in widths of the picture (`bisector_screen`)"""
     search_resolution: float = 1.0
     """Texels per pixel of the view that is searched (`bisector_screen`)"""
+    bounces: int = 4
+    """Mirrors on the way of a ray (`exact`); what the last one shows of a mirror is its own light alone"""
 
 
 MOST_TARGETS = 3
@@ -72,7 +77,14 @@ class _Targets:
     reflected: SurfaceBuffer = field(init=False)
     back_faces: BackFaces = field(init=False)
     vertex_lookups: VertexLookups | None = None
-    """Made where a method needs them"""
+    """Made where a method needs them, as the next"""
+    paths: list[PathBuffer] = field(default_factory=list)
+
+    def path(self, bounce: int) -> PathBuffer:
+        """Where rays get to after the mirror `bounce`, 0 for the first; two buffers take turns."""
+        while len(self.paths) <= min(bounce, 1):
+            self.paths.append(PathBuffer(self.width, self.height))
+        return self.paths[bounce % 2]
 
     def __post_init__(self) -> None:
         self.seen = SurfaceBuffer(self.width, self.height)
@@ -106,6 +118,8 @@ class Reflection:
     """Per mirror the environment that stands for what it reflects; None where vertices are solved"""
     warnings: tuple[str, ...]
     """One sentence each"""
+    follows_rays: bool = False
+    """Mirror pixels follow their rays: there is nothing to solve before"""
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
@@ -134,6 +148,7 @@ class Renderer:
         self.geometry = SceneGeometry()
         self._targets: dict[tuple[int, int], _Targets] = {}
         self._cubes: list[EnvironmentCube] | None = None
+        self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
         self._jitter = offsets(self.settings.samples)
         self._follow_scene(scene)
@@ -154,6 +169,8 @@ class Renderer:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
+        if self._rays is not None:
+            self._rays.follow(scene, self._numbers)
         self._cubes = None
         self.revision += 1
 
@@ -162,8 +179,8 @@ class Renderer:
         _check(settings)
         before, self.settings = self.settings, settings
         try:
-            if settings.map_resolution != before.map_resolution:
-                self._bake_mirrors(self.scene, keep=False)
+            if settings.map_resolution != before.map_resolution or not METHODS[settings.method].follows_rays:
+                self._bake_mirrors(self.scene, keep=settings.map_resolution == before.map_resolution)
             for mirror in self.mirrors:
                 mirror.require(settings.method)
         except InputError:
@@ -196,16 +213,25 @@ class Renderer:
         self.mirrors = []
         self.geometry = SceneGeometry()
         self._targets.clear()
-        self._cubes = self._diagnostics = None
+        self._cubes = self._diagnostics = self._rays = None
 
     def _follow_scene(self, scene: SceneArrays) -> Difference:
         """Mirrors and geometry."""
         self._bake_mirrors(scene, keep=True)
         self.scene = scene
-        return self.geometry.update(scene, {mirror.index: mirror.number for mirror in self.mirrors})
+        return self.geometry.update(scene, self._numbers)
+
+    @property
+    def _numbers(self) -> dict[int, int]:
+        """Mirrors' numbers by the index of their instance."""
+        return {mirror.index: mirror.number for mirror in self.mirrors}
 
     def _bake_mirrors(self, scene: SceneArrays, keep: bool) -> None:
-        """Reflectors of the scene; with `keep`, those that only moved keep their maps."""
+        """Reflectors of the scene; with `keep`, those that only moved keep their maps.
+
+        A method that follows rays needs no maps.
+        """
+        resolution = 0 if METHODS[self.settings.method].follows_rays else self.settings.map_resolution
         chosen = [index for index, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
         before: dict[int, list[Mirror]] = {}
         for old in self.mirrors if keep else ():
@@ -215,10 +241,10 @@ class Renderer:
             instance = scene.instances[index]
             known = before.get(instance.object_id)
             mirror: Mirror | None = known.pop(0) if known else None
-            if mirror is None or not mirror.follow(scene, index, number):
+            if mirror is None or (resolution and not mirror.is_baked) or not mirror.follow(scene, index, number):
                 facts = self.geometry.facts.of(scene.meshes[instance.mesh])
-                mirror = Mirror(scene, index, number, facts, self.settings.map_resolution)
-                self.counters["maps baked"] += 1
+                mirror = Mirror(scene, index, number, facts, resolution)
+                self.counters["maps baked"] += bool(resolution)
             mirror.require(self.settings.method)
             mirrors.append(mirror)
         self.mirrors = mirrors
@@ -241,7 +267,7 @@ class Renderer:
             canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
         done = perf_counter()
         times = {
-            "bake": sum(mirror.bake_ms for mirror in self.mirrors),
+            "bake": sum(mirror.bake_ms for mirror in self.mirrors) + (self._rays.build_ms if self._rays else 0.0),
             "solve": 1e3 * (solved - start),
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
@@ -255,12 +281,15 @@ class Renderer:
         """
         if not solve:
             return Reflection(view, (), (), self.warnings)
+        if METHODS[self.settings.method].follows_rays:
+            self.rays()
+            return Reflection(view, (), None, self.warnings, follows_rays=True)
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
             black_cube = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
             black = Environment("environment_cube", black_cube, lambda: black_cube)
             warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
             return Reflection(view, (), (black,) * len(self.mirrors), (*self.warnings, warning))
-        if not METHODS[self.settings.method].solves_vertices:
+        if METHODS[self.settings.method].is_environment:
             environments = tuple(cube.environment(self.settings.method, view) for cube in self.environment_cubes())
             # Without a mirror the empty reflected buffer does.
             return Reflection(view, (), environments or None, self.warnings)
@@ -299,8 +328,56 @@ class Renderer:
             self._add_diagnostic(canvas, reflection, targets, uniforms, weight, diagnostic)
             return
         self._lighting.prepare(index)
+        if reflection.follows_rays:
+            self._shade.add(canvas, targets.seen, None, uniforms, weight, mirrors_only)
+            window = self._window(reflection.view)
+            bounces = self._bounces()
+            for bounce, (mirrors, path) in enumerate(self._paths(targets, reflection, uniforms, bounces)):
+                goes_on = bounce + 1 < bounces
+                self._shade.add_path(canvas, mirrors, path, uniforms, weight, window, bounce == 0, goes_on)
+            return
         shown = self._shown(targets, reflection, uniforms, of_positions=False)
         self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
+
+    def rays(self) -> RayScene:
+        """The scene as rays need it, made when first asked for."""
+        if self._rays is None:
+            self._rays = RayScene(self.geometry.facts)
+            self._rays.follow(self.scene, self._numbers)
+        return self._rays
+
+    def improve(self) -> bool:
+        """Do some milliseconds of work that makes later pictures faster and not different; False when none is left."""
+        return self._rays is not None and self._rays.improve()
+
+    def _bounces(self) -> int:
+        """Mirrors that a ray can meet one after the other."""
+        may_meet_another = len(self.mirrors) > 1 or any(not mirror.facts.never_sees_itself for mirror in self.mirrors)
+        return self.settings.bounces if may_meet_another else 1
+
+    def _window(self, view: View) -> Window:
+        """Pixels that hold all mirrors."""
+        windows = np.array([mirror.window(view) for mirror in self.mirrors], np.int64).reshape(-1, 4)
+        windows = windows[(windows[:, 2] > 0) & (windows[:, 3] > 0)]
+        if len(windows) == 0:
+            return (0, 0, 0, 0)
+        x, y = windows[:, :2].min(axis=0)
+        right, top = (windows[:, :2] + windows[:, 2:]).max(axis=0)
+        return (int(x), int(y), int(right - x), int(top - y))
+
+    def _paths(
+        self, targets: _Targets, reflection: Reflection, uniforms: Any, bounces: int
+    ) -> Iterator[tuple[SurfaceBuffer, PathBuffer]]:
+        """Of each bounce the mirrors that rays leave and where they get to; the buffers are used again."""
+        mirrors = targets.seen
+        inside = any(mirror.holds_eye(reflection.view) for mirror in self.mirrors)
+        scale = max((mirror.bound for mirror in self.mirrors), default=1.0)
+        window = self._window(reflection.view)
+        for bounce in range(bounces if self.mirrors else 0):
+            path = targets.path(bounce)
+            path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside, scale)
+            yield mirrors, path
+            mirrors = path
 
     def _add_diagnostic(
         self,
@@ -313,7 +390,11 @@ class Renderer:
     ) -> None:
         if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
             self._diagnostics = DiagnosticPass(diagnostic.colors)
-        shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
+        shown: SurfaceBuffer | tuple[Environment, ...]
+        if reflection.follows_rays:
+            shown = self._first_path(targets, reflection, uniforms)
+        else:
+            shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
         methods = (self.settings.method,) * len(self.mirrors)
         self._diagnostics.add(
             canvas,
@@ -326,6 +407,13 @@ class Renderer:
             methods,
             reflection.parts,
         )
+
+    def _first_path(self, targets: _Targets, reflection: Reflection, uniforms: Any) -> PathBuffer:
+        for _, path in self._paths(targets, reflection, uniforms, 1):
+            return path
+        path = targets.path(0)
+        path.clear()
+        return path
 
     def _shown(
         self, targets: _Targets, reflection: Reflection, uniforms: Any, of_positions: bool
@@ -374,7 +462,7 @@ class Renderer:
         """Geometry passes of one sub-frame; returns the view's uniform block."""
         uniforms = view_block(view)
         draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms)
-        if reflection.environments is None:
+        if reflection.environments is None and not reflection.follows_rays:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):
                 if mirror.may_hide_itself:
@@ -401,6 +489,12 @@ class Renderer:
             "seen_normal": read_texture(targets.seen.normal),
             "seen_color": read_texture(targets.seen.color),
         }
+        if reflection.follows_rays:
+            path = self._first_path(targets, reflection, uniforms)
+            arrays["reflected_position"] = read_texture(path.position)
+            arrays["reflected_color"] = read_texture(path.color)
+            arrays["reflected_color"][..., 3] = read_texture(path.direction)[..., 3]
+            return arrays
         shown = self._shown(targets, reflection, uniforms, of_positions=True)
         if isinstance(shown, SurfaceBuffer):
             arrays["reflected_position"] = read_texture(shown.position)
@@ -495,6 +589,8 @@ def _check(settings: Settings) -> None:
         raise InputError(
             f"An environment map of {settings.environment_resolution} texels is out of range: choose 8 to 4096."
         )
+    if not 1 <= settings.bounces <= 64:
+        raise InputError(f"{settings.bounces} bounces are out of range: choose 1 to 64.")
     if not 0 <= settings.steps <= 1000:
         raise InputError(f"{settings.steps} search steps are out of range: choose 0 (the method's own) to 1000.")
     if not 0.0 < settings.grid_share <= 1.0:

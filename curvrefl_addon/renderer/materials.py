@@ -12,8 +12,8 @@ from ..scene.arrays import ImageArrays, MaterialArrays, SceneArrays
 from .chunk import HOLDOUT
 from .gpu_objects import record_texture, texture_2d
 
-RECORDS = 2
-"""Per material: (metallic, roughness, ior, specular level), (emission rgb, glossy only)"""
+RECORDS = 5
+"""Per material, as in material_records.glsl"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
 
 
@@ -34,7 +34,15 @@ class Materials:
         for record, material in zip(records, scene.materials, strict=True):
             record[0] = (material.metallic, material.roughness, material.ior, material.specular_level)
             record[1] = (*material.emission, float(material.glossy_only))
+            record[2] = (*material.base_color, float(material.uses_vertex_color))
+            record[3] = (*material.uv_scale, *material.uv_offset)
+            record[4, 0] = material.image
         self.table = record_texture(records.reshape(-1, 4))
+
+    @property
+    def images(self) -> list[Any]:
+        """Textures, as `SceneArrays.images`."""
+        return [texture for _, texture in self._images]
 
     @staticmethod
     def declare(info: Any, sampler: int) -> None:

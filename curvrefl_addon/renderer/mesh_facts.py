@@ -9,6 +9,7 @@ from functools import cached_property
 
 from ..scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
+from .mesh_inside import is_closed
 from .mesh_pieces import MeshPieces, box_of, mesh_pieces
 from .split import longest_edge
 
@@ -31,6 +32,15 @@ class MeshFacts:
     @cached_property
     def is_convex(self) -> bool:
         return is_convex(self.mesh)
+
+    @cached_property
+    def is_closed(self) -> bool:
+        return is_closed(self.mesh)
+
+    @property
+    def never_sees_itself(self) -> bool:
+        """As a mirror."""
+        return self.is_convex and self.is_closed
 
     @cached_property
     def pieces(self) -> MeshPieces:

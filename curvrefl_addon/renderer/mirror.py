@@ -22,6 +22,7 @@ from .gpu_objects import cube_texture
 from .grid_solve import ChunkGrid
 from .materials import Materials
 from .mesh_facts import MeshFacts
+from .mesh_inside import holds_point
 from .mirror_plane import Plane, facing_plane, flat_parts
 from .reflector_bake import bake_instance, polar
 from .reflector_map import ReflectorMap
@@ -43,7 +44,9 @@ class Mirror:
     """A placed reflector."""
 
     def __init__(self, scene: SceneArrays, index: int, number: int, facts: MeshFacts, map_resolution: int) -> None:
-        """Bakes the radial map of the instance `index`. `number` is 1, 2, ... in the order of the scene's instances.
+        """Bakes the radial map of the instance `index`, unless `map_resolution` is 0.
+
+        `number` is 1, 2, ... in the order of the scene's instances.
 
         A shape that no radial map can hold has none: methods that need one raise its `refusal`.
         """
@@ -52,18 +55,22 @@ class Mirror:
         self.map: ReflectorMap | None = None
         self.refusal: InputError | None = None
         self.radial: Any = None
-        try:
-            self.map = bake_instance(scene, index, map_resolution)
-            self.radial = cube_texture(self.map.radial)
-            self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
-        except InputError as error:
-            self.refusal = error
+        self.is_baked = map_resolution > 0
+        if self.is_baked:
+            try:
+                self.map = bake_instance(scene, index, map_resolution)
+                self.radial = cube_texture(self.map.radial)
+                self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
+            except InputError as error:
+                self.refusal = error
+        if self.map is None:
             self.world_to_map, self.bound = _bounding_frame(facts, instance)
         self.bake_ms = 1e3 * (perf_counter() - start)
         self._instance = instance
         self._mesh = facts.mesh
         self._box = facts.box
         self.may_hide_itself = not facts.is_convex
+        self.facts = facts
         self.index, self.number = index, number
         self._parametric: Any = None
         self._planes: Sequence[Plane] | None = None
@@ -137,12 +144,15 @@ class Mirror:
 
     def holds_eye(self, view: View) -> bool:
         """Whether the eye is inside the reflector."""
-        if view.is_orthographic or self.map is None or self.is_open:
+        if view.is_orthographic or self.is_open:
             return False
         eye = (self.world_to_map @ view.eye)[:3]
         distance = float(np.linalg.norm(eye))
         if distance >= self.bound:
             return False
+        if self.map is None:
+            place = np.linalg.solve(self._instance.matrix, view.eye)[:3]
+            return self.facts.is_closed and holds_point(self._mesh, place)
         if distance == 0.0:
             return True
         radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / distance)

@@ -132,7 +132,8 @@ def draw_reflected(
                 batch.draw(shader)
 
 
-def _surface_outputs(info: Any) -> None:
+def declare_surface_outputs(info: Any) -> None:
+    """Color targets of a SurfaceBuffer, in a GPUShaderCreateInfo."""
     info.fragment_out(0, "VEC4", "surface_position")
     info.fragment_out(1, "VEC4", "surface_normal")
     info.fragment_out(2, "VEC4", "surface_color_out")
@@ -155,7 +156,7 @@ def _primary_shader() -> Any:
         interface.smooth(kind, name)
     interface.flat("VEC2", "ids")
     info.vertex_out(interface)
-    _surface_outputs(info)
+    declare_surface_outputs(info)
     info.vertex_source(load("primary.vert.glsl"))
     info.fragment_source(load("primary.frag.glsl"))
     return gpu.shader.create_from_info(info)
@@ -187,7 +188,7 @@ def _reflected_shader(with_back_faces: bool) -> Any:
         interface.smooth(kind, name)
     interface.flat("FLOAT", "object_id")
     info.vertex_out(interface)
-    _surface_outputs(info)
+    declare_surface_outputs(info)
     info.depth_write("ANY")
     info.vertex_source(load("reflected.vert.glsl"))
     info.fragment_source(load("reflected.frag.glsl"))

@@ -47,7 +47,7 @@ VIEW = look_at(EYE, np.zeros(3), 160, 120, np.radians(36))
 COLORS = DiagnosticColors()
 PLAIN = DiagnosticOptions()
 SECANT = ("secant_star",)
-ENVIRONMENTS = [name for name, method in METHODS.items() if not method.solves_vertices]
+ENVIRONMENTS = [name for name, method in METHODS.items() if method.is_environment]
 
 
 class Ball:

@@ -31,7 +31,7 @@ EYE = np.array([0.8, -4.0, 1.0])
 VIEW = look_at(EYE, np.zeros(3), 120, 90, np.radians(36))
 FLAT = look_at(EYE, np.zeros(3), 120, 90, np.radians(36), orthographic=True)
 SIZE = 64
-ENVIRONMENTS = [name for name, method in METHODS.items() if not method.solves_vertices]
+ENVIRONMENTS = [name for name, method in METHODS.items() if method.is_environment]
 
 
 def renderer_of(scene: SceneArrays, method: str, size: int = SIZE) -> Renderer:

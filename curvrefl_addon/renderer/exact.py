@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The exact method: every mirror pixel follows its own reflected ray, from mirror to mirror, to what it shows.
+
+A pass takes mirror pixels of one surface buffer to the surfaces that their rays hit; where these are mirrors again the
+next pass goes on from them.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import gpu
+
+from ...gpu_shaders.loader import load
+from .gpu_objects import drawing_state, full_screen_triangle, scissored
+from .materials import Materials
+from .ray_scene import RayScene
+from .surfaces import SurfaceBuffer, declare_surface_outputs
+from .view_block import TYPEDEF
+
+IMAGES_AT_ONCE = 8
+"""As in exact_images.frag.glsl"""
+
+type Window = tuple[int, int, int, int]
+"""x, y, width and height of pixels"""
+
+
+class PathBuffer(SurfaceBuffer):
+    """Where rays have gone. `position` of what is infinitely far away is its direction, with w = 0; `color` has the
+    number of the mirror that was hit."""
+
+    def __init__(self, width: int, height: int) -> None:
+        super().__init__(width, height)
+        self.direction = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        """xyz unit direction of the ray, nodes of hierarchies that it met"""
+        self.throughput = gpu.types.GPUTexture((width, height), format="RGBA16F")
+        """Product of the mirrors' reflectance on the way"""
+        for texture in (self.direction, self.throughput):
+            texture.filter_mode(False)
+        self._targets = (self.position, self.normal, self.color, self.direction, self.throughput)
+        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=self._targets)
+        self._uv: Any = None
+        """uv of the base color image and its number, -1 for none; made where there are images"""
+        self._color_alone = gpu.types.GPUFrameBuffer(color_slots=(self.color,))
+
+    def follow(
+        self,
+        mirrors: SurfaceBuffer,
+        rays: RayScene,
+        materials: Materials,
+        view_uniforms: Any,
+        window: Window,
+        eye_is_inside: bool,
+        depth_scale: float,
+    ) -> None:
+        """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
+
+        `window` holds all of their pixels: outside of it the buffer is not touched. `depth_scale`: distance that gets
+        half of the depth range, metres.
+        """
+        path = mirrors if isinstance(mirrors, PathBuffer) else None
+        if materials.images and self._uv is None:
+            self._uv = gpu.types.GPUTexture((self.width, self.height), format="RGBA32F")
+            self._uv.filter_mode(False)
+            self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(*self._targets, self._uv))
+        if window[2] <= 0 or window[3] <= 0:
+            return
+        shader = _exact_shader(path is not None, self._uv is not None)
+        # ("ALWAYS": a depth test is what makes depth be written.)
+        with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
+            gpu.state.viewport_set(0, 0, self.width, self.height)
+            shader.bind()
+            shader.uniform_float("depth_scale", depth_scale)
+            rays.bind(shader)
+            shader.uniform_sampler("materials", materials.table)
+            shader.uniform_sampler("mirror_position", mirrors.position)
+            shader.uniform_sampler("mirror_normal", mirrors.normal)
+            shader.uniform_sampler("mirror_color", mirrors.color)
+            if path is None:
+                shader.uniform_block("view", view_uniforms)
+                shader.uniform_float("eye_side", -1.0 if eye_is_inside else 1.0)
+            else:
+                shader.uniform_sampler("path_direction", path.direction)
+                shader.uniform_sampler("path_throughput", path.throughput)
+            full_screen_triangle().draw(shader)
+        self._look_up_images(materials.images, window)
+
+    def _look_up_images(self, images: list[Any], window: Window) -> None:
+        """Multiply the base colors by their images."""
+        for first in range(0, len(images), IMAGES_AT_ONCE):
+            shader = _images_shader()
+            with drawing_state(blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
+                gpu.state.viewport_set(0, 0, self.width, self.height)
+                shader.bind()
+                shader.uniform_int("first_image", first)
+                shader.uniform_sampler("path_uv", self._uv)
+                group = images[first : first + IMAGES_AT_ONCE]
+                for slot in range(IMAGES_AT_ONCE):
+                    shader.uniform_sampler(f"image_{slot}", group[min(slot, len(group) - 1)])
+                full_screen_triangle().draw(shader)
+
+
+@cache
+def _exact_shader(on_path: bool, with_images: bool) -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.push_constant("FLOAT", "depth_scale")
+    RayScene.declare(info, 0)
+    names = ["materials", "mirror_position", "mirror_normal", "mirror_color"]
+    if on_path:
+        info.define("ON_PATH")
+        names += ["path_direction", "path_throughput"]
+    else:
+        info.typedef_source(TYPEDEF)
+        info.uniform_buf(0, "ViewBlock", "view")
+        info.push_constant("FLOAT", "eye_side")
+    for slot, name in enumerate(names, 1):
+        info.sampler(slot, "FLOAT_2D", name)
+    declare_surface_outputs(info)
+    info.fragment_out(3, "VEC4", "direction_out")
+    info.fragment_out(4, "VEC4", "throughput_out")
+    if with_images:
+        info.define("WITH_IMAGES")
+        info.fragment_out(5, "VEC4", "uv_out")
+    info.depth_write("ANY")
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("exact.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _images_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.define("IMAGES", str(IMAGES_AT_ONCE))
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.push_constant("INT", "first_image")
+    info.sampler(0, "FLOAT_2D", "path_uv")
+    for slot in range(IMAGES_AT_ONCE):
+        info.sampler(1 + slot, "FLOAT_2D", f"image_{slot}")
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("exact_images.frag.glsl"))
+    return gpu.shader.create_from_info(info)

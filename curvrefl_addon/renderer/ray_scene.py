@@ -1,0 +1,325 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene as rays need it: a hierarchy over the triangles of every mesh, and one over the placed meshes.
+
+A mesh's hierarchy is in object space and made once for all its instances, quickly at first; `improve` makes it better
+while nothing else is to be done. A mesh that deforms keeps the tree of its topology with new boxes. What moves
+changes the top level alone. All of it is one record texture (see `ray_walk.glsl`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from .chunk import pack_color
+from .hierarchy import Hierarchy, HierarchyBuild, build, build_quickly
+from .mesh_facts import MeshFactsCache
+from .record_regions import UNIT, RecordRegions
+
+SEEN_IN_MIRRORS, CASTS_SHADOWS, NEVER_SEES_ITSELF, IS_CLOSED, IS_MIRRORED = 1, 2, 4, 8, 16
+"""As in ray_walk.glsl"""
+INSTANCE_RECORDS = 6
+TRIANGLE_RECORDS = 4
+STACK = 64
+"""As in ray_walk.glsl: levels of the top and the deepest mesh together"""
+OWN_RANGE = 1e-4
+"""A ray that leaves a mirror does not see it nearer than this share of its size"""
+OUT_OF_THE_WAY = 1e30
+"""Where a box is that no ray need enter"""
+WORSE = 1.4
+"""A top level whose cost has grown by this factor since it was built is built anew"""
+
+
+@dataclass
+class _MeshRays:
+    """One mesh on the GPU."""
+
+    mesh: MeshArrays
+    hierarchy: Hierarchy
+    kept: NDArray[np.int64]
+    """Triangles that have a place: the items of the hierarchy"""
+    starts: tuple[int, int, int]
+    """First records of nodes, triangles and corners"""
+    sizes: tuple[int, int, int]
+    is_best: bool
+    """No build would make the tree better"""
+
+
+class RayScene:
+    """Hierarchies of one scene on the GPU. `follow` before the first use."""
+
+    def __init__(self, facts: MeshFactsCache) -> None:
+        self.regions = RecordRegions()
+        self.counters = {
+            "hierarchies built": 0,
+            "hierarchies fitted": 0,
+            "hierarchies improved": 0,
+            "top levels built": 0,
+        }
+        self.build_ms = 0.0
+        """Of the last time that meshes came"""
+        self._facts = facts
+        self._meshes: dict[int, _MeshRays] = {}
+        self._instances: list[InstanceArrays] = []
+        """Those that have triangles"""
+        self._mesh_of: list[MeshArrays] = []
+        self._mirrors: list[int] = []
+        self._top: Hierarchy | None = None
+        self._top_cost = 0.0
+        self._top_region = (0, 0)
+        self._top_places = (0, 0, 0, 0)
+        self._build: tuple[_MeshRays, HierarchyBuild] | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        """There is nothing that a ray could hit."""
+        return not self._instances
+
+    def bind(self, shader: Any) -> None:
+        """Set what ray_walk.glsl needs on a bound shader that has called `declare`."""
+        shader.uniform_sampler("rays", self.regions.texture)
+        shader.uniform_int("rays_top", self._top_places)
+
+    @staticmethod
+    def declare(info: Any, slot: int) -> None:
+        """Add the sampler and the push constant of ray_walk.glsl to a GPUShaderCreateInfo."""
+        info.sampler(slot, "FLOAT_2D", "rays")
+        info.push_constant("IVEC4", "rays_top")
+
+    def follow(self, scene: SceneArrays, numbers: Mapping[int, int]) -> None:
+        """Show a state of the scene; `numbers`: mirrors (1, 2, ...) by the index of their instance.
+
+        Raises InputError where the triangles do not fit into the graphics driver's largest texture.
+        """
+        self._read_meshes(scene)
+        known = [
+            index for index, instance in enumerate(scene.instances) if id(scene.meshes[instance.mesh]) in self._meshes
+        ]
+        instances = [scene.instances[index] for index in known]
+        meshes = [scene.meshes[instance.mesh] for instance in instances]
+        mirrors = [numbers.get(index, 0) for index in known]
+        # The same objects as before, though they may have moved: the tree over them still serves.
+        is_same = [item.object_id for item in instances] == [item.object_id for item in self._instances]
+        self._instances, self._mesh_of, self._mirrors = instances, meshes, mirrors
+        if instances:
+            self._place(is_same)
+
+    def improve(self) -> bool:
+        """Go on making the trees better, for some milliseconds; False when they are as good as they get."""
+        if self._build is None:
+            waiting = [item for item in self._meshes.values() if not item.is_best]
+            if not waiting:
+                return False
+            # What is seen most is unknown; what is large has most to gain.
+            chosen = max(waiting, key=lambda item: len(item.kept))
+            self._build = (chosen, HierarchyBuild(*_triangle_boxes(_triangle_places(chosen.mesh)[chosen.kept])))
+        chosen, growth = self._build
+        if self._meshes.get(id(chosen.mesh)) is not chosen:
+            self._build = None
+            return True
+        if growth.step():
+            return True
+        self._build = None
+        better = growth.finished()
+        places = (better.cost() < chosen.hierarchy.cost()) and self._store(
+            chosen.mesh, better, chosen.kept, is_best=True
+        )
+        if places:
+            self._forget(chosen)
+            self._meshes[id(chosen.mesh)] = places
+            self.counters["hierarchies improved"] += 1
+            self._place(True)
+        else:
+            chosen.is_best = True
+        return True
+
+    def finish(self) -> None:
+        """All improvements at once."""
+        while self.improve():
+            pass
+
+    def _read_meshes(self, scene: SceneArrays) -> None:
+        start = perf_counter()
+        used = {instance.mesh for instance in scene.instances}
+        meshes = {id(mesh): mesh for index, mesh in enumerate(scene.meshes) if index in used}
+        gone = {key: item for key, item in self._meshes.items() if key not in meshes}
+        by_topology = {_topology(item.mesh): item for item in gone.values()}
+        fresh = []
+        for key, mesh in meshes.items():
+            if key in self._meshes:
+                continue
+            places = _triangle_places(mesh)
+            kept = np.flatnonzero(np.isfinite(places).all(axis=(1, 2)))
+            if len(kept) == 0:
+                continue
+            boxes = _triangle_boxes(places[kept])
+            before = by_topology.get(_topology(mesh))
+            if before is not None and np.array_equal(before.kept, kept):
+                fitted = before.hierarchy.fitted(*boxes)
+                # A tree that has come apart is built anew.
+                if fitted.cost() < WORSE * before.hierarchy.cost():
+                    fresh.append((mesh, fitted, kept, before.is_best))
+                    self.counters["hierarchies fitted"] += 1
+                    continue
+            fresh.append((mesh, build_quickly(*boxes), kept, False))
+            self.counters["hierarchies built"] += 1
+        for item in gone.values():
+            self._forget(item)
+        for mesh, hierarchy, kept, is_best in fresh:
+            self._meshes[id(mesh)] = self._store(mesh, hierarchy, kept, is_best)
+        if fresh:
+            self.build_ms = 1e3 * (perf_counter() - start)
+
+    def _store(self, mesh: MeshArrays, hierarchy: Hierarchy, kept: NDArray[np.int64], is_best: bool) -> _MeshRays:
+        parts = [
+            _node_records(hierarchy, hierarchy.link, hierarchy.count),
+            _triangle_records(mesh, kept[hierarchy.order]),
+            _corner_records(mesh),
+        ]
+        starts = self.regions.put(parts)
+        sizes = tuple(len(part) for part in parts)
+        return _MeshRays(
+            mesh, hierarchy, kept, (starts[0], starts[1], starts[2]), (sizes[0], sizes[1], sizes[2]), is_best
+        )
+
+    def _forget(self, item: _MeshRays) -> None:
+        del self._meshes[id(item.mesh)]
+        for start, size in zip(item.starts, item.sizes, strict=True):
+            self.regions.drop(start, size)
+
+    def _place(self, is_same: bool) -> None:
+        """The top level; the tree over the instances may be kept where they are the `same`."""
+        matrices = np.array([instance.matrix for instance in self._instances])
+        items = [self._meshes[id(mesh)] for mesh in self._mesh_of]
+        low, high = _world_boxes(items, matrices)
+        top = self._top.fitted(low, high) if is_same and self._top is not None else None
+        if top is None or top.cost() > WORSE * self._top_cost:
+            top = build(low, high, leaf=1)
+            self._top_cost = top.cost()
+            self.counters["top levels built"] += 1
+        self._top = top
+        deepest = max(item.hierarchy.depth for item in items)
+        if top.depth + deepest > STACK:
+            raise InputError("The scene's objects are nested too deeply for ray walks: choose another method.")
+        nodes = _node_records(top, top.order[np.where(top.count > 0, top.link, 0)], np.full(len(top.count), -1))
+        materials, firsts = _material_records(self._instances)
+        instances = self._instance_records(items, matrices, firsts)
+        joined = np.concatenate([nodes, instances, materials])
+        start, size = self._top_region
+        if size < len(joined) or size == 0:
+            if size:
+                self.regions.drop(start, size)
+            (start,) = self.regions.put([joined])
+            self._top_region = (start, len(joined))
+        else:
+            self.regions.replace(start, joined)
+        self._top_places = (start, start + len(nodes), start + len(nodes) + len(instances), 0)
+
+    def _instance_records(self, items: list[_MeshRays], matrices: Float64Array, firsts: list[int]) -> Float32Array:
+        placed = self._instances
+        records = np.zeros((len(items), INSTANCE_RECORDS, 4), np.float32)
+        records[:, :3] = np.linalg.inv(matrices)[:, :3]
+        flags = np.array(
+            [SEEN_IN_MIRRORS * item.visible_glossy + CASTS_SHADOWS * item.visible_shadow for item in placed]
+        )
+        flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += IS_MIRRORED
+        records[:, 3, 0] = [item.object_id for item in placed]
+        records[:, 3, 1] = self._mirrors
+        for index in np.flatnonzero(self._mirrors):
+            facts = self._facts.of(items[index].mesh)
+            flags[index] += NEVER_SEES_ITSELF * facts.never_sees_itself + IS_CLOSED * facts.is_closed
+            size = np.linalg.norm(matrices[index, :3, :3] @ (facts.box[1] - facts.box[0]))
+            records[index, 3, 3] = OWN_RANGE * size
+        records[:, 3, 2] = flags
+        records[:, 4, :3] = np.array([item.starts for item in items]) // UNIT
+        records[:, 4, 3] = firsts
+        records[:, 5, 0] = [len(item.materials) for item in placed]
+        return records.reshape(-1, 4)
+
+
+def _topology(mesh: MeshArrays) -> tuple[int, int]:
+    """The reader gives the same array back where nothing in it has changed."""
+    return id(mesh.triangles), id(mesh.corner_vertex)
+
+
+def _triangle_places(mesh: MeshArrays) -> Float32Array:
+    """(triangles, 3, 3) corners of the triangles, object space."""
+    return mesh.positions[mesh.corner_vertex[mesh.triangles]]
+
+
+def _triangle_boxes(places: Float32Array) -> tuple[Float32Array, Float32Array]:
+    a, b, c = places[:, 0], places[:, 1], places[:, 2]
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def _world_boxes(items: list[_MeshRays], matrices: Float64Array) -> tuple[Float32Array, Float32Array]:
+    """Boxes (n, 3) around placed meshes: around the box around the mesh, and a little more than rounding takes."""
+    low = np.array([item.hierarchy.low[0] for item in items], np.float64)
+    high = np.array([item.hierarchy.high[0] for item in items], np.float64)
+    center, half = 0.5 * (low + high), 0.5 * (high - low)
+    middle = np.einsum("nij,nj->ni", matrices[:, :3, :3], center) + matrices[:, :3, 3]
+    reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
+    reach += 1e-6 * (np.abs(middle) + reach)
+    return (middle - reach).astype(np.float32), (middle + reach).astype(np.float32)
+
+
+def _node_records(hierarchy: Hierarchy, leaf_link: NDArray[np.int64], leaf_count: NDArray[np.int64]) -> Float32Array:
+    """Of all inner nodes; `leaf_link`, `leaf_count`: what stands for leaves (nodes,)."""
+    is_inner = hierarchy.count == 0
+    number = np.cumsum(is_inner) - 1
+    if not is_inner.any():
+        # The root is a leaf: it gets an inner node above it, with itself once more as other child, out of the way.
+        records = np.zeros((1, 2, 2, 4), np.float32)
+        records[:, :, 0, 3], records[:, :, 1, 3] = leaf_link[0], leaf_count[0]
+        records[0, 0, 0, :3], records[0, 0, 1, :3] = hierarchy.low[0], hierarchy.high[0]
+        records[0, 1, :, :3] = OUT_OF_THE_WAY
+        return records.reshape(-1, 4)
+    children = hierarchy.link[is_inner][:, None] + np.arange(2)
+    records = np.empty((len(children), 2, 2, 4), np.float32)
+    records[:, :, 0, :3], records[:, :, 1, :3] = hierarchy.low[children], hierarchy.high[children]
+    records[:, :, 0, 3] = np.where(is_inner, number, leaf_link)[children]
+    records[:, :, 1, 3] = np.where(is_inner, 0, leaf_count)[children]
+    return records.reshape(-1, 4)
+
+
+def _triangle_records(mesh: MeshArrays, order: NDArray[np.int64]) -> Float32Array:
+    corners = mesh.triangles[order]
+    places = mesh.positions[mesh.corner_vertex[corners]]
+    records = np.zeros((len(order), TRIANGLE_RECORDS, 4), np.float32)
+    records[:, 0, :3] = places[:, 0]
+    records[:, 1, :3] = places[:, 1] - places[:, 0]
+    records[:, 2, :3] = places[:, 2] - places[:, 0]
+    records[:, 3, :3] = corners
+    records[:, 3, 3] = mesh.triangle_slot[order]
+    return records.reshape(-1, 4)
+
+
+def _corner_records(mesh: MeshArrays) -> Float32Array:
+    records = np.zeros((len(mesh.corner_vertex), 2, 4), np.float32)
+    records[:, 0, :3] = mesh.corner_normals
+    records[:, 1, 2] = 0xFFFFFF
+    if mesh.corner_uv is not None:
+        records[:, 1, :2] = mesh.corner_uv
+    if mesh.corner_color is not None:
+        records[:, 1, 2] = pack_color(mesh.corner_color)
+    return records.reshape(-1, 4)
+
+
+def _material_records(instances: list[InstanceArrays]) -> tuple[Float32Array, list[int]]:
+    """Material numbers, four to a record, and the first record of each instance's; equal lists are stored once."""
+    firsts: dict[tuple[int, ...], int] = {}
+    numbers: list[int] = []
+    for instance in instances:
+        if instance.materials not in firsts:
+            firsts[instance.materials] = len(numbers) // 4
+            numbers += instance.materials
+            numbers += [0] * (-len(numbers) % 4)
+    return np.array(numbers, np.float32).reshape(-1, 4), [firsts[instance.materials] for instance in instances]

@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Vertex colors as renderer/chunk.py packs them into one float.
+
+vec3 unpack_vertex_color(float packed_color)
+{
+  int levels = int(packed_color + 0.5);
+  vec3 root = vec3(levels & 255, (levels >> 8) & 255, levels >> 16) / 255.0;
+  return root * root;
+}

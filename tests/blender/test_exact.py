@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method `exact` against every ray cast at every triangle in float64, and against what is known by construction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.convexity import is_convex
+from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.mesh_inside import holds_point, is_closed
+from curvrefl.curvrefl_addon.renderer.ray_scene import OWN_RANGE
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays, WorldArrays
+from curvrefl.curvrefl_addon.scene.view import View
+from scenes.mirror_halls import MIRRORS, hall
+from scenes.mirror_room import Room
+from scenes.ray_cast import first_hits, world_triangles
+from scenes.views import look_at
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+TIE = 1e-4
+"""Two surfaces at distances closer than this share are one to float32"""
+ROUNDING = 1e-6
+"""Of positions, as a share of the mirror's size"""
+EYES = ((0.0, -5.0, 1.5), (3.0, 2.5, 4.0))
+
+
+@dataclass
+class Verdict:
+    """Of mirror pixels."""
+
+    pixels: int
+    ties: int
+    wrong: int
+
+
+def judge(scene: SceneArrays, view: View, frame: Frame) -> Verdict:
+    """Each mirror pixel's own reflected ray, from the surface buffer that the method had, against all triangles."""
+    triangles = world_triangles(scene)
+    mask = frame.mask()
+    seen = frame.surfaces["seen_position"].astype(np.float64)
+    normal = frame.surfaces["seen_normal"].astype(np.float64)[..., :3]
+    shown, ids = frame.reflected_position(), frame.reflected_object()
+    object_ids = np.array([instance.object_id for instance in scene.instances])
+    total = Verdict(0, 0, 0)
+    for own, instance in enumerate(scene.instances):
+        if instance.object_id not in scene.reflectors:
+            continue
+        here = mask == instance.object_id
+        if not here.any():
+            continue
+        point = seen[here][:, :3]
+        incoming = unit(point * view.eye[3] - view.eye[:3])
+        facing = normal[here]
+        ray = incoming - 2.0 * (incoming * facing).sum(1, keepdims=True) * facing
+        mesh = scene.meshes[instance.mesh]
+        size = float(np.linalg.norm(instance.matrix[:3, :3] @ np.ptp(mesh.positions, axis=0)))
+        rules = own_rules(scene, own)
+        kept = triangles
+        if rules == "never":
+            chosen = triangles.instance != own
+            kept = replace(triangles, corners=triangles.corners[chosen], instance=triangles.instance[chosen])
+        hits = first_hits(kept, point, ray, own, OWN_RANGE * size, 1.0 if rules == "facing" else 0.0)
+        expected = np.where(hits.triangle >= 0, object_ids[kept.instance[hits.triangle]], 0)
+        got = ids[here]
+        distance = np.linalg.norm(shown[here][:, :3] - point, axis=1)
+        same_place = (expected == 0) | (np.abs(distance - hits.distance) <= TIE * hits.distance + ROUNDING * size)
+        wrong = (got != expected) | ~same_place
+        tie = hits.is_at_edge | (hits.second <= hits.distance * (1.0 + TIE))
+        total.pixels += int(here.sum())
+        total.ties += int((wrong & tie).sum())
+        total.wrong += int((wrong & ~tie).sum())
+    return total
+
+
+def own_rules(scene: SceneArrays, index: int) -> str:
+    """How a mirror sees itself: see `ray_scene`."""
+    mesh = scene.meshes[scene.instances[index].mesh]
+    if is_closed(mesh):
+        return "never" if is_convex(mesh) else "facing"
+    return "both"
+
+
+@pytest.mark.parametrize("mirror", MIRRORS)
+@pytest.mark.parametrize("best", [False, True], ids=["quick", "best"])
+def test_every_pixel_shows_what_its_ray_meets_first(mirror: str, best: bool) -> None:
+    pixels = wrong = ties = 0
+    for seed, eye in enumerate(EYES):
+        scene = hall(mirror, seed)
+        view = look_at(np.array(eye), np.zeros(3), 120, 90, 0.6)
+        renderer = Renderer(scene, Settings(method="exact", samples=1))
+        if best:
+            renderer.rays().finish()
+        verdict = judge(scene, view, renderer.render(view))
+        renderer.free()
+        pixels, wrong, ties = pixels + verdict.pixels, wrong + verdict.wrong, ties + verdict.ties
+    assert pixels > 2000
+    assert wrong == 0
+    # Rays that pass within a millionth of a triangle's size of its edge may go either way.
+    assert ties <= 1e-3 * pixels
+
+
+def test_a_ball_over_a_floor_shows_what_closed_forms_say() -> None:
+    room = Room()
+    room.add_mirror(Ellipsoid(), 256)
+    room.add_ball((0.0, -1.4, -0.2), 0.38)
+    room.add_ball((1.5, -1.0, 0.4), 0.3)
+    room.add_rectangle((0.0, 0.0, -1.0), (6.0, 0.0, 0.0), (0.0, 6.0, 0.0))
+    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 160, 120, 0.5)
+    on_ball, hit, shown = room.seen_in_ball(view)
+    renderer = Renderer(room.arrays(), Settings(method="exact", samples=1))
+    frame = renderer.render(view)
+    both = on_ball & (frame.mask() > 0)
+    assert (on_ball != (frame.mask() > 0)).sum() < 0.02 * on_ball.sum()
+    same = frame.reflected_object() == hit
+    # The mesh is not quite the ball: its facets' points are up to 8e-5 inside, and silhouettes of balls are polygons.
+    assert (both & ~same).sum() < 0.005 * both.sum()
+    on_points = both & same & (hit > 0)
+    error = np.linalg.norm(frame.reflected_position()[..., :3] - shown, axis=-1)[on_points]
+    assert np.median(error) < 1e-3
+    renderer.free()
+
+
+@pytest.mark.parametrize("scale", [1e-4, 1.0, 1e4])
+def test_the_scale_of_a_scene_does_not_matter(scale: float) -> None:
+    scene = hall("vase", 1, scale=scale)
+    view = look_at(np.array(EYES[0]) * scale, np.zeros(3), 80, 60, 0.6, near=0.05 * scale, far=100.0 * scale)
+    renderer = Renderer(scene, Settings(method="exact", samples=1))
+    verdict = judge(scene, view, renderer.render(view))
+    renderer.free()
+    assert verdict.pixels > 500
+    assert verdict.wrong == 0
+
+
+def test_two_facing_mirrors_show_each_other_as_often_as_asked() -> None:
+    """Between two flat mirrors at y = -1 and y = 1 the n-th image of a thing at distance d is known."""
+    room = Room()
+    room.add_rectangle((0.0, 1.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, 4.0))
+    room.add_rectangle((0.0, -1.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, 4.0))
+    room.add_rectangle((0.0, -0.5, -0.5), (0.02, 0.0, 0.0), (0.0, 0.0, 0.02))
+    arrays = room.arrays()
+    instances = [replace(item, materials=(1 if number < 2 else 2,)) for number, item in enumerate(arrays.instances)]
+    lamp = MaterialArrays("lamp", base_color=(0.0, 0.0, 0.0), emission=(9.0, 9.0, 9.0))
+    arrays = replace(
+        arrays, instances=tuple(instances), materials=(*arrays.materials, lamp), world=WorldArrays(), reflectors=(1, 2)
+    )
+    view = look_at(np.array([0.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), 300, 300, 1.2)
+    pictures = {}
+    for bounces in (1, 2, 3):
+        renderer = Renderer(arrays, Settings(method="exact", samples=1, bounces=bounces))
+        frame = renderer.render(view)
+        pictures[bounces] = frame.color()[..., :3]
+        renderer.free()
+    # The sheet is at (0, -0.5, -0.5). Its image by the mirror in front lies at y = 2.5, by both (the one behind, then
+    # the one in front) at y = 3.5 and by three at y = 6.5: they are seen at z / y of the image below the middle.
+    rows = {k: 150 + round(-0.5 / y / np.tan(0.6) * 150) for k, y in ((1, 2.5), (2, 3.5), (3, 6.5))}
+    for bounces, picture in pictures.items():
+        for image, row in rows.items():
+            assert (picture[row, 150].max() > 5.0) == (image <= bounces), (bounces, image)
+
+
+def test_an_eye_inside_a_closed_mirror_sees_its_inner_side() -> None:
+    scene = hall("torus", 0)
+    mesh = scene.meshes[0]
+    assert is_closed(mesh)
+    assert holds_point(mesh, np.array([0.9, 0.0, 0.0])) and not holds_point(mesh, np.zeros(3))
+    view = look_at(np.array([0.9, 0.0, 0.0]), np.array([0.9, 1.0, 0.1]), 60, 45, 1.0, near=0.001)
+    renderer = Renderer(scene, Settings(method="exact", samples=1))
+    frame = renderer.render(view)
+    assert (frame.mask() == 1).all()
+    # Whatever is followed from there meets the inner side again.
+    assert (frame.reflected_object() == 1).mean() > 0.98
+    renderer.free()
