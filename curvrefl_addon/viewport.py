@@ -310,7 +310,7 @@ def _draw_again(picture: RegionPicture) -> None:
     if picture.is_coarse:
         if not bpy.app.timers.is_registered(_redraw_settled):
             bpy.app.timers.register(_redraw_settled, first_interval=SETTLED_SECONDS)
-    elif not picture.is_complete and not bpy.app.timers.is_registered(redraw_all):
+    elif picture.has_work and not bpy.app.timers.is_registered(redraw_all):
         bpy.app.timers.register(redraw_all, first_interval=IDLE_SECONDS)
 
 

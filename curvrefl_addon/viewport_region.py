@@ -58,6 +58,11 @@ class RegionPicture:
         """No sub-frame is left to draw."""
         return self._sub_frames >= self.renderer.settings.samples
 
+    @property
+    def has_work(self) -> bool:
+        """There is something left to do while the view rests."""
+        return not self.is_complete or self.renderer.can_improve
+
     def advance(
         self, view: View, settings: Any, options: Any, now: float, is_timed: bool, counters: dict[str, int]
     ) -> None:
@@ -76,6 +81,8 @@ class RegionPicture:
             divisor = 1
         if divisor:
             self._start(view, divisor, diagnostic, is_timed, counters)
+        else:
+            self.renderer.improve()
         self._view, self._state = view, state
         if not self.is_complete:
             assert self._reflection is not None

@@ -185,7 +185,7 @@ class ViewportScene:
 
 
 def _made(renderer: Renderer) -> dict[str, int]:
-    return {**renderer.counters, **renderer.geometry.counters}
+    return {**renderer.counters, **renderer.geometry.counters, **renderer.ray_counters}
 
 
 def look_of(space: bpy.types.SpaceView3D, settings: Any) -> Look:

@@ -346,9 +346,20 @@ class Renderer:
             self._rays.follow(self.scene, self._numbers)
         return self._rays
 
-    def improve(self) -> bool:
-        """Do some milliseconds of work that makes later pictures faster and not different; False when none is left."""
-        return self._rays is not None and self._rays.improve()
+    @property
+    def ray_counters(self) -> dict[str, int]:
+        """How often hierarchies were made, since the start."""
+        return {} if self._rays is None else self._rays.counters
+
+    @property
+    def can_improve(self) -> bool:
+        """Whether `improve` would do anything."""
+        return self._rays is not None and self._rays.can_improve
+
+    def improve(self) -> None:
+        """Do a little work that makes later pictures faster, and no different."""
+        if self._rays is not None:
+            self._rays.improve()
 
     def _bounces(self) -> int:
         """Mirrors that a ray can meet one after the other."""

@@ -246,10 +246,10 @@ def _cheapest(boxes: list[Float32Array], key: IntArray, nodes: int) -> tuple[Flo
     starts = np.flatnonzero(np.diff(ordered, prepend=-1))
     filled = ordered[starts]
     number = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
-    ends = np.full((6, nodes * BINS), np.inf, np.float32)
-    for row, target in zip(boxes, ends, strict=True):
+    by_bin = np.full((6, nodes * BINS), np.inf, np.float32)
+    for row, target in zip(boxes, by_bin, strict=True):
         target[filled] = np.minimum.reduceat(row[order], starts)
-    ends = ends.reshape(6, nodes, BINS)
+    ends = by_bin.reshape(6, nodes, BINS)
     left = _areas(np.minimum.accumulate(ends, axis=2)[..., :-1])
     right = _areas(np.minimum.accumulate(ends[..., ::-1], axis=2)[..., -2::-1])
     left_number = np.cumsum(number, axis=1)[:, :-1]
