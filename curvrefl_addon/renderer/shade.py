@@ -58,24 +58,42 @@ class ShadePass:
         """
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            if isinstance(reflected, SurfaceBuffer):
-                shader = self._bound(_shade_shader(""), seen, view_uniforms, weight)
-                shader.uniform_float("mirrors_only", float(mirrors_only))
-                textures = (reflected.position, reflected.normal, reflected.color)
-                for name, texture in zip(_REFLECTED, textures, strict=True):
-                    shader.uniform_sampler(name, texture)
-                full_screen_triangle().draw(shader)
-            else:
-                for number, environment in enumerate(reflected, 1):
-                    shader = self._bound(_shade_shader(environment.lookup), seen, view_uniforms, weight)
-                    shader.uniform_float("mirrors_only", float(mirrors_only))
-                    shader.uniform_float("mirror", float(number))
-                    environment.bind(shader, environment.radiance)
-                    full_screen_triangle().draw(shader)
+            self._add_light(target, seen, reflected, view_uniforms, weight, mirrors_only)
             if self._has_base or (self._has_bodies and not mirrors_only):
-                shader = self._bound(_front_shader(self._has_base), seen, view_uniforms, weight)
-                shader.uniform_float("mirrors_only", float(mirrors_only))
-                full_screen_triangle().draw(shader)
+                self._add_front(target, seen, view_uniforms, weight, mirrors_only)
+
+    def _add_light(
+        self,
+        _target: Any,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Environment],
+        view_uniforms: Any,
+        weight: float,
+        mirrors_only: bool,
+    ) -> None:
+        """Light on surfaces, seen directly or in mirrors."""
+        if isinstance(reflected, SurfaceBuffer):
+            shader = self._bound(_shade_shader(""), seen, view_uniforms, weight)
+            shader.uniform_float("mirrors_only", float(mirrors_only))
+            textures = (reflected.position, reflected.normal, reflected.color)
+            for name, texture in zip(_REFLECTED, textures, strict=True):
+                shader.uniform_sampler(name, texture)
+            full_screen_triangle().draw(shader)
+            return
+        for number, environment in enumerate(reflected, 1):
+            shader = self._bound(_shade_shader(environment.lookup), seen, view_uniforms, weight)
+            shader.uniform_float("mirrors_only", float(mirrors_only))
+            shader.uniform_float("mirror", float(number))
+            environment.bind(shader, environment.radiance)
+            full_screen_triangle().draw(shader)
+
+    def _add_front(
+        self, _target: Any, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool
+    ) -> None:
+        """What adds to that in some scenes only (see `shade_front.frag.glsl`)."""
+        shader = self._bound(_front_shader(self._has_base), seen, view_uniforms, weight)
+        shader.uniform_float("mirrors_only", float(mirrors_only))
+        full_screen_triangle().draw(shader)
 
     def _bound(self, shader: Any, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> Any:
         shader.bind()
