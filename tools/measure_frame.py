@@ -37,6 +37,7 @@ from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E
 from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting import Lighting  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.pixel_classes import PixelClasses  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.shade import ShadePass  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import BackFaces, SurfaceBuffer  # noqa: E402
@@ -89,8 +90,8 @@ def _of_buffer(buffer: Any, *_arguments: Any, **_named: Any) -> Any:
     return buffer.frame_buffer
 
 
-def _canvas(_self: Any, canvas: Any, *_arguments: Any, **_named: Any) -> Any:
-    return canvas
+def _of_second(_self: Any, buffer: Any, *_arguments: Any, **_named: Any) -> Any:
+    return buffer.frame_buffer
 
 
 @contextmanager
@@ -112,8 +113,9 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (BackFaces, "draw", "back faces", BackFaces.draw, _of_buffer),
         (frame_module, "draw_reflected", "reflected", frame_module.draw_reflected, _of_buffer),
         (Lighting, "prepare", "shadows", Lighting.prepare, _nothing),
-        (ShadePass, "_add_light", "shade", ShadePass._add_light, _canvas),
-        (ShadePass, "_add_front", "front", ShadePass._add_front, _canvas),
+        (PixelClasses, "sort", "classes", PixelClasses.sort, _of_buffer),
+        (ShadePass, "_add_light", "shade", ShadePass._add_light, _of_second),
+        (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
     ]
     with ExitStack() as stack:
         for owner, attribute, name, act, target_of in passes:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
@@ -28,7 +29,7 @@ from .materials import Materials
 from .mirror import Mirror
 from .pixel_filter import offsets
 from .scene_geometry import Difference, SceneGeometry
-from .shade import ShadePass
+from .shade import ShadePass, Window
 from .solve import SolvedChunk, VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, draw_primary, draw_reflected
 from .view_block import view_block
@@ -294,13 +295,15 @@ class Renderer:
         """
         targets = self._targets_for(reflection.view)
         dx, dy = self._jitter[index]
-        uniforms = self._draw_surfaces(targets, reflection.view.jittered(-dx, -dy), reflection)
+        view = reflection.view.jittered(-dx, -dy)
+        window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
+        uniforms = self._draw_surfaces(targets, view, reflection, window if diagnostic is None else None)
         if diagnostic is not None:
             self._add_diagnostic(canvas, reflection, targets, uniforms, weight, diagnostic)
             return
         self._lighting.prepare(index)
         shown = self._shown(targets, reflection, uniforms, of_positions=False)
-        self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
+        self._shade.add(canvas, targets.seen, shown, uniforms, weight, window)
 
     def _add_diagnostic(
         self,
@@ -370,10 +373,12 @@ class Renderer:
             self._targets[size] = _Targets(*size)
         return self._targets[size]
 
-    def _draw_surfaces(self, targets: _Targets, view: View, reflection: Reflection) -> Any:
-        """Geometry passes of one sub-frame; returns the view's uniform block."""
+    def _draw_surfaces(
+        self, targets: _Targets, view: View, reflection: Reflection, window: Window | None = None
+    ) -> Any:
+        """Geometry passes of one sub-frame, in `window` alone if given; returns the view's uniform block."""
         uniforms = view_block(view)
-        draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms)
+        draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms, window)
         if reflection.environments is None:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):
@@ -480,6 +485,16 @@ class Frame:
         position[..., 3] = ids > 0
         position[~mask] = 0.0
         return position, ids
+
+
+def union(windows: Sequence[Window]) -> Window:
+    """A window that holds all of these; an empty one where all are."""
+    some = np.array([window for window in windows if window[2] > 0 and window[3] > 0], np.int64)
+    if len(some) == 0:
+        return (0, 0, 0, 0)
+    x, y = some[:, :2].min(axis=0).tolist()
+    right, top = (some[:, :2] + some[:, 2:]).max(axis=0).tolist()
+    return (x, y, right - x, top - y)
 
 
 def _check(settings: Settings) -> None:

@@ -72,21 +72,26 @@ class BackFaces:
 
 
 def draw_primary(
-    target: SurfaceBuffer, seen: Sequence[tuple[Chunk, Batches]], materials: Materials, view_uniforms: Any
+    target: SurfaceBuffer,
+    seen: Sequence[tuple[Chunk, Batches]],
+    materials: Materials,
+    view_uniforms: Any,
+    window: tuple[int, int, int, int] | None = None,
 ) -> None:
-    """Fill `target` with what the eye sees directly."""
+    """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere."""
     shader = _primary_shader()
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
         gpu.state.viewport_set(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        shader.bind()
-        shader.uniform_block("view", view_uniforms)
-        for chunk, batches in seen:
-            shader.uniform_sampler("positions", chunk.positions)
-            shader.uniform_sampler("corners", chunk.corners)
-            for material, batch in batches:
-                materials.bind(shader, material)
-                batch.draw(shader)
+        with scissored(window):
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            for chunk, batches in seen:
+                shader.uniform_sampler("positions", chunk.positions)
+                shader.uniform_sampler("corners", chunk.corners)
+                for material, batch in batches:
+                    materials.bind(shader, material)
+                    batch.draw(shader)
 
 
 def draw_reflected(
