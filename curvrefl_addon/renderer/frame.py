@@ -378,7 +378,14 @@ class Renderer:
     ) -> Any:
         """Geometry passes of one sub-frame, in `window` alone if given; returns the view's uniform block."""
         uniforms = view_block(view)
-        draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms, window)
+        draw_primary(
+            targets.seen,
+            self.geometry.seen(view),
+            self._materials,
+            uniforms,
+            window,
+            lambda chunk: self.geometry.hidden_faces(chunk, view),
+        )
         if reflection.environments is None:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):

@@ -159,6 +159,7 @@ def drawing_state(depth_test: str = "NONE", depth_write: bool = False, blend: st
         gpu.state.depth_test_set("NONE")
         gpu.state.depth_mask_set(False)
         gpu.state.blend_set("NONE")
+        gpu.state.face_culling_set("NONE")
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from functools import cached_property
 from ..scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
 from .mesh_pieces import MeshPieces, box_of, mesh_pieces
+from .solid import solid_side
 from .split import longest_edge
 
 
@@ -31,6 +32,11 @@ class MeshFacts:
     @cached_property
     def is_convex(self) -> bool:
         return is_convex(self.mesh)
+
+    @cached_property
+    def solid_side(self) -> int:
+        """See `solid.solid_side`."""
+        return solid_side(self.mesh)
 
     @cached_property
     def pieces(self) -> MeshPieces:
