@@ -9,10 +9,18 @@
 //   6: radiance of its body, kind of shadow (0 none, 1 one map, 2 cube)
 //   7..10: one map: rows that give texel x, texel y, depth and w; 11: its layer
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
+// Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting.py), as many
+// drivers run all branches.
 #define LAMP_POINT 0
 #define LAMP_SPOT 1
 #define LAMP_SUN 2
 #define LAMP_AREA 3
+#if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
+#define LIGHTING_NEAR_LAMPS
+#endif
+#if defined(LIGHTING_SUN) || defined(LIGHTING_NEAR_LAMPS)
+#define LIGHTING_LAMPS
+#endif
 
 float spot_share(int base, vec3 from_lamp)
 {
@@ -26,6 +34,7 @@ float lamp_shadow(int base, vec3 position)
   int kind = int(lighting_data[base + 6].w);
   vec3 window = vec3(0.0);
   float layer = -1.0;
+#ifdef LIGHTING_MAPS
   if (kind == 1) {
     vec4 p = vec4(position, 1.0);
     float w = dot(lighting_data[base + 10], p);
@@ -33,6 +42,8 @@ float lamp_shadow(int base, vec3 position)
                   dot(lighting_data[base + 9], p)) / w;
     layer = w > 0.0 ? lighting_data[base + 11].x : -1.0;
   }
+#endif
+#ifdef LIGHTING_CUBES
   if (kind == 2) {
     vec3 ray = position - lighting_data[base].xyz;
     vec3 size = abs(ray);
@@ -47,6 +58,7 @@ float lamp_shadow(int base, vec3 position)
     window = vec3(across / depth * lighting_data[base + 9].y + lighting_data[base + 9].x,
                   lighting_data[base + 8].z + lighting_data[base + 8].w / depth);
   }
+#endif
   float lit = 1.0;
   if (layer >= 0.0) {
     lit = lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(layer + 0.5));
@@ -58,6 +70,7 @@ float lamp_shadow(int base, vec3 position)
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
+#ifdef LIGHTING_LAMPS
   int count = int(lighting_data[0].x);
   int i = 0;
   do {
@@ -67,6 +80,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     vec3 to_light = place.xyz;
     vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
     float width = lighting_data[base + 1].w;
+#ifdef LIGHTING_NEAR_LAMPS
     if (kind != LAMP_SUN) {
       to_light = place.xyz - s.position;
       float facing = 1.0;
@@ -90,6 +104,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       }
       irradiance *= facing / distance2;
     }
+#endif
     float cos_light = dot(s.normal, to_light);
     if (cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
       irradiance *= lamp_shadow(base, s.position);
@@ -103,6 +118,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     }
     i++;
   } while (i < count);
+#endif
   return sum;
 }
 
@@ -111,6 +127,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
 {
   vec4 sum = vec4(0.0);
+#ifdef LIGHTING_LAMPS
   int count = int(lighting_data[0].x);
   int i = 0;
   do {
@@ -122,6 +139,7 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
     if (kind == LAMP_SUN) {
       hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
     }
+#ifdef LIGHTING_NEAR_LAMPS
     else {
       vec3 middle = lighting_data[base + 2].xyz - origin;
       if (kind == LAMP_AREA) {
@@ -149,10 +167,12 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
         }
       }
     }
+#endif
     if (hit && lighting_data[base + 5].w > 0.5 && radiance.r + radiance.g + radiance.b > 0.0) {
       sum += vec4(radiance, 1.0);
     }
     i++;
   } while (i < count);
+#endif
   return vec4(sum.rgb, min(sum.a, 1.0));
 }

@@ -7,5 +7,5 @@ void main()
   vec3 normal = normalize(world_normal);
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
-  surface_color_out = vec4(surface_color(uv, vertex_color), ids.y);
+  surface_color_out = vec4(surface_color(), ids.y);
 }

@@ -51,5 +51,5 @@ void main()
   vec3 surface = normalize(world_normal);
   surface_position = vec4(world_position, object_id);
   surface_normal = vec4(dot(surface, to_vertex) > 0.0 ? -surface : surface, material);
-  surface_color_out = vec4(surface_color(uv, vertex_color), iterations);
+  surface_color_out = vec4(surface_color(), iterations);
 }

@@ -13,8 +13,10 @@ void main()
   int status = code & 3;
   world_position = corner.position;
   world_normal = corner.normal;
+#ifndef PLAIN
   uv = corner.uv;
   vertex_color = corner.color;
+#endif
   object_id = corner.object_id;
   iterations = float(code >> 2);
   reflection_point = solved.xyz;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What adds to the shade pass in some scenes only: the diffuse base of mirrors that are not metal, and lamps seen
-// directly.
+// What adds to the shade pass in some scenes only: with MIRROR_BASE the diffuse base of mirrors that are not metal, and
+// lamps seen directly.
 #include "lighting.glsl"
 #include "shade_surfaces.glsl"
 
@@ -9,17 +9,13 @@ void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(seen_position, pixel, 0);
-  vec4 normal = texelFetch(seen_normal, pixel, 0);
-  vec4 base = texelFetch(seen_color, pixel, 0);
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
-  vec3 radiance = vec3(0.0);
-  bool on_mirror = position.w > 0.0 && base.w > 0.5;
+  vec3 radiance = lamps_seen(origin, direction, position.w > 0.0 ? distance(position.xyz, origin) : 2e30).rgb;
 #ifdef MIRROR_BASE
-  if (on_mirror) {
-    radiance = shade_under_mirror(surface_of(position, normal, base.rgb), -direction);
-  }
+  vec4 normal = texelFetch(seen_normal, pixel, 0);
+  vec4 base = texelFetch(seen_color, pixel, 0);
+  radiance += shade_under_mirror(surface_of(position, normal, base.rgb), -direction);
 #endif
-  radiance += lamps_seen(origin, direction, position.w > 0.0 ? distance(position.xyz, origin) : 2e30).rgb;
-  color = on_mirror || mirrors_only < 0.5 ? vec4(radiance * weight, 0.0) : vec4(0.0);
+  color = vec4(radiance * weight, 0.0);
 }

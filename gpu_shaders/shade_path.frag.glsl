@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light of what a ray off a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its way. With GOES_ON a
+// Light of what a ray off a mirror seen in a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its way. With GOES_ON a
 // mirror that was hit adds only its own light, as the ray goes on from it in the next pass.
 #include "lighting.glsl"
 #include "shade_surfaces.glsl"
@@ -36,6 +36,6 @@ void main()
   }
   radiance += lamps_seen(origin.xyz, direction, range).rgb;
   vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
-  // Alpha is the picture's: the first surface on the way adds it.
-  color = vec4(throughput * radiance, alpha) * weight;
+  // (The picture's alpha has come with the first mirror.)
+  color = vec4(throughput * radiance * weight, 0.0);
 }

@@ -15,6 +15,7 @@ vec3 world_color()
 // Background radiance in the unit direction.
 vec3 world_radiance(vec3 direction)
 {
+#ifdef LIGHTING_IMAGE
   if (lighting_data[0].z < 0.5) {
     return world_color();
   }
@@ -24,6 +25,9 @@ vec3 world_radiance(vec3 direction)
   float u = 0.5 - atan(d.y, d.x) / (2.0 * LIGHTING_PI);
   float v = 0.5 + asin(clamp(d.z, -1.0, 1.0)) / LIGHTING_PI;
   return world_color() * textureLod(lighting_world_image, vec2(u, v), 0.0).rgb;
+#else
+  return world_color();
+#endif
 }
 
 vec2 octahedral_place(vec3 direction)
@@ -80,6 +84,7 @@ vec3 lobe_middle(vec3 to_viewer, vec3 normal, float cos_normal)
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
+#ifdef LIGHTING_WORLD
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
     vec4 shapes = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES));
@@ -108,5 +113,6 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     sum = lobes.diffuse * seen / LIGHTING_PI +
           lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));
   }
+#endif
   return sum;
 }

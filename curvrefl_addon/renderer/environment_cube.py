@@ -55,8 +55,6 @@ class EnvironmentCube:
         self._views = faces_views(self._center, near, max(2.0 * reach, 10.0 * near), resolution)
         self._scenery, self._materials = scenery, materials
         self._seen = SurfaceBuffer(resolution, resolution)
-        self._nothing = SurfaceBuffer(1, 1)
-        self._nothing.clear()
         self._positions: Any = None
         self._sphere: SphereMap | None = None
         self.color: Any = gpu.types.GPUTexture(resolution, is_cubemap=True, format="RGBA32F")
@@ -69,7 +67,7 @@ class EnvironmentCube:
             for i in range(SUB_FRAMES):
                 uniforms = self._draw_face(self._seen, view.jittered(((i & 1) - 0.5) / 2, ((i >> 1) - 0.5) / 2))
                 lighting.prepare(i * max(lighting.sub_frames // SUB_FRAMES, 1) % lighting.sub_frames)
-                shade.add(target, self._seen, self._nothing, uniforms, 1.0 / SUB_FRAMES)
+                shade.add(target, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
 
     def environment(self, method: str, view: View) -> Environment:
         """What a method of the catalogue looks up in a view; for `environment_cube_vertex` the cube itself, out of

@@ -17,14 +17,11 @@ from ...gpu_shaders.loader import load
 from .gpu_objects import drawing_state, full_screen_triangle, scissored
 from .materials import Materials
 from .ray_scene import RayScene
-from .surfaces import SurfaceBuffer, declare_surface_outputs
+from .surfaces import SurfaceBuffer, Window, declare_surface_outputs
 from .view_block import TYPEDEF
 
 IMAGES_AT_ONCE = 8
 """As in exact_images.frag.glsl"""
-
-type Window = tuple[int, int, int, int]
-"""x, y, width and height of pixels"""
 
 
 class PathBuffer(SurfaceBuffer):

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
@@ -23,7 +23,7 @@ from .environment import Environment
 from .environment_cube import EnvironmentCube
 from .environment_hits import environment_hits
 from .environment_vertex import VertexLookups
-from .exact import PathBuffer, Window
+from .exact import PathBuffer
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
@@ -33,7 +33,7 @@ from .ray_scene import RayScene
 from .scene_geometry import Difference, SceneGeometry
 from .shade import ShadePass
 from .solve import SolvedChunk, VertexSolution, statistics
-from .surfaces import BackFaces, SurfaceBuffer, draw_primary, draw_reflected
+from .surfaces import BackFaces, SurfaceBuffer, Window, draw_primary, draw_reflected
 from .view_block import view_block
 
 
@@ -323,21 +323,24 @@ class Renderer:
         """
         targets = self._targets_for(reflection.view)
         dx, dy = self._jitter[index]
-        uniforms = self._draw_surfaces(targets, reflection.view.jittered(-dx, -dy), reflection)
+        view = reflection.view.jittered(-dx, -dy)
+        window = self._window(view) if mirrors_only else None
+        uniforms = self._draw_surfaces(targets, view, reflection, window if diagnostic is None else None)
         if diagnostic is not None:
-            self._add_diagnostic(canvas, reflection, targets, uniforms, weight, diagnostic)
+            self._add_diagnostic(canvas, reflection, targets, view, uniforms, weight, diagnostic)
             return
         self._lighting.prepare(index)
-        if reflection.follows_rays:
-            self._shade.add(canvas, targets.seen, None, uniforms, weight, mirrors_only)
-            window = self._window(reflection.view)
+        if reflection.follows_rays and self.mirrors:
             bounces = self._bounces()
-            for bounce, (mirrors, path) in enumerate(self._paths(targets, reflection, uniforms, bounces)):
+            for bounce, (mirrors, path) in enumerate(self._paths(targets, view, uniforms, bounces)):
                 goes_on = bounce + 1 < bounces
-                self._shade.add_path(canvas, mirrors, path, uniforms, weight, window, bounce == 0, goes_on)
+                if isinstance(mirrors, PathBuffer):
+                    self._shade.add_path(canvas, mirrors, path, uniforms, weight, self._window(view), goes_on)
+                else:
+                    self._shade.add(canvas, mirrors, path, uniforms, weight, window, goes_on)
             return
         shown = self._shown(targets, reflection, uniforms, of_positions=False)
-        self._shade.add(canvas, targets.seen, shown, uniforms, weight, mirrors_only)
+        self._shade.add(canvas, targets.seen, shown, uniforms, weight, window)
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -368,23 +371,17 @@ class Renderer:
 
     def _window(self, view: View) -> Window:
         """Pixels that hold all mirrors."""
-        windows = np.array([mirror.window(view) for mirror in self.mirrors], np.int64).reshape(-1, 4)
-        windows = windows[(windows[:, 2] > 0) & (windows[:, 3] > 0)]
-        if len(windows) == 0:
-            return (0, 0, 0, 0)
-        x, y = windows[:, :2].min(axis=0)
-        right, top = (windows[:, :2] + windows[:, 2:]).max(axis=0)
-        return (int(x), int(y), int(right - x), int(top - y))
+        return union([mirror.window(view) for mirror in self.mirrors])
 
     def _paths(
-        self, targets: _Targets, reflection: Reflection, uniforms: Any, bounces: int
+        self, targets: _Targets, view: View, uniforms: Any, bounces: int
     ) -> Iterator[tuple[SurfaceBuffer, PathBuffer]]:
         """Of each bounce the mirrors that rays leave and where they get to; the buffers are used again."""
         mirrors = targets.seen
-        inside = any(mirror.holds_eye(reflection.view) for mirror in self.mirrors)
+        inside = any(mirror.holds_eye(view) for mirror in self.mirrors)
         scale = max((mirror.bound for mirror in self.mirrors), default=1.0)
-        window = self._window(reflection.view)
-        for bounce in range(bounces if self.mirrors else 0):
+        window = self._window(view)
+        for bounce in range(bounces):
             path = targets.path(bounce)
             path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside, scale)
             yield mirrors, path
@@ -395,6 +392,7 @@ class Renderer:
         canvas: Any,
         reflection: Reflection,
         targets: _Targets,
+        view: View,
         uniforms: Any,
         weight: float,
         diagnostic: Diagnostic,
@@ -403,7 +401,7 @@ class Renderer:
             self._diagnostics = DiagnosticPass(diagnostic.colors)
         shown: SurfaceBuffer | tuple[Environment, ...]
         if reflection.follows_rays:
-            shown = self._first_path(targets, reflection, uniforms)
+            shown = self._first_path(targets, view, uniforms)
         else:
             shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
         methods = (self.settings.method,) * len(self.mirrors)
@@ -419,11 +417,9 @@ class Renderer:
             reflection.parts,
         )
 
-    def _first_path(self, targets: _Targets, reflection: Reflection, uniforms: Any) -> PathBuffer:
-        for _, path in self._paths(targets, reflection, uniforms, 1):
-            return path
-        path = targets.path(0)
-        path.clear()
+    def _first_path(self, targets: _Targets, view: View, uniforms: Any) -> PathBuffer:
+        """What rays off the mirrors that the eye sees have hit."""
+        _, path = next(self._paths(targets, view, uniforms, 1))
         return path
 
     def _shown(
@@ -469,10 +465,19 @@ class Renderer:
             self._targets[size] = _Targets(*size)
         return self._targets[size]
 
-    def _draw_surfaces(self, targets: _Targets, view: View, reflection: Reflection) -> Any:
-        """Geometry passes of one sub-frame; returns the view's uniform block."""
+    def _draw_surfaces(
+        self, targets: _Targets, view: View, reflection: Reflection, window: Window | None = None
+    ) -> Any:
+        """Geometry passes of one sub-frame, in `window` alone if given; returns the view's uniform block."""
         uniforms = view_block(view)
-        draw_primary(targets.seen, self.geometry.seen(view), self._materials, uniforms)
+        draw_primary(
+            targets.seen,
+            self.geometry.seen(view),
+            self._materials,
+            uniforms,
+            window,
+            lambda chunk: self.geometry.hidden_faces(chunk, view),
+        )
         if reflection.environments is None and not reflection.follows_rays:
             targets.reflected.clear()
             for mirror, parts in zip(self.mirrors, reflection.parts, strict=True):
@@ -501,7 +506,7 @@ class Renderer:
             "seen_color": read_texture(targets.seen.color),
         }
         if reflection.follows_rays:
-            path = self._first_path(targets, reflection, uniforms)
+            path = self._first_path(targets, reflection.view, uniforms)
             arrays["reflected_position"] = read_texture(path.position)
             arrays["reflected_color"] = read_texture(path.color)
             arrays["reflected_color"][..., 3] = read_texture(path.direction)[..., 3]
@@ -585,6 +590,16 @@ class Frame:
         position[..., 3] = ids > 0
         position[~mask] = 0.0
         return position, ids
+
+
+def union(windows: Sequence[Window]) -> Window:
+    """A window that holds all of these; an empty one where all are."""
+    some = np.array([window for window in windows if window[2] > 0 and window[3] > 0], np.int64)
+    if len(some) == 0:
+        return (0, 0, 0, 0)
+    x, y = some[:, :2].min(axis=0).tolist()
+    right, top = (some[:, :2] + some[:, 2:]).max(axis=0).tolist()
+    return (x, y, right - x, top - y)
 
 
 def _check(settings: Settings) -> None:

@@ -159,11 +159,18 @@ def drawing_state(depth_test: str = "NONE", depth_write: bool = False, blend: st
         gpu.state.depth_test_set("NONE")
         gpu.state.depth_mask_set(False)
         gpu.state.blend_set("NONE")
+        gpu.state.face_culling_set("NONE")
 
 
 @contextmanager
-def scissored(window: tuple[int, int, int, int]) -> Iterator[None]:
-    """Draw only inside the window (x, y, width, height) of the bound frame buffer."""
+def scissored(window: tuple[int, int, int, int] | None) -> Iterator[None]:
+    """Draw only inside the window (x, y, width, height) of the frame buffer that is bound now, or all of it.
+
+    The scissor belongs to the frame buffer: set before it is bound it would be another one's.
+    """
+    if window is None:
+        yield
+        return
     gpu.state.scissor_set(*window)
     gpu.state.scissor_test_set(True)
     try:

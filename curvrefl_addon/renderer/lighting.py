@@ -40,6 +40,11 @@ DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
+type Features = frozenset[str]
+"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether the world shines and whether it is an image"""
+FEATURES: Features = frozenset(
+    f"LIGHTING_{name}" for name in ("POINT", "SPOT", "SUN", "AREA", "MAPS", "CUBES", "IMAGE", "WORLD")
+)
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
 
@@ -63,6 +68,8 @@ class Lighting:
         self._read_world()
         self._plan_lamps()
         self._plan_world_shadows()
+        self.features = self._found_features()
+        """What a shader that lights this scene has to have (see `declare`)"""
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
@@ -81,6 +88,7 @@ class Lighting:
             self._plan_world_shadows()
         elif moved:
             self._world_maps.forget()
+        self.features = self._found_features()
         self._blocks.clear()
 
     def _read_geometry(self) -> None:
@@ -129,9 +137,25 @@ class Lighting:
         met = meets_faces(place, centers, radii)
         return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))
 
+    def _found_features(self) -> Features:
+        kinds = {light.kind for light in self._lights}
+        shadows = {
+            len(layers) for planned in self._lamp_places for _, layers in planned if max(layers, default=-1) >= 0
+        }
+        found = {f"LIGHTING_{kind}" for kind in kinds}
+        found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
+        if self._world.image is not None:
+            found.add("LIGHTING_IMAGE")
+        if self._world_is_lit:
+            found.add("LIGHTING_WORLD")
+        return frozenset(found)
+
     @staticmethod
-    def declare(info: Any, first_sampler: int, uniform_slot: int = 1) -> None:
-        """Add SAMPLER_COUNT samplers from slot `first_sampler` and one uniform block to a GPUShaderCreateInfo."""
+    def declare(info: Any, first_sampler: int, features: Features = FEATURES) -> None:
+        """Add SAMPLER_COUNT samplers from slot `first_sampler`, the uniform block in slot 1 and defines to a
+        GPUShaderCreateInfo; with the `features` of a scene, what `lighting.glsl` has beyond them is left out."""
+        for name in sorted(features):
+            info.define(name)
         for index, (kind, name) in enumerate(
             (
                 ("DEPTH_2D_ARRAY", "lighting_lamp_depth"),
@@ -142,7 +166,7 @@ class Lighting:
             )
         ):
             info.sampler(first_sampler + index, kind, name)
-        info.uniform_buf(uniform_slot, "vec4", f"lighting_data[{DATA_RECORDS}]")
+        info.uniform_buf(1, "vec4", f"lighting_data[{DATA_RECORDS}]")
 
     def prepare(self, sub_frame: int) -> None:
         """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.

@@ -44,20 +44,36 @@ class Materials:
         """Textures, as `SceneArrays.images`."""
         return [texture for _, texture in self._images]
 
+    def _of(self, index: int) -> MaterialArrays:
+        return _HOLDOUT if index == HOLDOUT else self._materials[index]
+
     @staticmethod
-    def declare(info: Any, sampler: int) -> None:
-        """What `surface_color.glsl` needs, in a shader's create info; `sampler` is the slot of the base image."""
+    def declare(info: Any, sampler: int, is_plain: bool) -> None:
+        """What `surface_color.glsl` needs, in a shader's create info; `sampler` is the slot of the base image.
+
+        With `is_plain` for materials of that kind: without an image, UV and vertex colour to interpolate.
+        """
         info.push_constant("VEC3", "base_color")
         info.push_constant("FLOAT", "material")
+        if is_plain:
+            info.define("PLAIN")
+            return
         info.push_constant("VEC4", "uv_transform")
         info.push_constant("FLOAT", "uses_vertex_color")
         info.sampler(sampler, "FLOAT_2D", "base_image")
 
+    def is_plain(self, index: int) -> bool:
+        """Whether the base colour of a material is the same everywhere."""
+        material = self._of(index)
+        return material.image < 0 and not material.uses_vertex_color
+
     def bind(self, shader: Any, index: int) -> None:
-        """Set what `declare` declared to material `index` on the bound shader."""
-        material = _HOLDOUT if index == HOLDOUT else self._materials[index]
+        """Set what `declare` declared to material `index` on the bound shader, one for its kind (`is_plain`)."""
+        material = self._of(index)
         shader.uniform_float("base_color", material.base_color)
         shader.uniform_float("material", float(index))
+        if self.is_plain(index):
+            return
         shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
         shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
         shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image][1])

@@ -11,6 +11,7 @@ from ..scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
 from .mesh_inside import is_closed
 from .mesh_pieces import MeshPieces, box_of, mesh_pieces
+from .solid import solid_side
 from .split import longest_edge
 
 
@@ -41,6 +42,11 @@ class MeshFacts:
     def never_sees_itself(self) -> bool:
         """As a mirror."""
         return self.is_convex and self.is_closed
+
+    @cached_property
+    def solid_side(self) -> int:
+        """See `solid.solid_side`."""
+        return solid_side(self.mesh)
 
     @cached_property
     def pieces(self) -> MeshPieces:

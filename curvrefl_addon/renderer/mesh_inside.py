@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..scene.arrays import Float64Array, MeshArrays
+from .solid import has_no_boundary
 
 _DIRECTION = np.array([0.5377, 0.1834, 0.8230])
 """Any, along none of the usual planes"""
@@ -23,13 +24,7 @@ def is_closed(mesh: MeshArrays) -> bool:
     low, size = mesh.positions.min(axis=0), float(np.ptp(mesh.positions, axis=0).max())
     cells = np.rint((mesh.positions - low) * (CELLS / max(size, 1e-30))).astype(np.int64)
     _, place = np.unique((cells[:, 0] * (CELLS + 1) + cells[:, 1]) * (CELLS + 1) + cells[:, 2], return_inverse=True)
-    corners = place[mesh.corner_vertex[mesh.triangles]].astype(np.int64)
-    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
-    start, end = start[start != end], end[start != end]
-    is_forward = start < end
-    edges = np.where(is_forward, start * len(mesh.positions) + end, end * len(mesh.positions) + start)
-    _, number = np.unique(edges, return_inverse=True)
-    return bool((np.bincount(number, np.where(is_forward, 1.0, -1.0)) == 0.0).all())
+    return has_no_boundary(place[mesh.corner_vertex[mesh.triangles]].astype(np.int32))
 
 
 def holds_point(mesh: MeshArrays, point: Float64Array) -> bool:

@@ -157,16 +157,34 @@ class SceneGeometry:
             ]
         return self._sceneries[own]
 
+    def hidden_faces(self, chunk: Chunk, view: View) -> str:
+        """Which faces the eye cannot see for sure: 'BACK', 'FRONT' (of what is inside out) or 'NONE'.
+
+        Of mirrors only, whose many triangles are worth it: closed ones that lie wholly before the eye.
+        """
+        if len(chunk.placed) > 1 or not chunk.placed[0].mirror:
+            return "NONE"
+        item = chunk.placed[0]
+        clip = self._box(chunk) @ view.world_to_clip.T
+        if (clip[:, 2] <= -clip[:, 3]).any() or (clip[:, 3] <= 0.0).any():
+            return "NONE"
+        side = self.facts.of(item.drawn).solid_side * np.sign(np.linalg.det(item.instance.matrix[:3, :3]))
+        return ("NONE", "BACK", "FRONT")[int(side)]
+
     def may_be_in(self, chunk: Chunk, world_to_clip: Float64Array) -> bool:
         """False where a chunk is outside of the view volume of a matrix (4, 4) for sure."""
+        clip = self._box(chunk) @ world_to_clip.T
+        beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
+        return not (beyond.all(axis=0).any() or before.all(axis=0).any())
+
+    def _box(self, chunk: Chunk) -> Float64Array:
+        """(8, 4) homogeneous corners of a box around a chunk, world space."""
         box = self._boxes.get(id(chunk))
         if box is None:
             corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
             low, high = corners.min(axis=0), corners.max(axis=0)
             box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
-        clip = box @ world_to_clip.T
-        beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
-        return not (beyond.all(axis=0).any() or before.all(axis=0).any())
+        return box
 
     def seen(self, view: View) -> list[tuple[Chunk, Batches]]:
         """All that the eye may see directly."""

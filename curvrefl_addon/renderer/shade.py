@@ -13,17 +13,19 @@ import gpu
 from ...gpu_shaders.loader import load
 from ..scene.arrays import SceneArrays
 from .environment import Environment, declare
-from .exact import PathBuffer, Window
+from .exact import PathBuffer
 from .gpu_objects import drawing_state, full_screen_triangle, scissored
-from .lighting import Lighting
+from .lighting import Features, Lighting
 from .materials import Materials
-from .surfaces import SurfaceBuffer
+from .pixel_classes import PixelClass, PixelClasses, declare_class
+from .surfaces import SurfaceBuffer, Window
 from .view_block import TYPEDEF
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "mirror_color", "path_direction", "path_throughput")
-_NO_MIRRORS = "no mirrors"
+MOST_SIZES = 4
+"""Sizes of pictures whose targets are kept"""
 
 
 class ShadePass:
@@ -32,11 +34,15 @@ class ShadePass:
     def __init__(self, scene: SceneArrays, lighting: Lighting, materials: Materials) -> None:
         self._lighting = lighting
         self._materials = materials
+        self._classes: dict[tuple[int, int], PixelClasses] = {}
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> None:
         """Know another state of the scene."""
-        self._has_bodies = any(light.radius > 0.0 or light.kind in ("AREA", "SUN") for light in scene.lights)
+        self._has_suns = any(light.kind == "SUN" for light in scene.lights)
+        self._has_bodies = any(
+            light.kind != "SUN" and (light.radius > 0.0 or light.kind == "AREA") for light in scene.lights
+        )
         self._has_base = any(
             not scene.materials[index].glossy_only
             and (scene.materials[index].metallic < 1.0 or max(scene.materials[index].emission) > 0.0)
@@ -52,63 +58,104 @@ class ShadePass:
         reflected: SurfaceBuffer | Sequence[Environment] | None,
         view_uniforms: Any,
         weight: float,
-        mirrors_only: bool = False,
+        mirrors: Window | None = None,
+        goes_on: bool = False,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
 
-        `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it, or
-        None where `add_path` will add what mirrors show. With `mirrors_only` no other pixel is touched.
+        `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
+        where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
+        touched. With `goes_on`, `reflected` is a PathBuffer, and `add_path` will add what mirrors show of mirrors.
         """
-        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
+        mirrors_only = mirrors is not None
+        if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
+            return
+        classes = self._classes_for(seen)
+        classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, goes_on)
+        with drawing_state("EQUAL"), classes.frame_buffer.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            if reflected is None:
-                if not mirrors_only:
-                    shader = self._bound(_shade_shader(_NO_MIRRORS), seen, view_uniforms, weight)
-                    shader.uniform_float("mirrors_only", 0.0)
-                    full_screen_triangle().draw(shader)
-            elif isinstance(reflected, SurfaceBuffer):
-                shader = self._bound(_shade_shader(""), seen, view_uniforms, weight)
-                shader.uniform_float("mirrors_only", float(mirrors_only))
+            self._add_light(classes, seen, reflected, view_uniforms, weight, mirrors_only)
+            gpu.state.blend_set("ADDITIVE_PREMULT")
+            self._add_front(classes, seen, view_uniforms, weight, mirrors_only)
+        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
+            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            shader = _add_shader()
+            shader.bind()
+            shader.uniform_sampler("light", classes.light)
+            full_screen_triangle().draw(shader)
+
+    def _add_light(
+        self,
+        _classes: PixelClasses,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Environment] | None,
+        view_uniforms: Any,
+        weight: float,
+        mirrors_only: bool,
+    ) -> None:
+        """Background and surfaces, seen directly or in mirrors."""
+        kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
+        if not mirrors_only:
+            kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
+        for kind in kinds:
+            self._draw(_shade_shader(kind, self._lighting.features), kind, seen, view_uniforms, weight)
+        if isinstance(reflected, SurfaceBuffer):
+            for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
+                shader = _shade_shader(kind, self._lighting.features)
+                shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
-                full_screen_triangle().draw(shader)
-            else:
-                for number, environment in enumerate(reflected, 1):
-                    shader = self._bound(_shade_shader(environment.lookup), seen, view_uniforms, weight)
-                    shader.uniform_float("mirrors_only", float(mirrors_only))
-                    shader.uniform_float("mirror", float(number))
-                    environment.bind(shader, environment.radiance)
-                    full_screen_triangle().draw(shader)
-            if self._has_base or (self._has_bodies and not mirrors_only):
-                shader = self._bound(_front_shader(self._has_base), seen, view_uniforms, weight)
-                shader.uniform_float("mirrors_only", float(mirrors_only))
-                full_screen_triangle().draw(shader)
+                self._draw(shader, kind, seen, view_uniforms, weight)
+            return
+        for number, environment in enumerate(reflected or (), 1):
+            shader = _environment_shader(environment.lookup, self._lighting.features)
+            shader.bind()
+            shader.uniform_float("mirror", float(number))
+            environment.bind(shader, environment.radiance)
+            self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
+
+    def _add_front(
+        self, _classes: PixelClasses, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool
+    ) -> None:
+        """What adds to that in some scenes only (see `shade_front.frag.glsl`)."""
+        mirrors = (PixelClass.MIRROR, PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
+        if self._has_base:
+            for kind in mirrors:
+                self._draw(_front_shader(True, self._lighting.features), kind, seen, view_uniforms, weight)
+        if mirrors_only:
+            return
+        kinds: list[PixelClass] = []
+        if self._has_bodies:
+            kinds = [kind for kind in PixelClass if not (self._has_base and kind in mirrors)]
+        elif self._has_suns:
+            # Everything hides a sun.
+            kinds = [PixelClass.BACKGROUND]
+        for kind in kinds:
+            self._draw(_front_shader(False, self._lighting.features), kind, seen, view_uniforms, weight)
 
     def add_path(
         self,
         target: Any,
-        mirrors: SurfaceBuffer,
+        mirrors: PathBuffer,
         path: PathBuffer,
         view_uniforms: Any,
         weight: float,
         window: Window,
-        is_first: bool,
         goes_on: bool,
     ) -> None:
-        """Add the light of what rays off the `mirrors` have hit, times `weight`; `window` holds their pixels.
+        """Add the light of what rays off the `mirrors` seen in mirrors have hit, times `weight`.
 
-        `is_first`: these are the mirrors that the eye sees. `goes_on`: another pass follows the rays off mirrors hit.
+        `window` holds their pixels. `goes_on`: another pass follows the rays off mirrors hit.
         """
         if window[2] <= 0 or window[3] <= 0:
             return
-        shader = _path_shader(goes_on)
+        shader = _path_shader(goes_on, self._lighting.features)
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, path.width, path.height)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("weight", weight)
-            shader.uniform_float("alpha", float(is_first))
             shader.uniform_sampler("materials", self._materials.table)
             textures = (mirrors.position, mirrors.color, path.direction, path.throughput)
             for name, texture in zip(_PATH, textures, strict=True):
@@ -118,15 +165,25 @@ class ShadePass:
             self._lighting.bind(shader)
             full_screen_triangle().draw(shader)
 
-    def _bound(self, shader: Any, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> Any:
+    def _draw(self, shader: Any, kind: PixelClass, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> None:
+        """A full-screen triangle for the pixels of one class."""
         shader.bind()
         shader.uniform_block("view", view_uniforms)
         shader.uniform_float("weight", weight)
+        shader.uniform_float("pixel_class", float(kind))
         shader.uniform_sampler("materials", self._materials.table)
         for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
             shader.uniform_sampler(name, texture)
         self._lighting.bind(shader)
-        return shader
+        full_screen_triangle().draw(shader)
+
+    def _classes_for(self, seen: SurfaceBuffer) -> PixelClasses:
+        size = (seen.width, seen.height)
+        if size not in self._classes:
+            while len(self._classes) >= MOST_SIZES:
+                del self._classes[next(iter(self._classes))]
+            self._classes[size] = PixelClasses(*size)
+        return self._classes[size]
 
 
 def _info() -> Any:
@@ -136,60 +193,74 @@ def _info() -> Any:
     info.fragment_out(0, "VEC4", "color")
     info.uniform_buf(0, "ViewBlock", "view")
     info.push_constant("FLOAT", "weight")
-    info.push_constant("FLOAT", "mirrors_only")
     info.sampler(0, "FLOAT_2D", "materials")
     for slot, name in enumerate(_SEEN, 1):
         info.sampler(slot, "FLOAT_2D", name)
-    info.vertex_source(load("full_screen.vert.glsl"))
+    declare_class(info)
     return info
 
 
 @cache
-def _shade_shader(lookup: str) -> Any:
-    """With the name of an environment's lookup, nothing for reflected surface buffers, or _NO_MIRRORS."""
+def _shade_shader(kind: PixelClass, features: Features) -> Any:
+    """For a class of pixels, without environments."""
     info = _info()
-    source = ""
-    if lookup == _NO_MIRRORS:
-        info.define("NO_MIRRORS")
-        used = 4
-    elif lookup:
-        info.push_constant("FLOAT", "mirror")
-        source = declare(info, lookup, 4)
-        used = 5
-    else:
-        for slot, name in enumerate(_REFLECTED, 4):
+    info.define(f"SHADES_{kind.name}")
+    used = 4
+    if kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
+        for slot, name in enumerate(_REFLECTED, used):
             info.sampler(slot, "FLOAT_2D", name)
-        used = 7
-    Lighting.declare(info, used)
+        used += len(_REFLECTED)
+    Lighting.declare(info, used, features)
+    info.fragment_source(load("shade.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _environment_shader(lookup: str, features: Features) -> Any:
+    """For mirrors that show an environment, with the name of its lookup."""
+    info = _info()
+    info.push_constant("FLOAT", "mirror")
+    source = declare(info, lookup, 4)
+    Lighting.declare(info, 5, features)
     info.fragment_source(source + load("shade.frag.glsl"))
     return gpu.shader.create_from_info(info)
 
 
 @cache
-def _path_shader(goes_on: bool) -> Any:
+def _path_shader(goes_on: bool, features: Features) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(TYPEDEF)
     info.vertex_in(0, "VEC2", "pos")
     info.fragment_out(0, "VEC4", "color")
     info.uniform_buf(0, "ViewBlock", "view")
     info.push_constant("FLOAT", "weight")
-    info.push_constant("FLOAT", "alpha")
     if goes_on:
         info.define("GOES_ON")
     names = ("materials", *_PATH, *_REFLECTED)
     for slot, name in enumerate(names):
         info.sampler(slot, "FLOAT_2D", name)
-    Lighting.declare(info, len(names))
+    Lighting.declare(info, len(names), features)
     info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("shade_path.frag.glsl"))
     return gpu.shader.create_from_info(info)
 
 
 @cache
-def _front_shader(has_base: bool) -> Any:
+def _front_shader(has_base: bool, features: Features) -> Any:
     info = _info()
     if has_base:
         info.define("MIRROR_BASE")
-    Lighting.declare(info, 4)
+    Lighting.declare(info, 4, features)
     info.fragment_source(load("shade_front.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _add_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.sampler(0, "FLOAT_2D", "light")
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("add_light.frag.glsl"))
     return gpu.shader.create_from_info(info)

@@ -8,7 +8,7 @@ material, base colour. Lighting is done once per pixel afterwards (`shade.py`), 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
@@ -20,6 +20,9 @@ from .gpu_objects import drawing_state, scissored
 from .materials import Materials
 from .solve import SolvedChunk
 from .view_block import TYPEDEF
+
+type Window = tuple[int, int, int, int]
+"""x, y, width and height of pixels"""
 
 
 class SurfaceBuffer:
@@ -62,6 +65,7 @@ class BackFaces:
         shader = _back_faces_shader()
         with drawing_state("LESS_EQUAL", depth_write=True), self.frame_buffer.bind():
             gpu.state.viewport_set(0, 0, self.width, self.height)
+            gpu.state.face_culling_set("FRONT")
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
@@ -72,21 +76,38 @@ class BackFaces:
 
 
 def draw_primary(
-    target: SurfaceBuffer, seen: Sequence[tuple[Chunk, Batches]], materials: Materials, view_uniforms: Any
+    target: SurfaceBuffer,
+    seen: Sequence[tuple[Chunk, Batches]],
+    materials: Materials,
+    view_uniforms: Any,
+    window: Window | None = None,
+    hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
 ) -> None:
-    """Fill `target` with what the eye sees directly."""
-    shader = _primary_shader()
+    """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
+
+    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'.
+    """
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
         gpu.state.viewport_set(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
-        shader.bind()
-        shader.uniform_block("view", view_uniforms)
-        for chunk, batches in seen:
-            shader.uniform_sampler("positions", chunk.positions)
-            shader.uniform_sampler("corners", chunk.corners)
-            for material, batch in batches:
-                materials.bind(shader, material)
-                batch.draw(shader)
+        with scissored(window):
+            for is_plain in (True, False):
+                shader = _primary_shader(is_plain)
+                shader.bind()
+                shader.uniform_block("view", view_uniforms)
+                for chunk, batches in seen:
+                    gpu.state.face_culling_set(hidden_faces(chunk))
+                    shader.uniform_sampler("positions", chunk.positions)
+                    shader.uniform_sampler("corners", chunk.corners)
+                    _draw_batches(shader, batches, materials, is_plain)
+
+
+def _draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: bool) -> None:
+    """Those whose materials are plain, or the others, with a bound shader for them."""
+    for material, batch in batches:
+        if materials.is_plain(material) == is_plain:
+            materials.bind(shader, material)
+            batch.draw(shader)
 
 
 def draw_reflected(
@@ -98,7 +119,7 @@ def draw_reflected(
     materials: Materials,
     view_uniforms: Any,
     depth_scale: float,
-    window: tuple[int, int, int, int],
+    window: Window,
 ) -> None:
     """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
 
@@ -107,29 +128,33 @@ def draw_reflected(
     """
     if window[2] <= 0 or window[3] <= 0:
         return
-    shader = _reflected_shader(back_faces is not None)
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
         gpu.state.viewport_set(0, 0, target.width, target.height)
-        shader.bind()
-        shader.uniform_block("view", view_uniforms)
-        shader.uniform_float("mirror", float(mirror))
-        shader.uniform_float("depth_scale", depth_scale)
-        for name, texture in (
-            ("mirror_position", mirrors.position),
-            ("mirror_normal", mirrors.normal),
-            ("mirror_color", mirrors.color),
-        ):
-            shader.uniform_sampler(name, texture)
-        if back_faces is not None:
-            shader.uniform_sampler("back_faces", back_faces.distance)
-        for part in scenery:
-            shader.uniform_sampler("positions", part.chunk.positions)
-            shader.uniform_sampler("corners", part.chunk.corners)
-            shader.uniform_sampler("reflection_points", part.solution.reflection_points)
-            shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
-            for material, batch in part.batches:
-                materials.bind(shader, material)
-                batch.draw(shader)
+        for is_plain in (True, False):
+            shader = _reflected_shader(back_faces is not None, is_plain)
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            shader.uniform_float("mirror", float(mirror))
+            shader.uniform_float("depth_scale", depth_scale)
+            for name, texture in (
+                ("mirror_position", mirrors.position),
+                ("mirror_normal", mirrors.normal),
+                ("mirror_color", mirrors.color),
+            ):
+                shader.uniform_sampler(name, texture)
+            if back_faces is not None:
+                shader.uniform_sampler("back_faces", back_faces.distance)
+            for part in scenery:
+                shader.uniform_sampler("positions", part.chunk.positions)
+                shader.uniform_sampler("corners", part.chunk.corners)
+                shader.uniform_sampler("reflection_points", part.solution.reflection_points)
+                shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
+                _draw_batches(shader, part.batches, materials, is_plain)
+
+
+def _colors(is_plain: bool) -> tuple[tuple[str, str], ...]:
+    """What is interpolated for the base colour."""
+    return () if is_plain else (("VEC2", "uv"), ("VEC3", "vertex_color"))
 
 
 def declare_surface_outputs(info: Any) -> None:
@@ -147,12 +172,12 @@ def _geometry_inputs(info: Any) -> None:
 
 
 @cache
-def _primary_shader() -> Any:
+def _primary_shader(is_plain: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     _geometry_inputs(info)
-    Materials.declare(info, 2)
-    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_primary")
-    for kind, name in (("VEC3", "world_position"), ("VEC3", "world_normal"), ("VEC2", "uv"), ("VEC3", "vertex_color")):
+    Materials.declare(info, 2, is_plain)
+    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_primary_{is_plain}")
+    for kind, name in (("VEC3", "world_position"), ("VEC3", "world_normal"), *_colors(is_plain)):
         interface.smooth(kind, name)
     interface.flat("VEC2", "ids")
     info.vertex_out(interface)
@@ -163,10 +188,10 @@ def _primary_shader() -> Any:
 
 
 @cache
-def _reflected_shader(with_back_faces: bool) -> Any:
+def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     _geometry_inputs(info)
-    Materials.declare(info, 2)
+    Materials.declare(info, 2, is_plain)
     info.push_constant("FLOAT", "mirror")
     info.push_constant("FLOAT", "depth_scale")
     names = ["reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"]
@@ -175,12 +200,11 @@ def _reflected_shader(with_back_faces: bool) -> Any:
         names.append("back_faces")
     for slot, name in enumerate(names, 3):
         info.sampler(slot, "FLOAT_2D", name)
-    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_reflected")
+    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_reflected_{with_back_faces}_{is_plain}")
     for kind, name in (
         ("VEC3", "world_position"),
         ("VEC3", "world_normal"),
-        ("VEC2", "uv"),
-        ("VEC3", "vertex_color"),
+        *_colors(is_plain),
         ("FLOAT", "iterations"),
         ("VEC3", "reflection_point"),
         ("VEC2", "rejected"),

@@ -109,6 +109,17 @@ def bumpy(height: float = 0.06) -> bpy.types.Object:
     return reflector
 
 
+def dense() -> bpy.types.Object:
+    """The mirror sphere's scene with a mirror of 130,000 triangles."""
+    start_empty_scene()
+    reflector = add_reflector(sphere_radius, cells=104)
+    add_surroundings(sphere_radius)
+    set_world_color(SKY)
+    add_sun((-0.5, -0.6, 0.9), 3.0)
+    add_camera((0.0, -5.6, 1.5), (0.0, 0.0, 0.0), lens=58.0)
+    return reflector
+
+
 def add_reflector(radius: RadiusFunction, cells: int = CELLS) -> bpy.types.Object:
     """The mirror about the origin, with the surface's true normals as custom normals."""
     directions, quads = cube_sphere_directions(cells)
@@ -244,5 +255,6 @@ SCENES: dict[str, Callable[[], bpy.types.Object]] = {
     "sphere": mirror_sphere,
     "ellipsoid": mirror_ellipsoid,
     "bumpy": bumpy,
+    "dense": dense,
     "million": million,
 }

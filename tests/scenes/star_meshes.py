@@ -78,6 +78,12 @@ def moved(mesh: MeshArrays, offset: Sequence[float], scale: float = 1.0) -> Mesh
     return replace(mesh, positions=(mesh.positions * scale + np.array(offset)).astype(np.float32))
 
 
+def welded(mesh: MeshArrays) -> MeshArrays:
+    """Vertices in the same place made one, as at the poles of a `star_mesh`; corners stay."""
+    positions, vertex = np.unique(np.round(mesh.positions, 5), axis=0, return_inverse=True)
+    return replace(mesh, positions=positions, corner_vertex=vertex.astype(np.int32).ravel()[mesh.corner_vertex])
+
+
 def inverted(mesh: MeshArrays) -> MeshArrays:
     """Inside out."""
     return replace(mesh, triangles=mesh.triangles[:, ::-1].copy(), corner_normals=-mesh.corner_normals)
