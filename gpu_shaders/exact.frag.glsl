@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
-// mirror is what the pass before has shown, and the ray goes on from there.
+// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask).
 #include "ray_walk.glsl"
 #include "ray_surface.glsl"
 #include "mirror_tint.glsl"
@@ -12,19 +12,6 @@ void main()
   vec4 mirror_place = texelFetch(mirror_position, pixel, 0);
   vec4 mirror_facing = texelFetch(mirror_normal, pixel, 0);
   vec4 mirror_base = texelFetch(mirror_color, pixel, 0);
-  if (mirror_place.w == 0.0 || mirror_base.w < 0.5) {
-    // The next pass reads this.
-    surface_position = vec4(0.0);
-    surface_normal = vec4(0.0);
-    surface_color_out = vec4(0.0);
-    direction_out = vec4(0.0);
-    throughput_out = vec4(0.0);
-#ifdef WITH_IMAGES
-    uv_out = vec4(0.0, 0.0, -1.0, 0.0);
-#endif
-    gl_FragDepth = 1.0;
-    return;
-  }
   float own = mirror_base.w;
 #ifdef ON_PATH
   vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
@@ -48,7 +35,6 @@ void main()
 #ifdef WITH_IMAGES
     uv_out = vec4(0.0, 0.0, -1.0, 0.0);
 #endif
-    gl_FragDepth = 1.0;
     return;
   }
   RaySurface surface = surface_of_hit(hit, mirror_place.xyz, direction);
@@ -61,5 +47,4 @@ void main()
   float image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4).x;
   uv_out = vec4(surface.uv * transform.xy + transform.zw, image, 0.0);
 #endif
-  gl_FragDepth = hit.range / (hit.range + depth_scale);
 }

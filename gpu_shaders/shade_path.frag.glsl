@@ -9,9 +9,6 @@ void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 origin = texelFetch(mirror_position, pixel, 0);
-  if (origin.w == 0.0 || texelFetch(mirror_color, pixel, 0).w < 0.5) {
-    discard;
-  }
   vec4 position = texelFetch(reflected_position, pixel, 0);
   vec3 direction = texelFetch(path_direction, pixel, 0).xyz;
   float range = distance(position.xyz, origin.xyz);

@@ -26,6 +26,8 @@ class Method:
     """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
     follows_rays: bool = False
     """Whether every mirror pixel follows its own reflected ray"""
+    chooses: bool = False
+    """Whether it chooses one of the others in each view"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -35,10 +37,22 @@ class Method:
     @property
     def is_environment(self) -> bool:
         """Whether it looks up a map of the surroundings."""
-        return not self.maps and not self.follows_rays
+        return not self.maps and not self.follows_rays and not self.chooses
+
+    @property
+    def needs_map(self) -> bool:
+        """Whether mirrors are baked for it: all but what follows rays knows their star center, at least."""
+        return not self.follows_rays and not self.chooses
 
 
 METHODS: dict[str, Method] = {
+    "auto": Method(
+        "Automatic",
+        "in each view the cheapest of the others that stays under the error asked for",
+        "nothing",
+        ("pixel_tolerance", (4.0, 2.0, 1.0, 0.5, 0.25)),
+        chooses=True,
+    ),
     "exact": Method(
         "Exact",
         "each mirror pixel's reflected ray through bounding-volume hierarchies; Whitted 1980, Wald 2007",

@@ -8,6 +8,7 @@ next pass goes on from them.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -20,6 +21,8 @@ from .ray_scene import RayScene
 from .surfaces import SurfaceBuffer, Window, declare_surface_outputs
 from .view_block import TYPEDEF
 
+PATH_DEPTH = 0.5
+"""Of pixels whose rays are followed; exact in any depth buffer"""
 IMAGES_AT_ONCE = 8
 """As in exact_images.frag.glsl"""
 
@@ -38,9 +41,11 @@ class PathBuffer(SurfaceBuffer):
             texture.filter_mode(False)
         self._targets = (self.position, self.normal, self.color, self.direction, self.throughput)
         self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=self._targets)
+        self._mask = gpu.types.GPUFrameBuffer(depth_slot=self.depth)
         self._uv: Any = None
         """uv of the base color image and its number, -1 for none; made where there are images"""
-        self._color_alone = gpu.types.GPUFrameBuffer(color_slots=(self.color,))
+        self._color_alone = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(self.color,))
+        self._lit: tuple[Any, Any] = (None, None)
 
     def follow(
         self,
@@ -50,12 +55,11 @@ class PathBuffer(SurfaceBuffer):
         view_uniforms: Any,
         window: Window,
         eye_is_inside: bool,
-        depth_scale: float,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
-        `window` holds all of their pixels: outside of it the buffer is not touched. `depth_scale`: distance that gets
-        half of the depth range, metres.
+        `window` holds all of their pixels. `depth` is less than 1 where there was a ray to follow, and only there is
+        anything in the other textures.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
@@ -64,12 +68,11 @@ class PathBuffer(SurfaceBuffer):
             self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(*self._targets, self._uv))
         if window[2] <= 0 or window[3] <= 0:
             return
+        self._find_mirrors(mirrors, window)
         shader = _exact_shader(path is not None, self._uv is not None)
-        # ("ALWAYS": a depth test is what makes depth be written.)
-        with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
+        with drawing_state("EQUAL"), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
-            shader.uniform_float("depth_scale", depth_scale)
             rays.bind(shader)
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("mirror_position", mirrors.position)
@@ -84,11 +87,26 @@ class PathBuffer(SurfaceBuffer):
             full_screen_triangle().draw(shader)
         self._look_up_images(materials.images, window)
 
+    def lit(self, light: Any) -> Any:
+        """Frame buffer of the texture `light` whose depth says where rays were followed (see `declare_path`)."""
+        if self._lit[0] is not light:
+            self._lit = (light, gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(light,)))
+        return self._lit[1]
+
+    def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window) -> None:
+        shader = _mask_shader()
+        with drawing_state("ALWAYS", depth_write=True), self._mask.bind(), scissored(window):
+            gpu.state.viewport_set(0, 0, self.width, self.height)
+            shader.bind()
+            shader.uniform_sampler("surface_depth", mirrors.depth)
+            shader.uniform_sampler("surface_color", mirrors.color)
+            full_screen_triangle().draw(shader)
+
     def _look_up_images(self, images: list[Any], window: Window) -> None:
         """Multiply the base colors by their images."""
         for first in range(0, len(images), IMAGES_AT_ONCE):
             shader = _images_shader()
-            with drawing_state(blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
+            with drawing_state("EQUAL", blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
                 gpu.state.viewport_set(0, 0, self.width, self.height)
                 shader.bind()
                 shader.uniform_int("first_image", first)
@@ -99,11 +117,44 @@ class PathBuffer(SurfaceBuffer):
                 full_screen_triangle().draw(shader)
 
 
+@dataclass(frozen=True, slots=True)
+class Bounce:
+    """One step of the rays' ways."""
+
+    mirrors: SurfaceBuffer
+    """Has the mirrors that they leave"""
+    path: PathBuffer
+    """Where they get to"""
+    window: Window
+    """Holds the mirrors' pixels"""
+    goes_on: bool
+    """Another step follows the rays off mirrors that were hit"""
+
+
+def declare_path(info: Any) -> None:
+    """Make a shader's full-screen triangle stand where PathBuffers have followed rays; test depth for equality."""
+    info.vertex_in(0, "VEC2", "pos")
+    info.define("PATH_DEPTH", str(PATH_DEPTH))
+    info.vertex_source(load("full_screen_of_paths.vert.glsl"))
+
+
+@cache
+def _mask_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.define("PATH_DEPTH", str(PATH_DEPTH))
+    info.sampler(0, "DEPTH_2D", "surface_depth")
+    info.sampler(1, "FLOAT_2D", "surface_color")
+    info.depth_write("ANY")
+    info.vertex_source(load("full_screen.vert.glsl"))
+    info.fragment_source(load("path_mask.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
 @cache
 def _exact_shader(on_path: bool, with_images: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.push_constant("FLOAT", "depth_scale")
+    declare_path(info)
     RayScene.declare(info, 0)
     names = ["materials", "mirror_position", "mirror_normal", "mirror_color"]
     if on_path:
@@ -121,8 +172,6 @@ def _exact_shader(on_path: bool, with_images: bool) -> Any:
     if with_images:
         info.define("WITH_IMAGES")
         info.fragment_out(5, "VEC4", "uv_out")
-    info.depth_write("ANY")
-    info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("exact.frag.glsl"))
     return gpu.shader.create_from_info(info)
 
@@ -131,12 +180,11 @@ def _exact_shader(on_path: bool, with_images: bool) -> Any:
 def _images_shader() -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.define("IMAGES", str(IMAGES_AT_ONCE))
-    info.vertex_in(0, "VEC2", "pos")
+    declare_path(info)
     info.fragment_out(0, "VEC4", "color")
     info.push_constant("INT", "first_image")
     info.sampler(0, "FLOAT_2D", "path_uv")
     for slot in range(IMAGES_AT_ONCE):
         info.sampler(1 + slot, "FLOAT_2D", f"image_{slot}")
-    info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("exact_images.frag.glsl"))
     return gpu.shader.create_from_info(info)

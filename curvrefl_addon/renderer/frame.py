@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from time import perf_counter
 from typing import Any
@@ -18,12 +18,13 @@ from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
+from .choice import RAYS, Choice, Scenery, choose
 from .diagnostics import DiagnosticPass
 from .environment import Environment
 from .environment_cube import EnvironmentCube
 from .environment_hits import environment_hits
 from .environment_vertex import VertexLookups
-from .exact import PathBuffer
+from .exact import Bounce, PathBuffer
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
@@ -31,37 +32,11 @@ from .mirror import Mirror
 from .pixel_filter import offsets
 from .ray_scene import RayScene
 from .scene_geometry import Difference, SceneGeometry
+from .settings import Settings, check_settings
 from .shade import ShadePass
 from .solve import SolvedChunk, VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, Window, draw_primary, draw_reflected
 from .view_block import view_block
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """How to render."""
-
-    method: str = "secant_star"
-    """A name of `optics.catalogue.METHODS`"""
-    samples: int = 2
-    """Jittered sub-frames of an anti-aliased picture; 1: pixel centres only, 16: a still"""
-    pixel_tolerance: float = 0.5
-    """Largest error of a reflected chord in pixels; the solver goes to a tenth of it"""
-    map_resolution: int = 128
-    """Texels along an edge of the reflector's radial cube map"""
-    environment_resolution: int = 512
-    """Texels along an edge of environment maps: of a cube's faces, of a sphere map's square"""
-    steps: int = 0
-    """Of methods with a fixed number of search steps; 0: the method's own"""
-    grid_share: float = 0.1
-    """Points of bounding grids that are solved, as a share of the vertices (`bisector_grid`)"""
-    frustum: float = 1.25
-    """Width of the view that is searched, in widths of the picture (`bisector_screen`)"""
-    search_resolution: float = 1.0
-    """Texels per pixel of the view that is searched (`bisector_screen`)"""
-    bounces: int = 4
-    """Mirrors on the way of a ray (`exact`); what the last one shows of a mirror is its own light alone"""
-
 
 MOST_TARGETS = 3
 """Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
@@ -137,7 +112,10 @@ class Renderer:
         without a GPU context.
         """
         self.settings = settings or Settings()
-        _check(self.settings)
+        """What was asked for"""
+        check_settings(self.settings)
+        self._used = _before_choosing(self.settings)
+        """What is done: the same, or what `auto` has chosen in the view drawn last"""
         require_gpu()
         self.counters = {"maps baked": 0}
         """How often something was made, since the start; beside those of `geometry`"""
@@ -147,6 +125,9 @@ class Renderer:
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
         self._targets: dict[tuple[int, int], _Targets] = {}
+        self._choice: Choice | None = None
+        self._scenery: Scenery | None = None
+        """Of this scene, for choosing"""
         self._cubes: list[EnvironmentCube] | None = None
         self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
@@ -176,13 +157,10 @@ class Renderer:
 
     def configure(self, settings: Settings) -> None:
         """Render otherwise from now on. Raises as the constructor; then nothing has changed."""
-        _check(settings)
+        check_settings(settings)
         before, self.settings = self.settings, settings
         try:
-            if settings.map_resolution != before.map_resolution or not METHODS[settings.method].follows_rays:
-                self._bake_mirrors(self.scene, keep=settings.map_resolution == before.map_resolution)
-            for mirror in self.mirrors:
-                mirror.require(settings.method)
+            self._use(_before_choosing(settings))
         except InputError:
             self.settings = before
             raise
@@ -193,6 +171,49 @@ class Renderer:
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
         self._cubes = None
         self.revision += 1
+
+    def _use(self, settings: Settings) -> None:
+        """Work by these from now on. Raises InputError for what a mirror cannot do; then nothing has changed."""
+        before, self._used = self._used, settings
+        try:
+            same_maps = settings.map_resolution == before.map_resolution
+            if METHODS[settings.method].needs_map:
+                self._bake_mirrors(self.scene, keep=same_maps)
+            for mirror in self.mirrors:
+                mirror.require(settings.method)
+        except InputError:
+            self._used = before
+            raise
+
+    def _choose(self, view: View) -> None:
+        """Let `auto` choose what is done in a view."""
+        if not METHODS[self.settings.method].chooses:
+            self._choice = None
+            return
+        if self._scenery is None:
+            self._scenery = self._read_scenery()
+        self._choice = choose(self.settings, view, self.mirrors, self._scenery)
+        if self._choice.settings == self._used:
+            return
+        self._use(self._choice.settings)
+        if METHODS[self._used.method].needs_map and any(mirror.refusal is not None for mirror in self.mirrors):
+            # Baking has shown that there is no map: the other way is chosen now.
+            self._choice = choose(self.settings, view, self.mirrors, self._scenery)
+            self._use(self._choice.settings)
+
+    def _read_scenery(self) -> Scenery:
+        own = {mirror.index for mirror in self.mirrors}
+        shown = [
+            index
+            for index, item in enumerate(self.geometry.placed)
+            if index not in own and item.instance.visible_glossy and len(item.mesh.triangles)
+        ]
+        meshes = [self.geometry.placed[index].mesh for index in shown]
+        return Scenery(
+            *self.geometry.balls(np.array(shown, np.int64)),
+            np.array([len(mesh.positions) for mesh in meshes], np.int64),
+            np.array([len(mesh.triangles) for mesh in meshes], np.int64),
+        )
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -219,6 +240,7 @@ class Renderer:
         """Mirrors and geometry."""
         self._bake_mirrors(scene, keep=True)
         self.scene = scene
+        self._scenery = None
         return self.geometry.update(scene, self._numbers)
 
     @property
@@ -231,7 +253,7 @@ class Renderer:
 
         A method that follows rays needs no maps.
         """
-        resolution = 0 if METHODS[self.settings.method].follows_rays else self.settings.map_resolution
+        resolution = self._used.map_resolution if METHODS[self._used.method].needs_map else 0
         chosen = [index for index, instance in enumerate(scene.instances) if instance.object_id in scene.reflectors]
         before: dict[int, list[Mirror]] = {}
         for old in self.mirrors if keep else ():
@@ -245,7 +267,7 @@ class Renderer:
                 facts = self.geometry.facts.of(scene.meshes[instance.mesh])
                 mirror = Mirror(scene, index, number, facts, resolution)
                 self.counters["maps baked"] += bool(resolution)
-            mirror.require(self.settings.method)
+            mirror.require(self._used.method)
             mirrors.append(mirror)
         self.mirrors = mirrors
 
@@ -272,16 +294,18 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
-        return Frame(self, reflection, color, times)
+        return Frame(self, reflection, color, times, self._choice)
 
     def reflect(self, view: View, solve: bool = True) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
 
         Without `solve`, for diagnostic views of the mirrors' surface alone.
         """
+        self._choose(view)
         if not solve:
             return Reflection(view, (), (), self.warnings)
-        if METHODS[self.settings.method].follows_rays:
+        used = self._used
+        if METHODS[used.method].follows_rays:
             self.rays()
             return Reflection(view, (), None, self.warnings, follows_rays=True)
         if any(mirror.holds_eye(view) for mirror in self.mirrors):
@@ -289,16 +313,15 @@ class Renderer:
             black = Environment("environment_cube", black_cube, lambda: black_cube)
             warning = "The eye is inside a reflector, which shows only itself there: its reflection is black."
             return Reflection(view, (), (black,) * len(self.mirrors), (*self.warnings, warning))
-        if METHODS[self.settings.method].is_environment:
-            environments = tuple(cube.environment(self.settings.method, view) for cube in self.environment_cubes())
+        if METHODS[used.method].is_environment:
+            environments = tuple(cube.environment(used.method, view) for cube in self.environment_cubes())
             # Without a mirror the empty reflected buffer does.
             return Reflection(view, (), environments or None, self.warnings)
-        tolerance = self.settings.pixel_tolerance
-        self.geometry.refine([mirror.sight(view, tolerance) for mirror in self.mirrors])
+        self.geometry.refine([mirror.sight(view, used.pixel_tolerance) for mirror in self.mirrors])
         parts = tuple(
             mirror.solve(
                 view,
-                self.settings,
+                used,
                 self.geometry.scenery(mirror.index),
                 self.geometry.of_instance(mirror.index),
                 self._materials,
@@ -331,13 +354,10 @@ class Renderer:
             return
         self._lighting.prepare(index)
         if reflection.follows_rays and self.mirrors:
-            bounces = self._bounces()
-            for bounce, (mirrors, path) in enumerate(self._paths(targets, view, uniforms, bounces)):
-                goes_on = bounce + 1 < bounces
-                if isinstance(mirrors, PathBuffer):
-                    self._shade.add_path(canvas, mirrors, path, uniforms, weight, self._window(view), goes_on)
-                else:
-                    self._shade.add(canvas, mirrors, path, uniforms, weight, window, goes_on)
+            bounces = self._bounces(targets, view, uniforms, self._most_bounces())
+            first = next(bounces)
+            later = bounces if first.goes_on else None
+            self._shade.add(canvas, targets.seen, first.path, uniforms, weight, window, later)
             return
         shown = self._shown(targets, reflection, uniforms, of_positions=False)
         self._shade.add(canvas, targets.seen, shown, uniforms, weight, window)
@@ -348,6 +368,16 @@ class Renderer:
             self._rays = RayScene(self.geometry.facts)
             self._rays.follow(self.scene, self._numbers)
         return self._rays
+
+    @property
+    def choice(self) -> Choice | None:
+        """What `auto` has chosen in the view drawn last, and why."""
+        return self._choice
+
+    def settle(self) -> None:
+        """Do at once all that `improve` would do."""
+        while self.can_improve:
+            self.improve()
 
     @property
     def ray_counters(self) -> dict[str, int]:
@@ -364,7 +394,7 @@ class Renderer:
         if self._rays is not None:
             self._rays.improve()
 
-    def _bounces(self) -> int:
+    def _most_bounces(self) -> int:
         """Mirrors that a ray can meet one after the other."""
         may_meet_another = len(self.mirrors) > 1 or any(not mirror.facts.never_sees_itself for mirror in self.mirrors)
         return self.settings.bounces if may_meet_another else 1
@@ -373,18 +403,18 @@ class Renderer:
         """Pixels that hold all mirrors."""
         return union([mirror.window(view) for mirror in self.mirrors])
 
-    def _paths(
-        self, targets: _Targets, view: View, uniforms: Any, bounces: int
-    ) -> Iterator[tuple[SurfaceBuffer, PathBuffer]]:
-        """Of each bounce the mirrors that rays leave and where they get to; the buffers are used again."""
+    def _bounces(self, targets: _Targets, view: View, uniforms: Any, most: int) -> Iterator[Bounce]:
+        """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
+
+        Each is drawn when it is asked for, into buffers that the next but one uses again.
+        """
         mirrors = targets.seen
         inside = any(mirror.holds_eye(view) for mirror in self.mirrors)
-        scale = max((mirror.bound for mirror in self.mirrors), default=1.0)
         window = self._window(view)
-        for bounce in range(bounces):
-            path = targets.path(bounce)
-            path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside, scale)
-            yield mirrors, path
+        for number in range(most):
+            path = targets.path(number)
+            path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside)
+            yield Bounce(mirrors, path, window, number + 1 < most)
             mirrors = path
 
     def _add_diagnostic(
@@ -401,10 +431,10 @@ class Renderer:
             self._diagnostics = DiagnosticPass(diagnostic.colors)
         shown: SurfaceBuffer | tuple[Environment, ...]
         if reflection.follows_rays:
-            shown = self._first_path(targets, view, uniforms)
+            shown = next(self._bounces(targets, view, uniforms, 1)).path
         else:
             shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
-        methods = (self.settings.method,) * len(self.mirrors)
+        methods = (self._used.method,) * len(self.mirrors)
         self._diagnostics.add(
             canvas,
             targets.seen,
@@ -416,11 +446,6 @@ class Renderer:
             methods,
             reflection.parts,
         )
-
-    def _first_path(self, targets: _Targets, view: View, uniforms: Any) -> PathBuffer:
-        """What rays off the mirrors that the eye sees have hit."""
-        _, path = next(self._paths(targets, view, uniforms, 1))
-        return path
 
     def _shown(
         self, targets: _Targets, reflection: Reflection, uniforms: Any, of_positions: bool
@@ -506,7 +531,7 @@ class Renderer:
             "seen_color": read_texture(targets.seen.color),
         }
         if reflection.follows_rays:
-            path = self._first_path(targets, reflection.view, uniforms)
+            path = next(self._bounces(targets, reflection.view, uniforms, 1)).path
             arrays["reflected_position"] = read_texture(path.position)
             arrays["reflected_color"] = read_texture(path.color)
             arrays["reflected_color"][..., 3] = read_texture(path.direction)[..., 3]
@@ -523,7 +548,14 @@ class Renderer:
 class Frame:
     """One picture and what is behind it. Arrays are copies, float32, row 0 at the bottom; valid until `free()`."""
 
-    def __init__(self, renderer: Renderer, reflection: Reflection, color: Any, times_ms: dict[str, float]) -> None:
+    def __init__(
+        self,
+        renderer: Renderer,
+        reflection: Reflection,
+        color: Any,
+        times_ms: dict[str, float],
+        choice: Choice | None = None,
+    ) -> None:
         self._renderer = renderer
         self._reflection = reflection
         self.view = reflection.view
@@ -533,6 +565,8 @@ class Frame:
         """bake, solve, draw, frame = solve + draw"""
         self.warnings = reflection.warnings
         """One sentence each"""
+        self.choice = None if choice is None else choice.as_report()
+        """What `auto` has chosen, and why"""
 
     @cached_property
     def solve(self) -> dict[str, Any]:
@@ -602,28 +636,6 @@ def union(windows: Sequence[Window]) -> Window:
     return (x, y, right - x, top - y)
 
 
-def _check(settings: Settings) -> None:
-    if settings.method not in METHODS:
-        raise InputError(f'There is no method "{settings.method}": choose one of {", ".join(METHODS)}.')
-    if not 1 <= settings.samples <= 1024:
-        raise InputError(f"{settings.samples} samples are out of range: choose 1 to 1024.")
-    if not 0.01 <= settings.pixel_tolerance <= 100.0:
-        raise InputError(f"A tolerance of {settings.pixel_tolerance} pixels is out of range: choose 0.01 to 100.")
-    if not 8 <= settings.map_resolution <= 2048:
-        raise InputError(f"A map of {settings.map_resolution} texels is out of range: choose 8 to 2048.")
-    if not 8 <= settings.environment_resolution <= 4096:
-        raise InputError(
-            f"An environment map of {settings.environment_resolution} texels is out of range: choose 8 to 4096."
-        )
-    if not 1 <= settings.bounces <= 64:
-        raise InputError(f"{settings.bounces} bounces are out of range: choose 1 to 64.")
-    if not 0 <= settings.steps <= 1000:
-        raise InputError(f"{settings.steps} search steps are out of range: choose 0 (the method's own) to 1000.")
-    if not 0.0 < settings.grid_share <= 1.0:
-        raise InputError(f"A grid share of {settings.grid_share} is out of range: choose more than 0, at most 1.")
-    if not 1.0 <= settings.frustum <= 4.0:
-        raise InputError(f"A frustum factor of {settings.frustum} is out of range: choose 1 to 4.")
-    if not 0.1 <= settings.search_resolution <= 4.0:
-        raise InputError(
-            f"A search resolution of {settings.search_resolution} texels per pixel is out of range: choose 0.1 to 4."
-        )
+def _before_choosing(settings: Settings) -> Settings:
+    """What is done before a view is known: no method may have to be baked for in vain."""
+    return replace(settings, method=RAYS) if METHODS[settings.method].chooses else settings

@@ -36,6 +36,10 @@ if TYPE_CHECKING:
 
 SAME_STRETCH = 1e-6
 """Relative: a matrix whose stretch differs less only moves and turns"""
+SLIVER = 1e-6
+"""A triangle with this share of the largest one's area"""
+INSIDE = 0.98
+"""Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
 OPEN = 0.02
 """Share of directions without a surface from which on a mirror counts as open: it may show its inner side"""
 
@@ -72,6 +76,7 @@ class Mirror:
         self.may_hide_itself = not facts.is_convex
         self.facts = facts
         self.index, self.number = index, number
+        self._inner_radius: float | None = None
         self._parametric: Any = None
         self._planes: Sequence[Plane] | None = None
         self._companion: tuple[Chunk, Batches] | None = None
@@ -141,6 +146,24 @@ class Mirror:
         if not view.is_orthographic:
             distance = max(float(np.linalg.norm(view.eye[:3] - self.center)), self.bound)
         return view.focal_pixels * self.bound / distance
+
+    @property
+    def inner_ball(self) -> tuple[Float64Array, float]:
+        """Center (3,), world space, and radius, metres, of a ball inside of a closed convex mirror."""
+        low, high = (end.astype(np.float64) for end in self.facts.box)
+        middle = 0.5 * (low + high)
+        matrix = self._instance.matrix
+        if self._inner_radius is None:
+            # The same wherever it moves: a mirror that is stretched is another one.
+            corners = (self._mesh.positions - middle) @ matrix[:3, :3].T
+            a, b, c = (corners[self._mesh.corner_vertex[self._mesh.triangles[:, k]]] for k in range(3))
+            normals = np.cross(b - a, c - a)
+            lengths = np.linalg.norm(normals, axis=1)
+            # Slivers have no plane.
+            some = lengths > SLIVER * lengths.max(initial=0.0)
+            heights = np.einsum("ij,ij->i", normals[some], a[some]) / lengths[some]
+            self._inner_radius = INSIDE * float(np.abs(heights).min(initial=np.inf)) if some.any() else 0.0
+        return matrix[:3, :3] @ middle + matrix[:3, 3], self._inner_radius
 
     def holds_eye(self, view: View) -> bool:
         """Whether the eye is inside the reflector."""

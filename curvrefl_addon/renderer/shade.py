@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import Any
 
@@ -13,7 +13,7 @@ import gpu
 from ...gpu_shaders.loader import load
 from ..scene.arrays import SceneArrays
 from .environment import Environment, declare
-from .exact import PathBuffer
+from .exact import Bounce, declare_path
 from .gpu_objects import drawing_state, full_screen_triangle, scissored
 from .lighting import Features, Lighting
 from .materials import Materials
@@ -23,7 +23,7 @@ from .view_block import TYPEDEF
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
-_PATH = ("mirror_position", "mirror_color", "path_direction", "path_throughput")
+_PATH = ("mirror_position", "path_direction", "path_throughput")
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
 
@@ -59,24 +59,26 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         mirrors: Window | None = None,
-        goes_on: bool = False,
+        later: Iterator[Bounce] | None = None,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
 
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
-        touched. With `goes_on`, `reflected` is a PathBuffer, and `add_path` will add what mirrors show of mirrors.
+        touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it.
         """
         mirrors_only = mirrors is not None
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
             return
         classes = self._classes_for(seen)
-        classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, goes_on)
+        classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
         with drawing_state("EQUAL"), classes.frame_buffer.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             self._add_light(classes, seen, reflected, view_uniforms, weight, mirrors_only)
             gpu.state.blend_set("ADDITIVE_PREMULT")
             self._add_front(classes, seen, view_uniforms, weight, mirrors_only)
+        for bounce in later or ():
+            self._add_path(classes, bounce, view_uniforms, weight)
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             shader = _add_shader()
@@ -134,30 +136,17 @@ class ShadePass:
         for kind in kinds:
             self._draw(_front_shader(False, self._lighting.features), kind, seen, view_uniforms, weight)
 
-    def add_path(
-        self,
-        target: Any,
-        mirrors: PathBuffer,
-        path: PathBuffer,
-        view_uniforms: Any,
-        weight: float,
-        window: Window,
-        goes_on: bool,
-    ) -> None:
-        """Add the light of what rays off the `mirrors` seen in mirrors have hit, times `weight`.
-
-        `window` holds their pixels. `goes_on`: another pass follows the rays off mirrors hit.
-        """
-        if window[2] <= 0 or window[3] <= 0:
-            return
-        shader = _path_shader(goes_on, self._lighting.features)
-        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(window):
+    def _add_path(self, classes: PixelClasses, bounce: Bounce, view_uniforms: Any, weight: float) -> None:
+        """Add the light of what rays off mirrors seen in mirrors have hit."""
+        shader = _path_shader(bounce.goes_on, self._lighting.features)
+        path = bounce.path
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), path.lit(classes.light).bind(), scissored(bounce.window):
             gpu.state.viewport_set(0, 0, path.width, path.height)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("weight", weight)
             shader.uniform_sampler("materials", self._materials.table)
-            textures = (mirrors.position, mirrors.color, path.direction, path.throughput)
+            textures = (bounce.mirrors.position, path.direction, path.throughput)
             for name, texture in zip(_PATH, textures, strict=True):
                 shader.uniform_sampler(name, texture)
             for name, texture in zip(_REFLECTED, (path.position, path.normal, path.color), strict=True):
@@ -229,10 +218,10 @@ def _environment_shader(lookup: str, features: Features) -> Any:
 @cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
+    declare_path(info)
     info.typedef_source(TYPEDEF)
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
     info.uniform_buf(0, "ViewBlock", "view")
+    info.fragment_out(0, "VEC4", "color")
     info.push_constant("FLOAT", "weight")
     if goes_on:
         info.define("GOES_ON")
@@ -240,7 +229,6 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     for slot, name in enumerate(names):
         info.sampler(slot, "FLOAT_2D", name)
     Lighting.declare(info, len(names), features)
-    info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("shade_path.frag.glsl"))
     return gpu.shader.create_from_info(info)
 

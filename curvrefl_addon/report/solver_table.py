@@ -130,7 +130,7 @@ def solver_table(
             truth = _Truth(oracle, cases)
             for method_name in methods:
                 method = METHODS[method_name]
-                is_other = method.follows_rays or method.grid_search or "plane" in method.maps
+                is_other = not (method.maps or method.is_environment) or method.grid_search or "plane" in method.maps
                 if is_other or method_name in refused:
                     continue
                 for settings, value in _settings(method_name, only_defaults):

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method `auto`: what it chooses and why, and that the error asked for holds, against Newton in float64."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.optics.newton import minimise
+from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.screen import Screen
+from curvrefl.curvrefl_addon.renderer import choice as choices
+from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
+from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
+from curvrefl.curvrefl_addon.scene.view import View
+from scenes import mirror_halls
+from scenes.mirror_halls import hall
+from scenes.star_meshes import star_mesh
+from scenes.views import look_at
+
+pytestmark = pytest.mark.usefixtures("gpu")
+EYE = np.array([0.0, -5.0, 1.5])
+SURFACES = {"sphere": Ellipsoid(), "ellipsoid": Ellipsoid(1.2, 0.6, 0.4)}
+
+
+def fine_hall(name: str, monkeypatch: pytest.MonkeyPatch) -> SceneArrays:
+    """A hall whose mirror is as good as the smooth surface."""
+    monkeypatch.setitem(mirror_halls.MIRRORS, name, lambda: star_mesh(SURFACES[name], 128))
+    return hall(name, 0)
+
+
+def rendered(scene: SceneArrays, view: View, **settings: object) -> Frame:
+    return Renderer(scene, replace(Settings(method="auto", samples=1), **settings)).render(view)  # type: ignore[arg-type]
+
+
+def pixel_errors(surface: RadialSurface, frame: Frame) -> np.ndarray:
+    """(n,) how far from its pixel what is shown there is reflected in truth; a surface point for each such pixel."""
+    shows = (frame.mask() > 0) & (frame.reflected_object() > 0)
+    shown = frame.reflected_position()[shows][:, :3].astype(np.float64)
+    start = unit(frame.reflector_position()[shows].astype(np.float64))
+    screen = Screen(frame.view.eye, frame.view.focal_pixels)
+    u, converged, _ = minimise(surface, screen, shown, start, 60, 1e-4)
+    assert converged.mean() > 0.999
+    radius, _ = surface.radius(u)
+    row, column = np.nonzero(shows)
+    centers = np.column_stack([column + 0.5, row + 0.5])
+    return np.linalg.norm(frame.view.project(radius[:, None] * u) - centers, axis=1)[converged]
+
+
+@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize("way", [RAYS, VERTICES])
+@pytest.mark.parametrize("tolerance", [0.5, 2.0])
+def test_the_error_asked_for_holds(name: str, way: str, tolerance: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whichever way is chosen: the choice is pushed to both sides."""
+    monkeypatch.setattr(choices, "CLEARLY", 0.0 if way == RAYS else 1e9)
+    frame = rendered(fine_hall(name, monkeypatch), look_at(EYE, np.zeros(3), 480, 360, 0.6), pixel_tolerance=tolerance)
+    assert frame.choice is not None and frame.choice["method"] == way
+    assert np.percentile(pixel_errors(SURFACES[name], frame), 99) < tolerance
+
+
+def test_few_vertices_on_a_large_mirror_are_solved_and_many_on_a_small_one_are_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = fine_hall("sphere", monkeypatch)
+    few = replace(scene, instances=scene.instances[:2])
+    large = rendered(few, look_at(EYE, np.zeros(3), 480, 360, 0.6), pixel_tolerance=2.0)
+    small = rendered(scene, look_at(4.0 * EYE, np.zeros(3), 160, 120, 0.6))
+    assert large.choice is not None and large.choice["method"] == VERTICES
+    assert small.choice is not None and small.choice["method"] == RAYS
+    assert "rays are followed" in str(small.choice["why"])
+
+
+@pytest.mark.parametrize("name", ["torus", "vase", "bowl", "wave"])
+def test_mirrors_that_show_a_point_several_times_follow_rays(name: str) -> None:
+    frame = rendered(hall(name, 0), look_at(EYE, np.zeros(3), 160, 120, 0.6))
+    assert frame.choice is not None and frame.choice["method"] == RAYS
+    assert "several times" in str(frame.choice["why"])
+
+
+def test_several_mirrors_follow_rays() -> None:
+    frame = rendered(hall("sphere", 0, mirrors=2), look_at(EYE, np.zeros(3), 160, 120, 0.8))
+    assert frame.choice is not None and "in each other" in str(frame.choice["why"])
+
+
+def test_what_lies_in_the_mirrors_shadow_is_not_reflected() -> None:
+    """A ball straight behind the mirror is named as not reflected, and wins no pixel of the true picture."""
+    scene = hall("sphere", 0, clutter=6)
+    behind = np.diag([0.3, 0.3, 0.3, 1.0])
+    behind[:3, 3] = -1.8 * unit(EYE[None])[0]
+    number = len(scene.instances) + 1
+    scene = replace(scene, instances=(*scene.instances, InstanceArrays("behind", number, 1, behind, (0,))))
+    view = look_at(EYE, np.zeros(3), 240, 180, 0.6)
+    frame = rendered(scene, view)
+    assert frame.choice is not None
+    objects = frame.choice["objects"]
+    assert isinstance(objects, dict) and objects["not reflected"] == 1
+    exact = rendered(scene, view, method="exact")
+    assert not (exact.reflected_object() == number).any()
