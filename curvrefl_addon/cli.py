@@ -88,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
         "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
     )
     _add_scene_options(render)
-    render.add_argument("--method", default="secant_star", metavar="M", help="how to reflect (%(default)s)")
+    render.add_argument("--method", default="auto", metavar="M", help="how to reflect (%(default)s)")
     render.add_argument(
         "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
     )
@@ -103,7 +103,10 @@ def _parser() -> argparse.ArgumentParser:
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
     _add_scene_options(compare)
     compare.add_argument(
-        "--method", default="secant_star,environment_cube", metavar="M[,M..]", help="or all (%(default)s)"
+        "--method", default="auto,exact,secant_star,environment_cube", metavar="M[,M..]", help="or all (%(default)s)"
+    )
+    compare.add_argument(
+        "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
     )
     compare.add_argument(
         "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"

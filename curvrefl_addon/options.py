@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
-QUALITY = ("method", "pixel_tolerance", "samples", "map_resolution", "motion_resolution")
+QUALITY = ("method", "pixel_tolerance", "samples", "bounces", "map_resolution", "motion_resolution")
 """Settings of `Scene.curvrefl` whose first values are preferences"""
 PACKAGE = __package__.removesuffix(".curvrefl_addon")
 """The extension as Blender knows it, for instance bl_ext.user_default.curvrefl"""
@@ -33,9 +33,10 @@ _DEFAULTS = DiagnosticColors()
 class Options:
     """What the rest of the extension reads of them."""
 
-    method: str = "secant_star"
+    method: str = "auto"
     pixel_tolerance: float = 0.5
     samples: int = 8
+    bounces: int = 4
     map_resolution: int = 128
     motion_resolution: str = "HALF"
     memory_cap: int = 2048
@@ -92,6 +93,7 @@ def settings_of(chosen: Any, samples: int | None = None) -> Settings:
         samples=chosen.samples if samples is None else samples,
         pixel_tolerance=chosen.pixel_tolerance,
         map_resolution=chosen.map_resolution,
+        bounces=chosen.bounces,
     )
 
 

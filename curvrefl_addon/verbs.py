@@ -96,7 +96,13 @@ def compare(options: argparse.Namespace) -> int:
 
     from .report.compare import Comparison
 
-    comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
+    comparison = Comparison(
+        methods=tuple(methods),
+        samples=options.samples,
+        light=options.light,
+        peers=tuple(peers),
+        sub_frames=options.sub_frames,
+    )
     scene = _open_scene(options.file, options.frame)
     width, height = _resolution(options, scene)
     comparison = replace(comparison, width=width, height=height)

@@ -96,6 +96,11 @@ def statistics() -> list[tuple[str, str]]:
     return [("Nothing solved yet", "")]
 
 
+def reason() -> str:
+    """Why `auto` has chosen as it has in the view drawn last, one sentence, or nothing."""
+    return next((picture.reason for picture in reversed(_state.pictures.values())), "")
+
+
 def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
     """Rows for the panel on an object's map; empty where there is none yet."""
     for scene in _state.scenes.values():

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..gpu_shaders.loader import load
 from .diagnostic_colors import MODES, DiagnosticOptions
+from .optics.catalogue import METHODS
 from .renderer.frame import Diagnostic, Reflection, Renderer
 from .renderer.gpu_objects import drawing_state, full_screen_triangle
 from .renderer.solve import statistics
@@ -122,8 +123,21 @@ class RegionPicture:
                 ("Failed", f"{found['unconverged']:,}"),
                 ("Iterations", f"{found['iterations']['mean']:.1f}"),
             ]
+        if not self._rows and self._reflection is not None and self._reflection.follows_rays and not self.is_coarse:
+            self._rows = [("Rays", "followed"), ("Bounces", str(self.renderer.settings.bounces))]
         times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
-        return [*self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
+        choice = self.renderer.choice
+        chosen = (
+            []
+            if choice is None
+            else [("Chosen", METHODS[choice.settings.method].label), ("Not Reflected", f"{choice.hidden} objects")]
+        )
+        return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
+
+    @property
+    def reason(self) -> str:
+        """Why `auto` has chosen as it has, one sentence; nothing for other methods."""
+        return "" if self.renderer.choice is None else self.renderer.choice.why
 
     def _start(
         self, view: View, divisor: int, diagnostic: Diagnostic | None, is_timed: bool, counters: dict[str, int]

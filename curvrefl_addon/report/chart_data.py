@@ -103,6 +103,9 @@ def _marks(
     for name in comparison.methods:
         setting = METHODS[name].sweep[0]
         for settings, value, is_default in sweep(name):
+            if comparison.light == "direct":
+                # As Cycles there.
+                settings = replace(settings, bounces=1)
             yield f"Rendering {name}, {setting} {value:g}"
             mark = Mark(scene_name, name, setting, value, is_default)
             try:

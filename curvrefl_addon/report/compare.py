@@ -13,7 +13,7 @@ import json
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,8 @@ import gpu
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..output import checked_folder, folder_to_publish
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
+from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
 from ..scene.extract import extract_scene
@@ -36,7 +37,7 @@ from .images import save_png
 from .measured_frame import RendererLike, frame_geometry_error, image_error, measure_frame
 from .metrics import error_map, mask_mismatch, missing_flip
 
-DEFAULT_METHODS = ("secant_star", "environment_cube")
+DEFAULT_METHODS = ("auto", "exact", "secant_star", "environment_cube")
 DEFAULT_PEERS = ("eevee", "cycles1", "cycles8")
 LARGEST_SIDE = 8192
 MOST_SAMPLES = 65536
@@ -58,6 +59,8 @@ class Comparison:
     samples: int = 256
     light: str = "direct"
     peers: tuple[str, ...] = DEFAULT_PEERS
+    sub_frames: int = Settings().samples
+    """Of our pictures"""
 
     def __post_init__(self) -> None:
         if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
@@ -66,6 +69,7 @@ class Comparison:
             )
         if not 1 <= self.samples <= MOST_SAMPLES:
             raise InputError(f"{self.samples} samples are out of range: choose 1 to {MOST_SAMPLES}.")
+        check_settings(Settings(samples=self.sub_frames))
         if self.light not in LIGHTS:
             raise InputError(f"Unknown light '{self.light}': choose from {', '.join(LIGHTS)}.")
         if not self.methods:
@@ -76,9 +80,15 @@ class Comparison:
                     raise InputError(f"Unknown {what} '{name}': choose from {', '.join(known)}.")
 
 
-def new_renderer(scene: SceneArrays, method: str) -> RendererLike:
-    """The extension's renderer with its default settings."""
-    return Renderer(scene, Settings(method=method))
+def new_renderer(comparison: Comparison) -> MakeRenderer:
+    """Makes the extension's renderers, with its default settings.
+
+    In direct light Cycles follows one bounce off a mirror, and so do they.
+    """
+    settings = Settings(samples=comparison.sub_frames)
+    if comparison.light == "direct":
+        settings = replace(settings, bounces=1)
+    return lambda scene, method: Renderer(scene, replace(settings, method=method))
 
 
 def compare_blend(
@@ -129,9 +139,7 @@ def compare_open_scene(
     make_renderer: MakeRenderer | None = None,
 ) -> dict[str, Any]:
     """Take all of `compare_steps` and return the report; `progress` is told of each step."""
-    steps = compare_steps(
-        scene, view_layer, reflector_names, comparison, output, scene_name, camera, make_renderer or new_renderer
-    )
+    steps = compare_steps(scene, view_layer, reflector_names, comparison, output, scene_name, camera, make_renderer)
     say = progress or _silent
     while True:
         try:
@@ -157,7 +165,7 @@ def compare_steps(
     output: Path | str,
     scene_name: str | None = None,
     camera: str | None = None,
-    make_renderer: MakeRenderer = new_renderer,
+    make_renderer: MakeRenderer | None = None,
 ) -> Generator[Step, None, dict[str, Any]]:
     """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
 
@@ -179,7 +187,16 @@ def compare_steps(
         arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
         extract_ms = 1e3 * (time.perf_counter() - start)
         with folder_to_publish(output) as folder:
-            run = _run(scene, view_layer, arrays, view, comparison, extract_ms, folder, make_renderer)
+            run = _run(
+                scene,
+                view_layer,
+                arrays,
+                view,
+                comparison,
+                extract_ms,
+                folder,
+                make_renderer or new_renderer(comparison),
+            )
             done = 1
             while True:
                 try:
@@ -246,6 +263,8 @@ def _run(
             "time_ms": {"extract": extract_ms, **frame.times_ms},
             "solve": frame.solve,
         }
+        if frame.choice is not None:
+            methods[method]["choice"] = frame.choice
         mismatch[method] = mask_mismatch(frame.mask, truth.mask)
 
     peers = {}

@@ -22,6 +22,7 @@ class FrameLike(Protocol):
 
     times_ms: dict[str, float]
     warnings: tuple[str, ...]
+    choice: dict[str, object] | None
 
     @property
     def solve(self) -> dict[str, Any]: ...
@@ -35,6 +36,7 @@ class RendererLike(Protocol):
     """What is used of `renderer.frame.Renderer`."""
 
     def render(self, view: View) -> FrameLike: ...
+    def settle(self) -> None: ...
     def free(self) -> None: ...
 
 
@@ -50,6 +52,8 @@ class MeasuredFrame:
     """By step: bake, solve, draw, and frame = solve + draw"""
     solve: dict[str, Any]
     warnings: tuple[str, ...]
+    choice: dict[str, object] | None
+    """What `auto` has chosen, and why"""
 
     @property
     def times_ms(self) -> dict[str, float]:
@@ -69,6 +73,7 @@ def measure_frame(renderer: RendererLike, view: View, repeats: int = TIMED_FRAME
             times=times,
             solve=frame.solve,
             warnings=frame.warnings,
+            choice=frame.choice,
         )
     finally:
         renderer.free()
@@ -85,6 +90,7 @@ def measure_times(renderer: RendererLike, view: View, repeats: int = TIMED_FRAME
 def _timed_frames(renderer: RendererLike, view: View, repeats: int) -> tuple[FrameLike, dict[str, Timing]]:
     """One warming frame (shaders compile, resources load), then the timed ones; the last of them, and times by step."""
     renderer.render(view)
+    renderer.settle()
     frames = [renderer.render(view) for _ in range(repeats)]
     steps = frames[0].times_ms
     return frames[-1], {name: Timing(tuple(frame.times_ms[name] for frame in frames)) for name in steps}

@@ -181,6 +181,8 @@ class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
         from .. import viewport
 
         draw_rows(self.layout, viewport.statistics())
+        if reason := viewport.reason():
+            draw_message(self.layout, reason, context, icon="INFO")
 
 
 def draw_show(layout: Any, settings: Any) -> None:

@@ -34,7 +34,7 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
     bl_idname = PACKAGE
 
     method: EnumProperty(  # type: ignore[valid-type]
-        name="Method", description="How reflections are found in new scenes", items=METHOD_ITEMS, default="secant_star"
+        name="Method", description="How reflections are found in new scenes", items=METHOD_ITEMS, default="auto"
     )
     pixel_tolerance: FloatProperty(  # type: ignore[valid-type]
         name="Tolerance",
@@ -46,6 +46,9 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
     )
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Pictures that are averaged in new scenes", default=8, min=1, max=64
+    )
+    bounces: IntProperty(  # type: ignore[valid-type]
+        name="Bounces", description="Mirrors seen in mirrors in new scenes", default=4, min=1, max=32
     )
     map_resolution: IntProperty(  # type: ignore[valid-type]
         name="Map Size",

@@ -88,7 +88,7 @@ class CurvreflScene(bpy.types.PropertyGroup):
         name="Method",
         description="How reflections are found",
         items=METHOD_ITEMS,
-        default="secant_star",
+        default="auto",
         update=_settings_changed,
     )
     pixel_tolerance: FloatProperty(  # type: ignore[valid-type]
@@ -106,6 +106,14 @@ class CurvreflScene(bpy.types.PropertyGroup):
         default=8,
         min=1,
         max=64,
+        update=_settings_changed,
+    )
+    bounces: IntProperty(  # type: ignore[valid-type]
+        name="Bounces",
+        description="Mirrors seen in mirrors, and in themselves, one after the other",
+        default=4,
+        min=1,
+        max=32,
         update=_settings_changed,
     )
     map_resolution: IntProperty(  # type: ignore[valid-type]

@@ -45,6 +45,7 @@ class CyclesFrame:
         ids = {instance.object_name: instance.object_id for instance in scene.instances}
         self._geometry = render_geometry(blender_scene, view_layer, WIDTH, HEIGHT, ids, scene.reflectors)
         self._color = render_reference(blender_scene, view_layer, WIDTH, HEIGHT, SAMPLES).pixels
+        self.choice = None
         self.times_ms = {"bake": 7.0, "solve": 1.0, "draw": frame_ms - 1.0, "frame": frame_ms}
 
     def color(self) -> np.ndarray:
@@ -69,6 +70,9 @@ class CyclesRenderer:
     def __init__(self, scene: SceneArrays, _method: str) -> None:
         self._scene = scene
         self._times = iter((1000.0, 30.0, 10.0, 20.0))
+
+    def settle(self) -> None:
+        pass
 
     def render(self, view: View) -> CyclesFrame:
         assert (view.width, view.height) == (WIDTH, HEIGHT)
