@@ -24,6 +24,8 @@ class Method:
     """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""
     grid_search: str = ""
     """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
+    stragglers: str = ""
+    """Shader of a second pass over what the first one has not settled"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -39,6 +41,15 @@ METHODS: dict[str, Method] = {
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial",),
         steps=4,
+    ),
+    "newton": Method(
+        "Newton",
+        "safeguarded Newton on Fermat's principle, from the last frame's points",
+        "every ray from the star center leaves the reflector once; one reflection per vertex",
+        ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_stragglers",
     ),
     "secant_uv": Method(
         "Secant Search in UV",
@@ -70,7 +81,7 @@ METHODS: dict[str, Method] = {
         "Estalella et al. 2006",
         "the reflection point is in view, and no other part of the reflector is in front of it",
         ("search_resolution", (0.25, 0.5, 1.0, 2.0)),
-        maps=("screen",),
+        maps=("screen", "previous"),
     ),
     "planar": Method(
         "Planar Mirror",
