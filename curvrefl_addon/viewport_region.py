@@ -127,11 +127,12 @@ class RegionPicture:
             self._rows = [("Rays", "followed"), ("Bounces", str(self.renderer.settings.bounces))]
         times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
         choice = self.renderer.choice
-        chosen = (
-            []
-            if choice is None
-            else [("Chosen", METHODS[choice.settings.method].label), ("Not Reflected", f"{choice.hidden} objects")]
-        )
+        chosen = []
+        if choice is not None:
+            chosen = [
+                ("Chosen", METHODS[choice.settings.method].label),
+                ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),
+            ]
         return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
 
     @property

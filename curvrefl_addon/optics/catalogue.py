@@ -28,6 +28,8 @@ class Method:
     """Whether every mirror pixel follows its own reflected ray"""
     chooses: bool = False
     """Whether it chooses one of the others in each view"""
+    stragglers: str = ""
+    """Shader of a second pass over what the first one has not settled"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -68,6 +70,15 @@ METHODS: dict[str, Method] = {
         maps=("radial",),
         steps=4,
     ),
+    "newton": Method(
+        "Newton",
+        "safeguarded Newton on Fermat's principle, from the last frame's points",
+        "every ray from the star center leaves the reflector once; one reflection per vertex",
+        ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_stragglers",
+    ),
     "secant_uv": Method(
         "Secant Search in UV",
         "Roger & Holzschuch 2005, section 3",
@@ -98,7 +109,7 @@ METHODS: dict[str, Method] = {
         "Estalella et al. 2006",
         "the reflection point is in view, and no other part of the reflector is in front of it",
         ("search_resolution", (0.25, 0.5, 1.0, 2.0)),
-        maps=("screen",),
+        maps=("screen", "previous"),
     ),
     "planar": Method(
         "Planar Mirror",

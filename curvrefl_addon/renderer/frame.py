@@ -277,7 +277,7 @@ class Renderer:
         color.filter_mode(False)
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
         start = perf_counter()
-        reflection = self.reflect(view)
+        reflection = self.reflect(view, follow=False)
         for solution in reflection.solutions:
             solution.wait()
         solved = perf_counter()
@@ -296,10 +296,11 @@ class Renderer:
         }
         return Frame(self, reflection, color, times, self._choice)
 
-    def reflect(self, view: View, solve: bool = True) -> Reflection:
+    def reflect(self, view: View, solve: bool = True, follow: bool = True) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
 
-        Without `solve`, for diagnostic views of the mirrors' surface alone.
+        Without `solve`, for diagnostic views of the mirrors' surface alone. With `follow` the solve may start from the
+        last one's points.
         """
         self._choose(view)
         if not solve:
@@ -325,6 +326,7 @@ class Renderer:
                 self.geometry.scenery(mirror.index),
                 self.geometry.of_instance(mirror.index),
                 self._materials,
+                follow,
             )
             for mirror in self.mirrors
         )

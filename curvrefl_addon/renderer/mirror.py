@@ -82,7 +82,7 @@ class Mirror:
         self._companion: tuple[Chunk, Batches] | None = None
         self._screen_maps = ScreenMaps()
         self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
-        self._before: dict[int, tuple[Chunk, VertexSolution]] = {}
+        self._before: dict[int, tuple[Chunk, int, VertexSolution]] = {}
 
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
@@ -207,10 +207,13 @@ class Mirror:
         scenery: Sequence[tuple[Chunk, Batches]],
         own: tuple[Chunk, Batches],
         materials: Materials,
+        follow: bool = True,
     ) -> tuple[SolvedChunk, ...]:
         """Reflection points of all vertices of the scenery; `own` is the mirror's own surface.
 
-        Raises InputError where the method cannot work on this shape.
+        Methods that can start from the last solve do so, and where nothing has changed its solution stands; without
+        `follow` a method on the radial map starts afresh, as a picture of its own should. Raises InputError where the
+        method cannot work on this shape.
         """
         self.require(settings.method)
         method = METHODS[settings.method]
@@ -219,7 +222,9 @@ class Mirror:
         parts = []
         for chunk, batches in scenery:
 
-            def search(positions: Any, count: int, last: VertexSolution | None = None) -> VertexSolution:
+            def search(
+                positions: Any, count: int, last: VertexSolution | None = None, at_rest: bool = False
+            ) -> VertexSolution:
                 return solve_vertices(
                     method.grid_search or settings.method,
                     view,
@@ -229,16 +234,22 @@ class Mirror:
                     steps=settings.steps,
                     tolerance=0.1 * settings.pixel_tolerance,
                     previous=last,
+                    at_rest=at_rest,
                 )
 
             if method.grid_search:
                 solution = self._grid(chunk, settings.grid_share).solve(chunk, search)
             else:
-                known = before.get(id(chunk))
-                solution = search(chunk.positions, chunk.position_count, None if known is None else known[1])
-            if "screen" in method.maps:
+                known = before.get(id(chunk)) if follow or "screen" in method.maps else None
+                last, at_rest = None, False
+                if known is not None:
+                    last = known[2]
+                    # The maps of a view are drawn anew for each solve.
+                    at_rest = known[1] == chunk.revision and "screen" not in method.maps
+                solution = search(chunk.positions, chunk.position_count, last, at_rest)
+            if "previous" in method.maps:
                 # The chunk is kept with it, so that no other chunk can get its id.
-                self._before[id(chunk)] = (chunk, solution)
+                self._before[id(chunk)] = (chunk, chunk.revision, solution)
             parts.append(SolvedChunk(chunk, batches, solution))
         used = {id(chunk) for chunk, _ in scenery}
         self._grids = {key: grid for key, grid in self._grids.items() if key in used}

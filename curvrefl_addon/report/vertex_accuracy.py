@@ -133,7 +133,12 @@ class VertexTruth:
     def _solve(self, mirror: Mirror, settings: Settings) -> tuple[SolvedChunk, ...]:
         geometry = self._renderer.geometry
         parts = mirror.solve(
-            self._view, settings, geometry.scenery(mirror.index), geometry.of_instance(mirror.index), self._materials
+            self._view,
+            settings,
+            geometry.scenery(mirror.index),
+            geometry.of_instance(mirror.index),
+            self._materials,
+            follow=False,
         )
         for part in parts:
             part.solution.wait()
