@@ -50,14 +50,14 @@ class Method:
 METHODS: dict[str, Method] = {
     "auto": Method(
         "Automatic",
-        "in each view the cheapest of the others that stays under the error asked for",
+        "In each view the cheapest of the others that stays under the error asked for",
         "nothing",
         ("pixel_tolerance", (4.0, 2.0, 1.0, 0.5, 0.25)),
         chooses=True,
     ),
     "exact": Method(
         "Exact",
-        "each mirror pixel's reflected ray through bounding-volume hierarchies; Whitted 1980, Wald 2007",
+        "Each mirror pixel's reflected ray through bounding-volume hierarchies; Whitted 1980, Wald 2007",
         "nothing",
         ("samples", (1, 2, 4, 8)),
         follows_rays=True,
@@ -72,7 +72,7 @@ METHODS: dict[str, Method] = {
     ),
     "newton": Method(
         "Newton",
-        "safeguarded Newton on Fermat's principle, from the last frame's points",
+        "Safeguarded Newton on Fermat's principle, from the last frame's points",
         "every ray from the star center leaves the reflector once; one reflection per vertex",
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial", "previous"),

@@ -21,7 +21,7 @@ from .mirror import Mirror
 from .settings import Settings
 from .split import split_angle
 
-RAYS, VERTICES = "exact", "secant_star"
+RAYS, VERTICES = "exact", "newton"
 PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.45, 0.026
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
 PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7

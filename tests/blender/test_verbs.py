@@ -50,7 +50,7 @@ def test_no_gpu_object_outlives_a_verb(
     with monkeypatch.context() as change:
         change.setattr(cli, "clear_gpu_caches", lambda: None)
         done(arguments, capfd)
-    assert surfaces._primary_shader.cache_info().currsize == 1
+    assert surfaces._primary_shader.cache_info().currsize > 0
     done(arguments, capfd)
     assert surfaces._primary_shader.cache_info().currsize == 0
     assert load_exr(tmp_path / "a.exr").shape == (SIZE[1], SIZE[0], 4)
