@@ -3,7 +3,7 @@
 // Search over position and normal targets of the current view (Estalella et al. 2006, section 4), one invocation per
 // vertex: the texel of a 3 x 3 neighbourhood with the largest N . B becomes the next centre, until the centre wins.
 // A texel at the silhouette covers many normals.
-#define LARGEST_MISS 0.3
+#define LARGEST_MISS 0.5
 #include "bisector.glsl"
 
 #define MOST_STEPS 4096
