@@ -24,6 +24,8 @@ class Method:
     """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""
     grid_search: str = ""
     """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
+    takes_open: bool = False
+    """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -55,6 +57,7 @@ METHODS: dict[str, Method] = {
         ("steps", (3, 5, 7, 9, 15, 30)),
         maps=("radial",),
         steps=9,
+        takes_open=True,
     ),
     "bisector_grid": Method(
         "Bisector Field on Grids",
@@ -64,6 +67,7 @@ METHODS: dict[str, Method] = {
         maps=("radial",),
         steps=9,
         grid_search="bisector_cube",
+        takes_open=True,
     ),
     "bisector_screen": Method(
         "Bisector on Screen",
