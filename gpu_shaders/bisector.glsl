@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bisector condition of Estalella et al. (2005, section 4.2): at the reflection point the bisector of the directions
-// to the eye and to the vertex is the normal. Mirrors optics/bisector.py.
+// to the eye and to the vertex is the normal. Whoever includes this defines LARGEST_MISS: radians between bisector and
+// normal from which on the end of a search is no reflection point.
 #include "solver.glsl"
-
-// Radians between bisector and normal from which on the end of a search is no reflection point.
-#define LARGEST_MISS 0.5
 
 struct Bisector {
   vec3 point;

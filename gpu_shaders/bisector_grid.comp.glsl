@@ -5,12 +5,19 @@
 #include "status.glsl"
 #include "invocation.glsl"
 #include "records.glsl"
+#include "vectors.glsl"
 
 // Record i of cells: local (u, v, w) and the index of the cell's first corner in `corner_numbers`.
 void main()
 {
   int index = invocation();
   if (index >= count) {
+    return;
+  }
+  ivec2 texel = texel_of_record(index);
+  if (!is_finite(fetch_record(positions, index).xyz)) {
+    imageStore(reflection_points, texel, vec4(vec3(0.0), float(INVALID)));
+    imageStore(virtual_positions, texel, vec4(0.0));
     return;
   }
   vec4 cell = fetch_record(cells, index);
@@ -34,7 +41,6 @@ void main()
     seeming += weight * fetch_record(grid_virtual, corner);
   }
   int status = failed ? UNSOLVED : reflected > 0.5 ? REFLECTED : HIDDEN;
-  ivec2 texel = texel_of_record(index);
   imageStore(reflection_points, texel, vec4(point, float(status + 4 * iterations)));
   imageStore(virtual_positions, texel, seeming);
 }

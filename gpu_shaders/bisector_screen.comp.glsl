@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Search over position and normal targets of the current view (Estalella et al. 2006, section 4), one invocation per
 // vertex: the texel of a 3 x 3 neighbourhood with the largest N . B becomes the next centre, until the centre wins.
+// A texel at the silhouette covers many normals.
+#define LARGEST_MISS 0.5
 #include "bisector.glsl"
 
 #define MOST_STEPS 4096
@@ -88,13 +90,18 @@ bool find_reflector(inout ivec2 texel)
   return false;
 }
 
-ivec2 start_texel(int index)
+// Where the vertex was reflected in the last frame (2006, section 5.3), else the middle of the mirror; whether its search
+// was an inverse one.
+ivec2 start_texel(int index, out bool was_hidden)
 {
+  was_hidden = false;
   if (solver.counts.w > 0) {
     vec4 before = fetch_record(previous_points, index);
     vec4 point = solver.world_to_map * vec4(before.xyz, 1.0);
     vec4 texel = solver.map_to_search * point;
-    if (int(before.w + 0.5) % 4 != INVALID && texel.w > 0.0) {
+    int code = int(before.w + 0.5) % 4;
+    if (code != INVALID && texel.w > 0.0) {
+      was_hidden = code != REFLECTED;
       return ivec2(floor(texel.xy / texel.w));
     }
   }
@@ -114,7 +121,8 @@ void main()
   }
   vec4 eye = solver.eye;
   int iterations = 0;
-  ivec2 texel = start_texel(index);
+  bool was_hidden;
+  ivec2 texel = start_texel(index, was_hidden);
   if (!find_reflector(texel)) {
     texel = ivec2(floor(solver.start.xy));
     if (!find_reflector(texel)) {
@@ -122,10 +130,13 @@ void main()
       return;
     }
   }
+  ivec2 first_texel = texel;
   Bisector b;
   bool done = climb(eye, vertex, false, texel, b, iterations);
   bool inverse = !is_in_front(vertex, b);
   if (inverse) {
+    // An inverse search ended there: it stays where it is when nothing moves.
+    texel = was_hidden ? first_texel : texel;
     done = climb(eye, vertex, true, texel, b, iterations) && done;
   }
   if (done) {

@@ -30,6 +30,8 @@ class Method:
     """Whether it chooses one of the others in each view"""
     stragglers: str = ""
     """Shader of a second pass over what the first one has not settled"""
+    takes_open: bool = False
+    """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -94,6 +96,7 @@ METHODS: dict[str, Method] = {
         ("steps", (3, 5, 7, 9, 15, 30)),
         maps=("radial",),
         steps=9,
+        takes_open=True,
     ),
     "bisector_grid": Method(
         "Bisector Field on Grids",
@@ -103,6 +106,7 @@ METHODS: dict[str, Method] = {
         maps=("radial",),
         steps=9,
         grid_search="bisector_cube",
+        takes_open=True,
     ),
     "bisector_screen": Method(
         "Bisector on Screen",

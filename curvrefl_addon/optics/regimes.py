@@ -32,6 +32,10 @@ REGIMES = (
     "axis, corner, pole",
 )
 MOST_TRIES = 40
+MESH_VERTICES = 120
+"""Of a small mesh, see `mesh_cases`"""
+MESH_SIZE = 0.25
+"""Its radius, of the distance to its reflection point"""
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,23 @@ def make_cases(study: Study, regime: str, count: int, seed: int = 0) -> Cases:
         if found >= count:
             break
     return Cases(eye, np.concatenate(vertices)[:count], np.concatenate(points)[:count])
+
+
+def mesh_cases(cases: Cases, meshes: int) -> Cases:
+    """Small balls of MESH_VERTICES vertices each about up to `meshes` of a regime's vertices, one after the other.
+
+    For methods that work on whole meshes. No reflection point is known by construction.
+    """
+    index = (np.arange(MESH_VERTICES) + 0.5) / MESH_VERTICES
+    z, longitude = 1.0 - 2.0 * index, np.pi * (1.0 + np.sqrt(5.0)) * np.arange(MESH_VERTICES)
+    ring = np.sqrt(1.0 - z**2)
+    ball = np.column_stack([ring * np.cos(longitude), ring * np.sin(longitude), z])
+    centers, points = cases.vertices[:meshes], cases.points[:meshes]
+    # A hidden vertex has no reflection point.
+    away = np.where(np.isnan(points), 0.5 * centers, points)
+    radii = MESH_SIZE * np.linalg.norm(centers - away, axis=1)
+    vertices = (centers[:, None] + radii[:, None, None] * ball).reshape(-1, 3)
+    return Cases(cases.eye, vertices, np.full(vertices.shape, np.nan))
 
 
 def _rays(study: Study, eye: Float64Array, u: Float64Array) -> tuple[Float64Array, Float64Array, Float64Array]:

@@ -17,6 +17,8 @@ from ..scene.arrays import Float32Array, Float64Array, Int32Array
 
 SEARCH_STEPS = 12
 """Halvings of the interval of cell sizes; the number of corners is a step function of the size"""
+LARGEST_COORDINATE = 1e18
+"""As in `vectors.glsl`"""
 MOST_CELLS = 1 << 10
 """Along an axis"""
 CORNERS = np.array([[k & 1, (k >> 1) & 1, k >> 2] for k in range(8)])
@@ -40,10 +42,10 @@ class BoundingGrid:
 def bounding_grid(positions: Float32Array, share: float) -> BoundingGrid:
     """The grid of vertices (n, 3) whose number of corners comes nearest to `share` of n; at least one cell.
 
-    Vertices that are not finite lie in the first cell.
+    Vertices that are not finite, or too far away to compute with, lie in the first cell.
     """
     points = np.asarray(positions, np.float64)
-    finite = np.isfinite(points).all(axis=1)
+    finite = (np.abs(points) < LARGEST_COORDINATE).all(axis=1)
     points = np.where(finite[:, None], points, points[finite][0] if finite.any() else 0.0)
     low = points.min(axis=0)
     extent = points.max(axis=0) - low

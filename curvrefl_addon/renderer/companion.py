@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..optics.cube_map import texel_directions
+from ..optics.cube_map import CubeMapSurface, directions_at
+from ..optics.fermat import sample
 from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays
 from .chunk import Batches, Chunk, Placed
 from .reflector_map import ReflectorMap
@@ -17,22 +18,21 @@ from .reflector_map import ReflectorMap
 def closed_companion(
     baked: ReflectorMap, instance: InstanceArrays, world_to_map: Float64Array
 ) -> tuple[Chunk, Batches]:
-    """A mesh of the map's texels, where the mirror is; the seams between the faces are a texel wide and stay open."""
-    count = baked.resolution
-    u = texel_directions(count)
-    radius = baked.radial[..., :1]
-    normals = radius * u - baked.radial[..., 1:]
-    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
+    """A mesh of the map, where the mirror is; its faces meet at the cube's edges without a gap."""
+    count = baked.resolution + 1
+    edge = np.linspace(-1.0, 1.0, count)
+    face, t, s = np.meshgrid(np.arange(6), edge, edge, indexing="ij")
+    at = sample(CubeMapSurface(baked.radial), directions_at(face, s, t).reshape(-1, 3))
     low = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
     quads = np.stack([low, low + 1, low + 1 + count, low + count], axis=1)
     quads = (quads + np.arange(6)[:, None, None] * count * count).reshape(-1, 4)
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
-    positions = (radius * u).reshape(-1, 3).astype(np.float32)
+    positions = at.position.astype(np.float32)
     mesh = MeshArrays(
         name=baked.object_name,
         positions=positions,
         corner_vertex=np.arange(len(positions), dtype=np.int32),
-        corner_normals=normals.reshape(-1, 3).astype(np.float32),
+        corner_normals=at.normal.astype(np.float32),
         corner_uv=None,
         corner_color=None,
         triangles=triangles,

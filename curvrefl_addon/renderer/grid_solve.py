@@ -18,7 +18,7 @@ from .chunk import Chunk
 from .gpu_objects import dispatch, empty_record_texture, record_texture
 from .solve import GROUP, VertexSolution
 
-_SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual")
+_SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
 
 class ChunkGrid:
@@ -50,7 +50,13 @@ class ChunkGrid:
         shader = _interpolation_shader()
         shader.bind()
         shader.uniform_int("count", self._count)
-        textures = (self._cells, self._numbers, corners.reflection_points, corners.virtual_positions)
+        textures = (
+            self._cells,
+            self._numbers,
+            corners.reflection_points,
+            corners.virtual_positions,
+            chunk.positions,
+        )
         for name, texture in zip(_SAMPLERS, textures, strict=True):
             shader.uniform_sampler(name, texture)
         shader.image("reflection_points", solution.reflection_points)

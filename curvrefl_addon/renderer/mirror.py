@@ -24,7 +24,7 @@ from .materials import Materials
 from .mesh_facts import MeshFacts
 from .mesh_inside import holds_point
 from .mirror_plane import Plane, facing_plane, flat_parts
-from .reflector_bake import bake_instance, polar
+from .reflector_bake import Limits, bake_instance, polar
 from .reflector_map import ReflectorMap
 from .scene_geometry import CORNERS, Sight
 from .screen_maps import ScreenMaps, map_to_texels, widened
@@ -40,6 +40,8 @@ SLIVER = 1e-6
 """A triangle with this share of the largest one's area"""
 INSIDE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
+OPEN_LIMITS = Limits(holes=0.6)
+"""Of the maps of open mirrors, for methods that take them"""
 OPEN = 0.02
 """Share of directions without a surface from which on a mirror counts as open: it may show its inner side"""
 
@@ -52,7 +54,8 @@ class Mirror:
 
         `number` is 1, 2, ... in the order of the scene's instances.
 
-        A shape that no radial map can hold has none: methods that need one raise its `refusal`.
+        A shape that no radial map can hold has none: methods that need one raise its `refusal`. An open mirror has
+        both, for methods that take open ones and for those that do not.
         """
         start = perf_counter()
         instance = scene.instances[index]
@@ -60,15 +63,16 @@ class Mirror:
         self.refusal: InputError | None = None
         self.radial: Any = None
         self.is_baked = map_resolution > 0
+        self.world_to_map, self.bound = _bounding_frame(facts, instance)
         if self.is_baked:
             try:
                 self.map = bake_instance(scene, index, map_resolution)
-                self.radial = cube_texture(self.map.radial)
-                self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
             except InputError as error:
                 self.refusal = error
-        if self.map is None:
-            self.world_to_map, self.bound = _bounding_frame(facts, instance)
+                self.map = _open_map(scene, index, map_resolution, 2.0 * self.bound)
+        if self.map is not None:
+            self.radial = cube_texture(self.map.radial)
+            self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
         self.bake_ms = 1e3 * (perf_counter() - start)
         self._instance = instance
         self._mesh = facts.mesh
@@ -102,7 +106,8 @@ class Mirror:
 
     def require(self, method: str) -> None:
         """Raise InputError where a method cannot work on this shape."""
-        if "radial" in METHODS[method].maps and self.refusal is not None:
+        takes = METHODS[method].takes_open and self.map is not None
+        if "radial" in METHODS[method].maps and self.refusal is not None and not takes:
             raise self.refusal
         if "parametric" in METHODS[method].maps:
             self._parametric_map()
@@ -311,6 +316,16 @@ class Mirror:
         if self._parametric is None:
             self._parametric = bake_parametric(self._mesh, self._instance, self.world_to_map)
         return self._parametric
+
+
+def _open_map(scene: SceneArrays, index: int, map_resolution: int, largest: float) -> ReflectorMap | None:
+    """The map of an open mirror; None where there is none that reaches no farther than `largest` metres."""
+    try:
+        found = bake_instance(scene, index, map_resolution, limits=OPEN_LIMITS)
+    except InputError:
+        # The caller has the sentence that says why not.
+        return None
+    return found if found.r_max <= largest else None
 
 
 def _bounding_frame(facts: MeshFacts, instance: InstanceArrays) -> tuple[Float64Array, float]:

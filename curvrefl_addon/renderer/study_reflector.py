@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +20,9 @@ from ..scene.view import View
 from .chunk import Batches, Chunk, Placed
 from .frame import Settings
 from .gpu_objects import cube_texture, record_texture, require_gpu
+from .grid_solve import ChunkGrid
 from .materials import Materials
+from .mirror_plane import Plane, facing_plane, flat_parts
 from .parametric_map import bake_parametric
 from .screen_maps import ScreenMaps, map_to_texels, widened
 from .solve import Reflector, VertexSolution, solve_vertices
@@ -54,6 +57,26 @@ def study_mesh(study: Study, columns: int = COLUMNS, rows: int = ROWS) -> MeshAr
     )
 
 
+def _point_meshes(vertices: Float64Array, size: int) -> Chunk:
+    """Runs of `size` vertices as meshes without faces."""
+    placed = []
+    for number, first in enumerate(range(0, len(vertices), size)):
+        points = vertices[first : first + size].astype(np.float32)
+        mesh = MeshArrays(
+            name="points",
+            positions=points,
+            corner_vertex=np.arange(len(points), dtype=np.int32),
+            corner_normals=np.zeros((len(points), 3), np.float32),
+            corner_uv=None,
+            corner_color=None,
+            triangles=np.zeros((1, 3), np.int32),
+            triangle_slot=np.zeros(1, np.int32),
+        )
+        instance = InstanceArrays(f"points {number}", number, number, np.eye(4), (0,))
+        placed.append(Placed(instance, mesh, mesh, np.zeros(1, np.int8)))
+    return Chunk(placed)
+
+
 class StudyReflector:
     """GPU side of a study; freed with it."""
 
@@ -72,34 +95,41 @@ class StudyReflector:
         vertices: Float64Array,
         previous: VertexSolution | None = None,
     ) -> VertexSolution:
-        """Reflection points of vertices (n, 3) by a method that solves vertices one by one.
+        """Reflection points of vertices (n, 3), of one mesh for methods that work on meshes.
 
         Raises InputError where the method cannot work on this shape.
         """
-        records = np.zeros((len(vertices), 4), np.float32)
-        records[:, :3] = vertices
-        return self.solve_records(method, view, settings, record_texture(records), len(vertices), previous)
+        return self.solver(method, settings, vertices)(view, previous)
 
-    def solve_records(
-        self,
-        method: str,
-        view: View,
-        settings: Settings,
-        positions: Any,
-        count: int,
-        previous: VertexSolution | None = None,
-    ) -> VertexSolution:
-        """The same of records that are on the GPU already."""
-        return solve_vertices(
-            method,
-            view,
-            self._reflector(method, view, settings),
-            positions,
-            count,
-            steps=settings.steps,
-            tolerance=0.1 * settings.pixel_tolerance,
-            previous=previous,
-        )
+    def solver(
+        self, method: str, settings: Settings, vertices: Float64Array, mesh_size: int = 0
+    ) -> Callable[[View, VertexSolution | None], VertexSolution]:
+        """`solve` of vertices (n, 3) that are on the GPU already: takes the view and the last frame's solution.
+
+        Every `mesh_size` of the vertices are a mesh of their own; 0: all of them are one.
+        """
+        grid_search = METHODS[method].grid_search
+
+        def search(view: View, positions: Any, count: int, previous: VertexSolution | None) -> VertexSolution:
+            return solve_vertices(
+                grid_search or method,
+                view,
+                self._reflector(method, view, settings),
+                positions,
+                count,
+                steps=settings.steps,
+                tolerance=0.1 * settings.pixel_tolerance,
+                previous=previous,
+            )
+
+        if not grid_search:
+            records = np.zeros((len(vertices), 4), np.float32)
+            records[:, :3] = vertices
+            positions = record_texture(records)
+            return lambda view, previous: search(view, positions, len(vertices), previous)
+        chunk = _point_meshes(vertices, mesh_size or len(vertices))
+        grid = ChunkGrid(chunk, settings.grid_share)
+        return lambda view, _: grid.solve(chunk, lambda corners, count: search(view, corners, count, None))
 
     def _reflector(self, method: str, view: View, settings: Settings) -> Reflector:
         maps = METHODS[method].maps
@@ -109,12 +139,15 @@ class StudyReflector:
             textures |= {"radial": self._radial}
         if "parametric" in maps:
             textures |= self._parametric.samplers()
+        plane = (0.0, 0.0, 1.0, 0.0)
+        if "plane" in maps:
+            plane = facing_plane(self._planes, view.eye)
         if "screen" in maps:
             wide = widened(view, settings.frustum, settings.search_resolution)
             textures |= self._screen_maps.draw(self._surface, self._materials, wide)
             to_search, start = map_to_texels(wide, np.eye(4)), (0.5 * wide.width, 0.5 * wide.height)
         return Reflector(
-            np.eye(4), self.study.surface.bound, textures, self.study.side, map_to_search=to_search, start=start
+            np.eye(4), self.study.surface.bound, textures, self.study.side, plane, map_to_search=to_search, start=start
         )
 
     @cached_property
@@ -126,6 +159,10 @@ class StudyReflector:
     @cached_property
     def _mesh(self) -> MeshArrays:
         return study_mesh(self.study)
+
+    @cached_property
+    def _planes(self) -> list[Plane]:
+        return flat_parts(self._mesh, self._instance, np.eye(4))
 
     @cached_property
     def _parametric(self) -> Any:

@@ -22,11 +22,10 @@ from ..optics import status
 from ..optics.catalogue import METHODS, Method
 from ..optics.oracle import Oracle
 from ..optics.radial_surfaces import Float64Array, unit
-from ..optics.regimes import REGIMES, Cases, make_cases
+from ..optics.regimes import MESH_VERTICES, REGIMES, Cases, make_cases, mesh_cases
 from ..optics.screen import Screen
 from ..optics.study_surfaces import STUDIES
 from ..renderer.frame import Settings
-from ..renderer.gpu_objects import record_texture
 from ..renderer.study_reflector import StudyReflector
 from ..scene.view import View
 
@@ -112,7 +111,7 @@ def solver_table(
 ) -> tuple[list[Row], list[Refusal]]:
     """Rows for `count` vertices a regime; with `only_defaults` one setting per method, the default.
 
-    A method that works on whole meshes (`bisector_grid`) or flat mirrors alone (`planar`) has no rows here.
+    A method that works on whole meshes gets small ones about some of the vertices.
     """
     rows: list[Row] = []
     refusals: list[Refusal] = []
@@ -128,23 +127,27 @@ def solver_table(
             if len(cases.vertices) == 0:
                 continue
             truth = _Truth(oracle, cases)
+            mesh_truth: _Truth | None = None
             for method_name in methods:
                 method = METHODS[method_name]
-                is_other = not (method.maps or method.is_environment) or method.grid_search or "plane" in method.maps
-                if is_other or method_name in refused:
+                if method_name in refused or not (method.maps or method.is_environment):
                     continue
+                judge = truth
+                if method.grid_search:
+                    mesh_truth = mesh_truth or _Truth(oracle, mesh_cases(cases, max(count // MESH_VERTICES, 1)))
+                    judge = mesh_truth
                 for settings, value in _settings(method_name, only_defaults):
                     try:
-                        found = _solve(reflector, method_name, settings, cases, oracle)
+                        found = _solve(reflector, method_name, settings, judge.cases, oracle)
                         key = (method_name, value)
                         if timed and method.solves_vertices and key not in times:
-                            times[key] = _time(reflector, method_name, settings, cases)
+                            times[key] = _time(reflector, method_name, settings, judge.cases)
                     except InputError as error:
                         refusals.append(Refusal(name, method_name, str(error)))
                         refused.add(method_name)
                         break
                     rows.append(
-                        truth.row(
+                        judge.row(
                             name, regime, method_name, method.sweep[0], value, found, times.get(key, float("nan"))
                         )
                     )
@@ -220,7 +223,7 @@ class _Truth:
 
 def _solve(reflector: StudyReflector, method: str, settings: Settings, cases: Cases, oracle: Oracle) -> _Found:
     if METHODS[method].solves_vertices:
-        solution = reflector.solve(method, study_view(cases.eye), settings, cases.vertices)
+        solution = reflector.solver(method, settings, cases.vertices, MESH_VERTICES)(study_view(cases.eye), None)
         points, code, iterations, _ = solution.read()
         return _Found(points.astype(np.float64), code, iterations)
     distance = np.linalg.norm(cases.vertices, axis=1)
@@ -235,18 +238,17 @@ def _solve(reflector: StudyReflector, method: str, settings: Settings, cases: Ca
 
 def _time(reflector: StudyReflector, method: str, settings: Settings, cases: Cases) -> float:
     """Milliseconds per million vertices, the regime's own over and over; median of repeats after a first run."""
-    vertices = np.resize(cases.vertices, (TIMED_VERTICES, 3))
-    records = np.zeros((TIMED_VERTICES, 4), np.float32)
-    records[:, :3] = vertices
-    positions = record_texture(records)
+    count = TIMED_VERTICES // MESH_VERTICES * MESH_VERTICES
+    vertices = np.resize(cases.vertices, (count, 3))
     view = study_view(cases.eye)
-    reflector.solve_records(method, view, settings, positions, TIMED_VERTICES).wait()
+    solve = reflector.solver(method, settings, vertices, MESH_VERTICES)
+    solve(view, None).wait()
     times = []
     for _ in range(TIMED_REPEATS):
         start = perf_counter()
-        reflector.solve_records(method, view, settings, positions, TIMED_VERTICES).wait()
+        solve(view, None).wait()
         times.append(perf_counter() - start)
-    return 1e9 * statistics.median(times) / TIMED_VERTICES
+    return 1e9 * statistics.median(times) / count
 
 
 def write_csv(rows: Iterable[Row], path: Path) -> None:

@@ -64,8 +64,8 @@ def trials() -> list[Trial]:
         _trial(
             "hollow mirror",
             "Objects before and past the focus of a bowl: past it images are upside down and a vertex has up to three; "
-            "each vertex method shows one of them, and methods for convex mirrors lose their way; an exact reflection "
-            "needs every pixel's own ray.",
+            "methods that solve vertices show one of them or tear where neighbours found different ones, and Secant "
+            "Search refuses an open mirror; use Bisector Field for things clear of the focus.",
             "bowl",
             (0.4, -0.9, 3.4),
             [_box((-0.25, 0.1, -0.45), 0.12), _box((0.35, 0.25, 0.9), 0.2), _box((-0.5, -0.4, 1.6), 0.25)],

@@ -21,7 +21,7 @@ from ..optics.screen import Screen
 from ..renderer.frame import Renderer, Settings
 from ..renderer.gpu_objects import read_records
 from ..renderer.materials import Materials
-from ..renderer.mirror import Mirror
+from ..renderer.mirror import OPEN_LIMITS, Mirror
 from ..renderer.reflector_bake import bake_instance
 from ..renderer.reflector_map import ReflectorMap
 from ..renderer.solve import SolvedChunk
@@ -145,7 +145,7 @@ class VertexTruth:
         return parts
 
     def _judge(self, mirror: Mirror) -> _Judge:
-        fine = bake_instance(self._arrays, mirror.index, FINER * Settings().map_resolution)
+        fine = bake_instance(self._arrays, mirror.index, FINER * Settings().map_resolution, limits=OPEN_LIMITS)
         scenery = self._renderer.geometry.scenery(mirror.index)
         positions = np.concatenate([read_records(chunk.positions, chunk.position_count)[:, :3] for chunk, _ in scenery])
         count = len(positions)

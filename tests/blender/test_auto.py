@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.newton import minimise
+from curvrefl.curvrefl_addon.optics.descent import minimise
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.renderer import choice as choices

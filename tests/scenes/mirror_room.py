@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.scene.arrays import (
     InstanceArrays,
     MaterialArrays,
@@ -64,10 +64,14 @@ class Room:
         """The reflector, about the origin; first of all things."""
         self._add(radial_mesh(surface, segments), np.eye(4), 1)
 
+    def add_half_ball(self, segments: int = 128) -> None:
+        """The reflector: the lower half of the unit ball, open above; first of all things."""
+        whole = radial_mesh(Ellipsoid(), segments)
+        low = whole.positions[whole.triangles][..., 2].max(axis=1) < 1e-6
+        self._add(replace(whole, triangles=whole.triangles[low], triangle_slot=whole.triangle_slot[low]), np.eye(4), 1)
+
     def add_ball(self, center: tuple[float, float, float], radius: float, **flags: bool) -> int:
         """A ball; returns its object_id."""
-        from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid
-
         matrix = np.diag([radius, radius, radius, 1.0])
         matrix[:3, 3] = center
         number = self._add(radial_mesh(Ellipsoid(), 64), matrix, 0, **flags)
