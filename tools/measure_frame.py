@@ -8,8 +8,10 @@
 *Frame* is a whole picture as `Renderer.render` makes it: forward pass, mirrors, shading. The passes are those of
 another render, in which each waits for the GPU (one pixel is read), so that they do not overlap: their sum is more than
 the frame. All numbers are medians, milliseconds. *First* times are of a renderer's first picture, with shaders
-compiled. Cycles' time is that of its whole render call, as for the peers of `compare`. `--dump` saves the pictures, to
-compare what two versions draw (`--against DIR` prints the difference to an earlier dump).
+compiled. Cycles' time is that of its whole render call, as for the peers of `compare`. *Processor* is the time of all
+threads of one frame, the least of the repeats: of a software renderer that is its work, whatever else the machine is
+doing. `--dump` saves the pictures, to compare what two versions draw (`--against DIR` prints the difference to an
+earlier dump).
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 from unittest.mock import patch
 
@@ -168,12 +170,17 @@ def measure(path: Path, reflector: str, arguments: argparse.Namespace) -> None:
         watch = Stopwatch()
         with taken_apart(watch):
             first = renderer.render(view).times_ms["frame"]
-        frames = [renderer.render(view).times_ms["frame"] for _ in range(arguments.repeats)]
+        frames, processor = [], []
+        for _ in range(arguments.repeats):
+            before = process_time()
+            frames.append(renderer.render(view).times_ms["frame"])
+            processor.append(1e3 * (process_time() - before))
         passes = passes_of(renderer, view, arguments.repeats)
         frame = median(frames)
         print(
             f"  {samples} sub-frames: frame {frame:.1f} ({np.percentile(frames, 25):.1f} to "
-            f"{np.percentile(frames, 75):.1f}), {cycles.timing.median / frame:.1f} times faster than Cycles 1 sample"
+            f"{np.percentile(frames, 75):.1f}), processor {min(processor):.0f}, "
+            f"{cycles.timing.median / frame:.1f} times faster than Cycles 1 sample"
         )
         print("    " + ", ".join(f"{name} {time:.1f}" for name, time in passes.items()))
         bake = sum(mirror.bake_ms for mirror in renderer.mirrors)

@@ -155,11 +155,12 @@ class NoFrameBuffer:
 @contextmanager
 def without_gpu_work() -> Iterator[None]:
     """Chunks made here are not drawn, nothing is dispatched."""
-    from curvrefl.curvrefl_addon.renderer import chunk, shade
+    from curvrefl.curvrefl_addon.renderer import chunk, pixel_classes, shade
 
     with (
         patch.object(chunk, "indexed_batch", lambda _: NoBatch()),
         patch.object(shade, "full_screen_triangle", NoBatch),
+        patch.object(pixel_classes, "full_screen_triangle", NoBatch),
         patch.object(gpu.compute, "dispatch", lambda *_: None),
     ):
         yield
