@@ -38,6 +38,9 @@ class Method:
         return not self.maps and not self.follows_rays
 
 
+DEFAULT_COMPARED = ("secant_star", "environment_cube")
+"""Put beside Cycles where no method is named"""
+
 METHODS: dict[str, Method] = {
     "exact": Method(
         "Exact",
