@@ -19,6 +19,7 @@ from typing import NoReturn
 from . import verbs
 from .errors import InputError
 from .gpu_caches import clear_gpu_caches
+from .optics.catalogue import DEFAULT_COMPARED
 from .verbs import say
 
 DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -102,9 +103,7 @@ def _parser() -> argparse.ArgumentParser:
 
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
     _add_scene_options(compare)
-    compare.add_argument(
-        "--method", default="auto,exact,secant_star,environment_cube", metavar="M[,M..]", help="or all (%(default)s)"
-    )
+    compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
     compare.add_argument(
         "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
     )

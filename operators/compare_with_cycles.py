@@ -12,7 +12,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.optics.catalogue import METHODS
+from ..curvrefl_addon.optics.catalogue import DEFAULT_COMPARED, METHODS
 from ..curvrefl_addon.options import marked_mirrors
 from .paths import output_path
 
@@ -43,7 +43,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         description="What to compare",
         items=[(name, method.label, method.source) for name, method in METHODS.items()],
         options={"ENUM_FLAG"},
-        default=set(METHODS),
+        default=set(DEFAULT_COMPARED),
     )
     peers: EnumProperty(  # type: ignore[valid-type]
         name="Peers",
@@ -128,7 +128,8 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
-        if event.type == "ESC":
+        if event.type == "ESC" and event.value == "PRESS":
+            # (the release may belong to a press before the start)
             return self._stop(context, "Comparison canceled")
         if event.type != "TIMER":
             # The scene must not change under a comparison.

@@ -49,6 +49,9 @@ class Method:
         return not self.follows_rays and not self.chooses
 
 
+DEFAULT_COMPARED = ("auto", "exact", "secant_star", "environment_cube")
+"""Put beside Cycles where no method is named"""
+
 METHODS: dict[str, Method] = {
     "auto": Method(
         "Automatic",

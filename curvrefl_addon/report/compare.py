@@ -21,7 +21,7 @@ import bpy
 import gpu
 
 from ..errors import InputError
-from ..optics.catalogue import METHODS
+from ..optics.catalogue import DEFAULT_COMPARED, METHODS
 from ..output import checked_folder, folder_to_publish
 from ..renderer.frame import Renderer
 from ..renderer.settings import Settings, check_settings
@@ -37,7 +37,6 @@ from .images import save_png
 from .measured_frame import RendererLike, frame_geometry_error, image_error, measure_frame
 from .metrics import error_map, mask_mismatch, missing_flip
 
-DEFAULT_METHODS = ("auto", "exact", "secant_star", "environment_cube")
 DEFAULT_PEERS = ("eevee", "cycles1", "cycles8")
 LARGEST_SIDE = 8192
 MOST_SAMPLES = 65536
@@ -53,7 +52,7 @@ type MakeRenderer = Callable[[SceneArrays, str], RendererLike]
 class Comparison:
     """What to compare, checked: raises InputError for values out of range and unknown names."""
 
-    methods: tuple[str, ...] = DEFAULT_METHODS
+    methods: tuple[str, ...] = DEFAULT_COMPARED
     width: int = 640
     height: int = 480
     samples: int = 256
@@ -170,8 +169,9 @@ def compare_steps(
     """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
 
     Yields before each step; closed between two of them it leaves no report, and the scene as it was, as it also does
-    at its end. A number that has no pixels to come from is None, and so is the PSNR of equal pictures. `warnings` is in
-    the report only where there are any. Image errors are over Cycles' mask of the mirrors.
+    at its end. A number that has no pixels to come from is None, and so is the PSNR of equal pictures. A method that
+    cannot show these reflectors is left out, with a warning, while another one can. `warnings` is in the report only
+    where there are any. Image errors are over Cycles' mask of the mirrors.
 
     Raises InputError for what the user can change: see `Comparison`, the scene's own conditions (camera,
     reflectors), an output folder that cannot be written; RenderCanceledError where the user stops a render.
@@ -234,10 +234,16 @@ def _run(
     """
     width, height = comparison.width, comparison.height
     frames = {}
+    refused: dict[str, str] = {}
     for method in comparison.methods:
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
-        frames[method] = measure_frame(make_renderer(arrays, method), view)
+        try:
+            frames[method] = measure_frame(make_renderer(arrays, method), view)
+        except InputError as error:
+            refused[method] = str(error)
+    if not frames:
+        raise InputError(next(iter(refused.values())))
 
     yield "Tracing the mirrors' geometry in Cycles"
     object_ids = {instance.object_name: instance.object_id for instance in arrays.instances}
@@ -248,7 +254,8 @@ def _run(
     save_png(folder / "reference.png", _opaque(reference.pixels))
 
     methods, mismatch = {}, {}
-    warnings = list(dict.fromkeys(warning for frame in frames.values() for warning in frame.warnings))
+    warnings = [f"Without {method}: {reason}" for method, reason in refused.items()]
+    warnings += dict.fromkeys(warning for frame in frames.values() for warning in frame.warnings)
     if not mask.any():
         warnings.append("No reflector is in view: there are no mirror pixels to compare.")
     if missing := missing_flip():

@@ -303,6 +303,31 @@ def test_bad_input_is_named_and_writes_nothing(
     assert [path.name for path in tmp_path.iterdir()] == ["ball & floor.blend"]
 
 
+class PickyRenderer(CyclesRenderer):
+    """Refuses the reflector for some methods."""
+
+    refused = ("secant_uv", "planar")
+
+    def __init__(self, scene: SceneArrays, method: str) -> None:
+        if method in self.refused:
+            raise InputError(f"Not by {method}.")
+        super().__init__(scene, method)
+
+
+def test_method_that_cannot_show_the_reflector_is_left_out_and_said(blend: Path, tmp_path: Path) -> None:
+    methods = ["secant_uv", "secant_star", "planar"]
+    report = run(blend, tmp_path / "out", PickyRenderer, methods=methods, peers=[])
+    assert list(report["methods"]) == ["secant_star"]
+    assert report["warnings"][:2] == ["Without secant_uv: Not by secant_uv.", "Without planar: Not by planar."]
+    assert not (tmp_path / "out" / "planar.png").exists()
+
+
+def test_reflector_that_no_method_can_show_is_an_error(blend: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"Not by secant_uv\."):
+        run(blend, tmp_path / "out", PickyRenderer, methods=["secant_uv", "planar"])
+    assert not (tmp_path / "out").exists()
+
+
 def test_output_that_cannot_be_a_folder(blend: Path, tmp_path: Path) -> None:
     for output in (blend, blend / "inside"):
         with pytest.raises(InputError, match="folder"):

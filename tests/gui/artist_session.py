@@ -94,6 +94,10 @@ def zebra() -> None:
     bpy.context.scene.curvrefl.show = "ZEBRA"
 
 
+def use(method: str) -> None:
+    bpy.context.scene.curvrefl.method = method
+
+
 def script() -> Script:
     install(ARCHIVE)
     bpy.ops.wm.open_mainfile(filepath=BLEND, load_ui=False)
@@ -106,6 +110,7 @@ def script() -> Script:
     space.region_3d.view_perspective = "CAMERA"
     yield 2.0
     bpy.data.objects["Kettle"].curvrefl.is_mirror = True
+    use("secant_star")
     start = time.perf_counter()
     bpy.context.window_manager.curvrefl_enabled = True
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
@@ -121,6 +126,13 @@ def script() -> Script:
         "region": [region.x, region.y, region.width, region.height],
     }
     screenshot(Path(FOLDER) / "enabled.png")
+    yield from step("chose automatically", lambda: use("auto"))
+    seen["reason"] = viewport().reason()
+    yield from step("followed rays", lambda: use("exact"))
+    screenshot(Path(FOLDER) / "exact.png")
+    yield from step("moved an object under rays", move)
+    yield from step("edited a mesh under rays", lambda: edit("Ball"))
+    yield from step("solved vertices again", lambda: use("secant_star"))
     yield from step("moved the view", closer)
     yield from step("moved the view again", farther)
     yield from step("moved the camera", move_camera)

@@ -344,7 +344,13 @@ def playback() -> Steps:
     animate()
     with in_view():
         bpy.ops.screen.animation_play()
-    yield 1.5
+    frames: set[int] = set()
+
+    def has_played() -> bool:
+        frames.add(bpy.context.scene.frame_current)
+        return len(frames) > 3
+
+    yield has_played
     with in_view():
         bpy.ops.screen.animation_cancel()
     yield CAUSED

@@ -118,12 +118,14 @@ def panels() -> Script:
 
 def diagnostics(space: bpy.types.SpaceView3D) -> Script:
     space.show_region_ui = False
+    settings = bpy.context.scene.curvrefl
+    samples, settings.samples = settings.samples, 4
     for name in ("ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD", "ZEBRA", "LINES"):
-        bpy.context.scene.curvrefl.show = name
+        settings.show = name
         yield 1.0
         yield rests
         keep(f"show_{name.lower()}")
-    bpy.context.scene.curvrefl.show = "REFLECTION"
+    settings.samples, settings.show = samples, "REFLECTION"
     yield 1.0
     yield rests
 
@@ -174,9 +176,11 @@ def comparison() -> Script:
     before = settings()
     output = Path(FOLDER) / "comparison"
     options = {"width": 96, "height": 72, "samples": 4, "peers": {"cycles1"}, "output": str(output)}
+    # (the kettle has no UV map: a method that needs one is left out)
+    options["methods"] = {"secant_star", "secant_uv", "environment_cube"}
     with in_view():
         bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options)
-    yield 1.5
+    yield 0.5
     seen["comparison is modal"] = is_modal("CURVREFL_OT_compare_with_cycles")
     keep("compare_running")
     event("ESC")
@@ -193,7 +197,6 @@ def comparison() -> Script:
     editor = next((area for area in window().screen.areas if area.type == "IMAGE_EDITOR"), None)
     with in_view():
         bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options)
-    yield 1.0
     yield lambda: not is_modal("CURVREFL_OT_compare_with_cycles")
     yield 0.5
     keep("compare_done")

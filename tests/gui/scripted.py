@@ -23,8 +23,8 @@ type Wait = float | Callable[[], bool]
 type Script = Generator[Wait]
 
 TICK = 0.05
-PATIENCE = 90.0
-"""Seconds until a condition that does not come true is given up"""
+PATIENCE = 900.0
+"""Seconds until a condition that does not come true is given up: only a session that hangs waits so long"""
 EXTENSION = "bl_ext.user_default.curvrefl"
 
 

@@ -46,10 +46,12 @@ def test_escape_cancels_the_comparison_and_leaves_nothing(session: Session) -> N
 
 def test_modal_comparison_is_that_of_a_script(session: Session) -> None:
     modal, script = session.seen["report of the modal run"], session.seen["report of the script"]
-    assert modal["methods"].keys() == script["methods"].keys()
+    assert list(modal["methods"]) == list(script["methods"]) == ["secant_star", "environment_cube"]
+    assert any("secant_uv" in warning and "UV map" in warning for warning in modal["warnings"])
     for name, method in modal["methods"].items():
         other = script["methods"][name]
         assert method["image"] == other["image"]
         assert method["solve"] == other["solve"]
         assert method["geometry"] == other["geometry"]
     assert session.seen["settings after all"]
+    assert session.seen["image editor shows"] == "Curvrefl secant_star"

@@ -52,6 +52,13 @@ def test_only_what_changed_is_done_again(session: Session) -> None:
 
     assert steps["enabled"]["maps baked"] == steps["enabled"]["renderers made"] == steps["enabled"]["walks"] == 1
     assert steps["enabled"]["sub-frames"] >= 8
+    changed = spent("followed rays")
+    assert changed.get("hierarchies built", 0) + steps["chose automatically"].get("hierarchies built", 0) > 1
+    assert "meshes read" not in changed and "maps baked" not in changed
+    changed = spent("moved an object under rays")
+    assert changed == {"objects read": 1, "instances placed": 1}
+    changed = spent("edited a mesh under rays")
+    assert changed["hierarchies fitted"] == changed["meshes read"] == 1 and "hierarchies built" not in changed
     assert spent("moved the view") == {}
     assert spent("moved the view again") == {}
     assert spent("moved the camera") == {}
@@ -75,9 +82,10 @@ def test_disabling_leaves_no_handler(session: Session) -> None:
 
 
 @pytest.mark.usefixtures("gpu")
-def test_window_shows_what_the_headless_renderer_draws(session: Session) -> None:
+@pytest.mark.parametrize("picture, method", [("enabled", "secant_star"), ("exact", "exact")])
+def test_window_shows_what_the_headless_renderer_draws(session: Session, picture: str, method: str) -> None:
     """On the mirror, in the demo's Standard view transform."""
-    if not (session.folder / "enabled.png").is_file():
+    if not (session.folder / f"{picture}.png").is_file():
         pytest.skip("no ImageMagick to take a picture of the window")
     import bpy
     from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
@@ -87,7 +95,7 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session) -> None
     from curvrefl.curvrefl_addon.scene.view import View
 
     x, y, width, height = session.seen["view"]["region"]
-    image = bpy.data.images.load(str(session.folder / "enabled.png"))
+    image = bpy.data.images.load(str(session.folder / f"{picture}.png"))
     pixels = np.array(image.pixels, np.float32).reshape(image.size[1], image.size[0], 4)
     window = pixels[y : y + height, x : x + width, :3]
 
@@ -96,7 +104,7 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session) -> None
     arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, find_reflectors(scene, ["Kettle"]), False)
     matrices = session.seen["view"]
     view = View(np.array(matrices["view_matrix"]), np.array(matrices["window_matrix"]), width, height)
-    frame = Renderer(arrays, Settings(samples=8)).render(view)
+    frame = Renderer(arrays, Settings(method=method, samples=8)).render(view)
     expected = display_transform(frame.color()[..., :3])
     inner = frame.mask() > 0
     for _ in range(3):
