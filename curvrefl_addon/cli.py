@@ -94,6 +94,9 @@ def _parser() -> argparse.ArgumentParser:
         "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
     )
     render.add_argument(
+        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
+    )
+    render.add_argument(
         "--passes",
         default="color",
         metavar="P[,P..]",
@@ -106,6 +109,9 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
     compare.add_argument(
         "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
+    )
+    compare.add_argument(
+        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
     )
     compare.add_argument(
         "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"

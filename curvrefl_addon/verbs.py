@@ -59,7 +59,9 @@ def render(options: argparse.Namespace) -> int:
     from .renderer.frame import Renderer, Settings
     from .report.images import save_exr, save_png
 
-    renderer = Renderer(arrays, Settings(method=options.method, samples=options.samples))
+    renderer = Renderer(
+        arrays, Settings(method=options.method, samples=options.samples, shadow_rays=options.shadow_rays)
+    )
     try:
         frame = renderer.render(view)
         _warn(frame.warnings)
@@ -102,6 +104,7 @@ def compare(options: argparse.Namespace) -> int:
         light=options.light,
         peers=tuple(peers),
         sub_frames=options.sub_frames,
+        shadow_rays=options.shadow_rays,
     )
     scene = _open_scene(options.file, options.frame)
     width, height = _resolution(options, scene)

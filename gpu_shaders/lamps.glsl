@@ -66,6 +66,23 @@ float lamp_shadow(int base, vec3 position)
   return lit;
 }
 
+#ifdef RAY_SHADOWS
+// Out of a surface by this share of the place's coordinates, which rounding may have moved it.
+#define SHADOW_OFFSET 2e-6
+#define SHADOW_END 0.9999
+
+// 1 where nothing is on the way to this sub-frame's sample of the lamp.
+float lamp_shadow_by_ray(int base, Surface s, vec3 to_light, float range)
+{
+  if (int(lighting_data[base + 6].w) == 0) {
+    return 1.0;  // casts no shadow, or nothing could be in it
+  }
+  vec3 size = abs(s.position);
+  vec3 start = s.position + s.normal * (SHADOW_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
+  return walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true).instance < 0 ? 1.0 : 0.0;
+}
+#endif
+
 // Radiance towards the viewer from all lamps.
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
@@ -80,6 +97,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     vec3 to_light = place.xyz;
     vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
     float width = lighting_data[base + 1].w;
+    float range = 1e30;
 #ifdef LIGHTING_NEAR_LAMPS
     if (kind != LAMP_SUN) {
       to_light = place.xyz - s.position;
@@ -92,6 +110,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
         facing = sqrt(away2 / max(dot(to_light, to_light), 1e-12));
       }
       float distance2 = max(dot(to_light, to_light), 1e-12);
+      range = sqrt(distance2);
       to_light *= inversesqrt(distance2);
       width *= inversesqrt(distance2);
       if (kind == LAMP_AREA) {
@@ -107,7 +126,11 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
     float cos_light = dot(s.normal, to_light);
     if (cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
+#ifdef RAY_SHADOWS
+      irradiance *= lamp_shadow_by_ray(base, s, to_light, range);
+#else
       irradiance *= lamp_shadow(base, s.position);
+#endif
       vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
       // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
       float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);

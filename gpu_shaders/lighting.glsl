@@ -25,6 +25,11 @@ struct Surface {
   bool glossy_only;
 };
 
+// (Includes are put in place before defines are known: what others include too must not be behind one.)
+#include "records.glsl"
+#ifdef RAY_SHADOWS
+#include "ray_walk.glsl"
+#endif
 #include "ggx.glsl"
 #include "shadow.glsl"
 #include "world_light.glsl"

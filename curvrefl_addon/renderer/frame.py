@@ -359,7 +359,8 @@ class Renderer:
             bounces = self._bounces(targets, view, uniforms, self._most_bounces())
             first = next(bounces)
             later = bounces if first.goes_on else None
-            self._shade.add(canvas, targets.seen, first.path, uniforms, weight, window, later)
+            shadows = self.rays() if self._used.shadow_rays else None
+            self._shade.add(canvas, targets.seen, first.path, uniforms, weight, window, later, shadows)
             return
         shown = self._shown(targets, reflection, uniforms, of_positions=False)
         self._shade.add(canvas, targets.seen, shown, uniforms, weight, window)

@@ -32,6 +32,9 @@ class Settings:
     """Width of the view that is searched, in widths of the picture (`bisector_screen`)"""
     search_resolution: float = 1.0
     """Texels per pixel of the view that is searched (`bisector_screen`)"""
+    shadow_rays: bool = False
+    """What rays hit is shadowed by rays, not by depth maps (`exact`): sharp to the last pixel, for about the time of
+    another walk for each lamp"""
     bounces: int = 4
     """Mirrors on the way of a ray (`exact`); what the last one shows of a mirror is its own light alone"""
 

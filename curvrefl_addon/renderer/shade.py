@@ -15,15 +15,19 @@ from ..scene.arrays import SceneArrays
 from .environment import Environment, declare
 from .exact import Bounce, declare_path
 from .gpu_objects import drawing_state, full_screen_triangle, scissored
-from .lighting import Features, Lighting
+from .lighting import SAMPLER_COUNT, Features, Lighting
 from .materials import Materials
 from .pixel_classes import PixelClass, PixelClasses, declare_class
+from .ray_scene import RayScene
 from .surfaces import SurfaceBuffer, Window
 from .view_block import TYPEDEF
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "path_direction", "path_throughput")
+RAY_SHADOWS = "RAY_SHADOWS"
+"""Beside the features of lighting: lamps' shadows by rays"""
+_SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
 
@@ -60,12 +64,14 @@ class ShadePass:
         weight: float,
         mirrors: Window | None = None,
         later: Iterator[Bounce] | None = None,
+        shadows: RayScene | None = None,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
 
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
-        touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it.
+        touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after
+        it. With `shadows`, these rays shadow what mirrors show.
         """
         mirrors_only = mirrors is not None
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -74,11 +80,11 @@ class ShadePass:
         classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
         with drawing_state("EQUAL"), classes.frame_buffer.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            self._add_light(classes, seen, reflected, view_uniforms, weight, mirrors_only)
+            self._add_light(classes, seen, reflected, view_uniforms, weight, mirrors_only, shadows)
             gpu.state.blend_set("ADDITIVE_PREMULT")
             self._add_front(classes, seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
-            self._add_path(classes, bounce, view_uniforms, weight)
+            self._add_path(classes, bounce, view_uniforms, weight, shadows)
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             shader = _add_shader()
@@ -94,6 +100,7 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         mirrors_only: bool,
+        shadows: RayScene | None,
     ) -> None:
         """Background and surfaces, seen directly or in mirrors."""
         kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
@@ -103,8 +110,10 @@ class ShadePass:
             self._draw(_shade_shader(kind, self._lighting.features), kind, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                shader = _shade_shader(kind, self._lighting.features)
+                shader = _shade_shader(kind, self._features(shadows))
                 shader.bind()
+                if shadows is not None and RAY_SHADOWS in self._features(shadows):
+                    shadows.bind(shader)
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
@@ -136,13 +145,24 @@ class ShadePass:
         for kind in kinds:
             self._draw(_front_shader(False, self._lighting.features), kind, seen, view_uniforms, weight)
 
-    def _add_path(self, classes: PixelClasses, bounce: Bounce, view_uniforms: Any, weight: float) -> None:
+    def _features(self, shadows: RayScene | None) -> Features:
+        """Of the lighting, for what mirrors show."""
+        features = self._lighting.features
+        # Without anything in shadow there is no ray to follow.
+        return features | {RAY_SHADOWS} if shadows is not None and features & _SHADOWS else features
+
+    def _add_path(
+        self, classes: PixelClasses, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayScene | None
+    ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
-        shader = _path_shader(bounce.goes_on, self._lighting.features)
+        features = self._features(shadows)
+        shader = _path_shader(bounce.goes_on, features)
         path = bounce.path
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), path.lit(classes.light).bind(), scissored(bounce.window):
             gpu.state.viewport_set(0, 0, path.width, path.height)
             shader.bind()
+            if shadows is not None and RAY_SHADOWS in features:
+                shadows.bind(shader)
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("weight", weight)
             shader.uniform_sampler("materials", self._materials.table)
@@ -189,6 +209,13 @@ def _info() -> Any:
     return info
 
 
+def _declare_lighting(info: Any, slot: int, features: Features) -> None:
+    """With the rays that shadow, where these are among the features."""
+    Lighting.declare(info, slot, features)
+    if RAY_SHADOWS in features:
+        RayScene.declare(info, slot + SAMPLER_COUNT)
+
+
 @cache
 def _shade_shader(kind: PixelClass, features: Features) -> Any:
     """For a class of pixels, without environments."""
@@ -199,7 +226,7 @@ def _shade_shader(kind: PixelClass, features: Features) -> Any:
         for slot, name in enumerate(_REFLECTED, used):
             info.sampler(slot, "FLOAT_2D", name)
         used += len(_REFLECTED)
-    Lighting.declare(info, used, features)
+    _declare_lighting(info, used, features)
     info.fragment_source(load("shade.frag.glsl"))
     return gpu.shader.create_from_info(info)
 
@@ -228,7 +255,7 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     names = ("materials", *_PATH, *_REFLECTED)
     for slot, name in enumerate(names):
         info.sampler(slot, "FLOAT_2D", name)
-    Lighting.declare(info, len(names), features)
+    _declare_lighting(info, len(names), features)
     info.fragment_source(load("shade_path.frag.glsl"))
     return gpu.shader.create_from_info(info)
 

@@ -59,7 +59,8 @@ class Comparison:
     light: str = "direct"
     peers: tuple[str, ...] = DEFAULT_PEERS
     sub_frames: int = Settings().samples
-    """Of our pictures"""
+    """Of our pictures, as the next"""
+    shadow_rays: bool = False
 
     def __post_init__(self) -> None:
         if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
@@ -84,7 +85,7 @@ def new_renderer(comparison: Comparison) -> MakeRenderer:
 
     In direct light Cycles follows one bounce off a mirror, and so do they.
     """
-    settings = Settings(samples=comparison.sub_frames)
+    settings = Settings(samples=comparison.sub_frames, shadow_rays=comparison.shadow_rays)
     if comparison.light == "direct":
         settings = replace(settings, bounces=1)
     return lambda scene, method: Renderer(scene, replace(settings, method=method))
