@@ -205,6 +205,13 @@ class Renderer:
         found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.warnings)]
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
+        if METHODS[self.settings.method].solves_vertices:
+            found += [
+                f'"{instance.object_name}" is drawn without its bumps: '
+                "choose Exact or an environment method to see them."
+                for instance in (self.scene.instances[mirror.index] for mirror in self.mirrors)
+                if any(self.scene.materials[index].relief is not None for index in instance.materials)
+            ]
         return (*found, *self._lighting.warnings)
 
     def free(self) -> None:
@@ -477,6 +484,7 @@ class Renderer:
             uniforms,
             window,
             lambda chunk: self.geometry.hidden_faces(chunk, view),
+            with_reliefs=not METHODS[self.settings.method].solves_vertices,
         )
         if reflection.environments is None and not reflection.follows_rays:
             targets.reflected.clear()
