@@ -1,10 +1,16 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_color.glsl"
+#ifdef RELIEF
+#include "relief.glsl"
+#endif
 
 void main()
 {
   vec3 normal = normalize(world_normal);
+#ifdef RELIEF
+  normal = ids.y > 0.5 ? bent_normal(normal) : normal;
+#endif
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
   surface_color_out = vec4(surface_color(), ids.y);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the viewport costs in Python, apart from the GPU: first picture, orbit, moving one of many, a large scene.
 
-    python tools/measure_viewport.py [--repeats 20]
+    python tools/measure_viewport.py [--repeats 20] [--scene NAME]
 
 The parts of `viewport.py` run without a window: reader, renderer, one sub-frame. *Wall* is a whole redraw. *Python* is
 the same redraw with draws, dispatches and clearing left out: on a software renderer these do the GPU's work themselves
@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import perf_counter, thread_time
 from typing import Any
 from unittest.mock import patch
 
@@ -166,14 +166,20 @@ def without_gpu_work() -> Iterator[None]:
         yield
 
 
-def measured(session: Session, repeats: int, act: Callable[[int], float], settings: Settings) -> float:
+def measured(
+    session: Session,
+    repeats: int,
+    act: Callable[[int], float],
+    settings: Settings,
+    clock: Callable[[], float] = perf_counter,
+) -> float:
     """Median ms of a redraw after `act(i)`, which returns the angle of view."""
     times = []
     for index in range(repeats):
         angle = act(index)
-        start = perf_counter()
+        start = clock()
         session.redraw(angle, settings)
-        times.append(1e3 * (perf_counter() - start))
+        times.append(1e3 * (clock() - start))
     return median(times)
 
 
@@ -192,11 +198,15 @@ def move(_index: int) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeats", type=int, default=20)
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--scene", choices=[name for name, *_ in SCENES], help="this one alone")
+    options = parser.parse_args()
+    repeats = options.repeats
     gpu.init()
     settings = Settings(samples=8)
     print(f"{'scene':20} {'act':20} {'wall ms':>9} {'Python ms':>10}  read per redraw")
     for name, count, vertices in SCENES:
+        if options.scene not in (None, name):
+            continue
         build(count, vertices)
         session = Session()
         start = perf_counter()
@@ -211,7 +221,8 @@ def main() -> None:
                 session.redraw(0.0, settings)
                 before = session.reader.reads
                 with patch.object(gpu.types, "GPUFrameBuffer", NoFrameBuffer):
-                    python = measured(session, repeats, act, settings)
+                    # (of this thread alone: what else runs on the machine does not count)
+                    python = measured(session, repeats, act, settings, thread_time)
                 read = {key: (value - before[key]) / repeats for key, value in session.reader.reads.items()}
                 read = {key: value for key, value in read.items() if value}
                 print(f"{name:20} {label:20} {wall:9.1f} {python:10.2f}  {read or 'nothing'}")

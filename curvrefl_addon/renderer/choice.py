@@ -74,13 +74,17 @@ class Scenery:
     """(instances,)"""
 
 
-def choose(settings: Settings, view: View, mirrors: Sequence[Mirror], scenery: Scenery) -> Choice:
-    """For `settings` whose method is `auto`; the maps of mirrors are not needed."""
+def choose(
+    settings: Settings, view: View, mirrors: Sequence[Mirror], scenery: Scenery, bumpy: Sequence[str] = ()
+) -> Choice:
+    """For `settings` whose method is `auto`; the maps of mirrors are not needed. `bumpy`: names of mirrors with bumps."""
     unseen = np.ones(len(scenery.radii), bool)
     for mirror in mirrors:
         unseen &= in_shadow(mirror, view, scenery.centers, scenery.radii)
     hidden, shown = int(unseen.sum()), int((~unseen).sum())
     rays = replace(settings, method=RAYS)
+    if bumpy:
+        return Choice(rays, f'"{bumpy[0]}" has bumps: rays are followed.', hidden, shown)
     several = next((mirror for mirror in mirrors if not mirror.facts.never_sees_itself), None)
     if several is not None:
         why = f'"{several.object_name}" may show a point several times: rays are followed.'

@@ -192,13 +192,13 @@ class Renderer:
             return
         if self._scenery is None:
             self._scenery = self._read_scenery()
-        self._choice = choose(self.settings, view, self.mirrors, self._scenery)
+        self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors())
         if self._choice.settings == self._used:
             return
         self._use(self._choice.settings)
         if METHODS[self._used.method].needs_map and any(mirror.refusal is not None for mirror in self.mirrors):
             # Baking has shown that there is no map: the other way is chosen now.
-            self._choice = choose(self.settings, view, self.mirrors, self._scenery)
+            self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors())
             self._use(self._choice.settings)
 
     def _read_scenery(self) -> Scenery:
@@ -222,10 +222,24 @@ class Renderer:
             self._warnings = (self.revision, self._found_warnings())
         return self._warnings[1]
 
+    def _bumpy_mirrors(self) -> list[str]:
+        """Names of mirrors with bumps or normal maps."""
+        instances = [self.scene.instances[mirror.index] for mirror in self.mirrors]
+        return [
+            instance.object_name
+            for instance in instances
+            if any(self.scene.materials[index].relief is not None for index in instance.materials)
+        ]
+
     def _found_warnings(self) -> tuple[str, ...]:
         found = [*self.scene.warnings, *(warning for mirror in self.mirrors for warning in mirror.warnings)]
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
+        if METHODS[self.settings.method].solves_vertices:
+            found += [
+                f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
+                for name in self._bumpy_mirrors()
+            ]
         return (*found, *self._lighting.warnings)
 
     def free(self) -> None:
@@ -505,6 +519,7 @@ class Renderer:
             uniforms,
             window,
             lambda chunk: self.geometry.hidden_faces(chunk, view),
+            with_reliefs=not METHODS[self._used.method].solves_vertices,
         )
         if reflection.environments is None and not reflection.follows_rays:
             targets.reflected.clear()

@@ -63,9 +63,28 @@ class Materials:
         info.sampler(sampler, "FLOAT_2D", "base_image")
 
     def is_plain(self, index: int) -> bool:
-        """Whether the base colour of a material is the same everywhere."""
+        """Whether a material is the same everywhere."""
         material = self._of(index)
-        return material.image < 0 and not material.uses_vertex_color
+        return material.image < 0 and not material.uses_vertex_color and material.relief is None
+
+    def has_relief(self, index: int) -> bool:
+        """Whether its normals are bent."""
+        return self._of(index).relief is not None
+
+    @staticmethod
+    def declare_relief(info: Any, sampler: int) -> None:
+        """What `relief.glsl` needs."""
+        info.push_constant("VEC4", "relief")
+        info.push_constant("VEC4", "relief_transform")
+        info.sampler(sampler, "FLOAT_2D", "relief_image")
+
+    def bind_relief(self, shader: Any, index: int) -> None:
+        """Set what `declare_relief` declared."""
+        relief = self._of(index).relief
+        assert relief is not None
+        shader.uniform_float("relief", (float(relief.is_bump), relief.strength, relief.distance, 0.0))
+        shader.uniform_float("relief_transform", (*relief.uv_scale, *relief.uv_offset))
+        shader.uniform_sampler("relief_image", self._images[relief.image][1])
 
     def bind(self, shader: Any, index: int) -> None:
         """Set what `declare` declared to material `index` on the bound shader, one for its kind (`is_plain`)."""

@@ -82,24 +82,41 @@ def draw_primary(
     view_uniforms: Any,
     window: Window | None = None,
     hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
+    with_reliefs: bool = False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
-    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'.
+    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. `with_reliefs`:
+    the normals of mirrors are those of their bumps and normal maps, else of the smooth surface.
     """
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
         gpu.state.viewport_set(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
-            for is_plain in (True, False):
-                shader = _primary_shader(is_plain)
+            reliefs = {
+                material
+                for _, batches in seen
+                for material, _ in batches
+                if with_reliefs and materials.has_relief(material)
+            }
+            for kind in ("PLAIN", "TEXTURED", *(("RELIEF",) if reliefs else ())):
+                shader = _primary_shader(kind)
                 shader.bind()
                 shader.uniform_block("view", view_uniforms)
                 for chunk, batches in seen:
                     gpu.state.face_culling_set(hidden_faces(chunk))
                     shader.uniform_sampler("positions", chunk.positions)
                     shader.uniform_sampler("corners", chunk.corners)
-                    _draw_batches(shader, batches, materials, is_plain)
+                    if kind != "RELIEF":
+                        smooth = tuple(item for item in batches if item[0] not in reliefs)
+                        _draw_batches(shader, smooth, materials, kind == "PLAIN")
+                        continue
+                    for material, batch in batches:
+                        if material not in reliefs:
+                            continue
+                        materials.bind(shader, material)
+                        materials.bind_relief(shader, material)
+                        batch.draw(shader)
 
 
 def _draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: bool) -> None:
@@ -172,11 +189,16 @@ def _geometry_inputs(info: Any) -> None:
 
 
 @cache
-def _primary_shader(is_plain: bool) -> Any:
+def _primary_shader(kind: str) -> Any:
+    """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
+    is_plain = kind == "PLAIN"
     info = gpu.types.GPUShaderCreateInfo()
     _geometry_inputs(info)
     Materials.declare(info, 2, is_plain)
-    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_primary_{is_plain}")
+    if kind == "RELIEF":
+        info.define("RELIEF")
+        Materials.declare_relief(info, 3)
+    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_primary_{kind}")
     for kind, name in (("VEC3", "world_position"), ("VEC3", "world_normal"), *_colors(is_plain)):
         interface.smooth(kind, name)
     interface.flat("VEC2", "ids")

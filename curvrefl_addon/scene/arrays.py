@@ -59,6 +59,21 @@ class ImageArrays:
 
 
 @dataclass(frozen=True, slots=True)
+class ReliefArrays:
+    """What bends the shading normals of a surface: an image of normals in tangent space, or of heights."""
+
+    image: int
+    """Index into `SceneArrays.images`; of heights the first channel counts"""
+    is_bump: bool
+    """Heights, else normals"""
+    strength: float = 1.0
+    distance: float = 1.0
+    """Of heights: metres for a height of 1, negative where inverted"""
+    uv_scale: tuple[float, float] = (1.0, 1.0)
+    uv_offset: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
 class MaterialArrays:
     """The part of the Principled BSDF that the renderer shades (also made from Diffuse, Glossy and Emission nodes)."""
 
@@ -79,6 +94,8 @@ class MaterialArrays:
     """Emitted radiance, strength included"""
     glossy_only: bool = False
     """A Glossy BSDF: reflectance is the base colour at every angle, without diffuse part"""
+    relief: ReliefArrays | None = None
+    """Shown where it is a mirror's"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -264,6 +264,8 @@ class SceneReader:
             )
         slots = self._slots(obj, uid, override)
         warnings: list[str] = [slot.warning for slot in slots if slot.warning]
+        if uid not in self._mapped and any(slot.has_relief for slot in slots):
+            warnings.append(f'"{name}" is drawn without its bumps: only mirrors show theirs.')
         needs = _needs(name, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")

@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from .arrays import ImageArrays, MaterialArrays
+from .arrays import ImageArrays, MaterialArrays, ReliefArrays
 from .images import ImageReader
 from .meshes import MeshNeeds
 from .node_colors import ColorReader, NodeColor
 from .node_links import Source, find_input, source_of, surface_source
+from .reliefs import Relief, read_relief
 from .surface_textures import SurfaceTexture, SurfaceTextureReader
 
 EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
@@ -38,7 +39,8 @@ class _Surface:
 
     color: NodeColor
     rest: MaterialArrays
-    """All but the base colour"""
+    """All but the base colour and the relief"""
+    relief: Relief | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,8 @@ class ReadMaterial:
     """What it reads of the meshes it is on"""
     warning: str = ""
     """What is drawn only roughly"""
+    has_relief: bool = False
+    """Bumps, that only a mirror shows"""
 
 
 class MaterialReader:
@@ -78,7 +82,7 @@ class MaterialReader:
             warning = (
                 f'Material "{material.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.' if notes else ""
             )
-            self._read[key] = ReadMaterial(self._place(key, arrays), needs, warning)
+            self._read[key] = ReadMaterial(self._place(key, arrays), needs, warning, arrays.relief is not None)
         return self._read[key]
 
     def plain(self, arrays: MaterialArrays) -> ReadMaterial:
@@ -124,13 +128,35 @@ class MaterialReader:
                 uv_offset=texture.space.offset,
             )
             needs = replace(needs, uv_map=texture.space.uv_map)
+        if surface.relief is not None:
+            arrays, needs = self._with_relief(arrays, needs, surface.relief, notes)
         return replace(arrays, uses_vertex_color=needs.colors is not None), needs
 
-    def _image_index(self, image: ImageArrays) -> int:
+    def _with_relief(
+        self, arrays: MaterialArrays, needs: MeshNeeds, relief: Relief, notes: list[str]
+    ) -> tuple[MaterialArrays, MeshNeeds]:
+        space = relief.texture.space
+        if needs.uv_map not in (None, space.uv_map):
+            # (a mesh has one UV map here)
+            notes.append("its bumps are left out: they are on another UV map than its color")
+            return arrays, needs
+        found = ReliefArrays(
+            self._image_index(relief.texture.image, arrays.image),
+            relief.is_bump,
+            relief.strength,
+            relief.distance,
+            space.scale,
+            space.offset,
+        )
+        return replace(arrays, relief=found), replace(needs, uv_map=space.uv_map)
+
+    def _image_index(self, image: ImageArrays, kept: int = -1) -> int:
+        """Place of an image in the list, new or of one that no material shows any more, but not `kept`."""
         for index, known in enumerate(self.images):
             if known is image:
                 return index
-        used = {material.image for material in self.materials}
+        used = {kept, *(material.image for material in self.materials)}
+        used |= {material.relief.image for material in self.materials if material.relief is not None}
         for index in range(len(self.images)):
             if index not in used:
                 self.images[index] = image
@@ -157,15 +183,14 @@ class _ShaderReader:
         if kind == "BSDF_DIFFUSE":
             if self._number(source, "Roughness") > 0.0:
                 self._notes.append("its diffuse roughness is left out")
-            self._note_normal(source)
-            return _Surface(self._color(source, "Color"), _matt())
+            return _Surface(self._color(source, "Color"), _matt(), self._relief(source))
         if kind == "BSDF_GLOSSY":
-            self._note_normal(source)
             if self._number(source, "Anisotropy") != 0.0:
                 self._notes.append("its anisotropy is left out")
             return _Surface(
                 self._color(source, "Color"),
                 MaterialArrays("", metallic=1.0, roughness=self._number(source, "Roughness"), glossy_only=True),
+                self._relief(source),
             )
         if kind == "BSDF_METALLIC":
             return self._metallic(source)
@@ -185,7 +210,6 @@ class _ShaderReader:
             ignored.append("Specular Tint")
         if ignored:
             self._notes.append("not drawn: " + ", ".join(ignored))
-        self._note_normal(source)
         rest = MaterialArrays(
             "",
             metallic=min(max(self._number(source, "Metallic"), 0.0), 1.0),
@@ -194,12 +218,11 @@ class _ShaderReader:
             specular_level=max(self._number(source, "Specular IOR Level"), 0.0),
             emission=self._emission(source, "Emission Color", "Emission Strength"),
         )
-        return _Surface(self._color(source, "Base Color"), rest)
+        return _Surface(self._color(source, "Base Color"), rest, self._relief(source))
 
     def _metallic(self, source: Source) -> _Surface:
         node = source.node
         assert node is not None
-        self._note_normal(source)
         color = self._color(source, "Base Color")
         if node.fresnel_type == "PHYSICAL_CONDUCTOR":
             ior, extinction = (np.array(self._colors.color(source.input(n)).mean()) for n in ("IOR", "Extinction"))
@@ -208,7 +231,8 @@ class _ShaderReader:
             color = NodeColor((r, g, b))
         elif self._colors.color(source.input("Edge Tint")) != NodeColor():
             self._notes.append("its edge tint is left out")
-        return _Surface(color, MaterialArrays("", metallic=1.0, roughness=self._number(source, "Roughness")))
+        rest = MaterialArrays("", metallic=1.0, roughness=self._number(source, "Roughness"))
+        return _Surface(color, rest, self._relief(source))
 
     def _mix(self, source: Source) -> _Surface:
         factor = min(max(self._colors.number(source.input("Fac"), "mix factor"), 0.0), 1.0)
@@ -261,11 +285,11 @@ class _ShaderReader:
         found = source.input(name)
         return found.node is None and float(found.socket.default_value) == value
 
-    def _note_normal(self, source: Source) -> None:
+    def _relief(self, source: Source) -> Relief | None:
         node = source.node
         assert node is not None
-        if source_of(find_input(node, "Normal"), source.groups).node is not None:
-            self._notes.append("its bumps are left out")
+        normal = source_of(find_input(node, "Normal"), source.groups)
+        return read_relief(normal, self._colors, self._notes)
 
 
 def _matt() -> MaterialArrays:

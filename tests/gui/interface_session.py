@@ -80,8 +80,9 @@ def script() -> Script:
     yield rests
     area.tag_redraw()
     yield 1.0
-    keep("sidebar")
     yield from panels()
+    # (by now EEVEE has compiled its shaders and draws what is under the mirror)
+    keep("sidebar")
     yield from diagnostics(space)
     yield from trace(area)
     yield from comparison()
