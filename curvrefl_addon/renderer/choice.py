@@ -77,7 +77,10 @@ class Scenery:
 def choose(
     settings: Settings, view: View, mirrors: Sequence[Mirror], scenery: Scenery, bumpy: Sequence[str] = ()
 ) -> Choice:
-    """For `settings` whose method is `auto`; the maps of mirrors are not needed. `bumpy`: names of mirrors with bumps."""
+    """For `settings` whose method is `auto`; the maps of mirrors are not needed.
+
+    `bumpy`: names of mirrors with bumps, which no map has.
+    """
     unseen = np.ones(len(scenery.radii), bool)
     for mirror in mirrors:
         unseen &= in_shadow(mirror, view, scenery.centers, scenery.radii)

@@ -203,7 +203,7 @@ def test_vertex_methods_say_that_they_leave_bumps_out() -> None:
     scenery.data.materials.append(mirror.data.materials[0])
     camera_at((0.0, -8.0, 0.5))
     said = frame_of(mirror, "secant_star").warnings
-    assert any('"Ball" is drawn without its bumps: choose Exact' in line for line in said)
+    assert any('"Ball" is drawn without its bumps: choose Automatic' in line for line in said)
     assert any('"floor" is drawn without its bumps' in line for line in said)
     assert not any("Ball" in line for line in frame_of(mirror, "exact").warnings)
     assert not any("Ball" in line for line in frame_of(mirror, "environment_cube").warnings)
