@@ -32,6 +32,8 @@ class Method:
     """Shader of a second pass over what the first one has not settled"""
     takes_open: bool = False
     """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
+    several_images: bool = False
+    """It also looks for the images that a mirror that bends both ways shows beside the first"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -78,11 +80,12 @@ METHODS: dict[str, Method] = {
     "newton": Method(
         "Newton",
         "Safeguarded Newton on Fermat's principle, from the last frame's points",
-        "every ray from the star center leaves the reflector once; one reflection per vertex",
+        "every ray from the star center leaves the reflector once; one reflection per vertex and region of curvature",
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial", "previous"),
         steps=6,
         stragglers="newton_stragglers",
+        several_images=True,
     ),
     "secant_uv": Method(
         "Secant Search in UV",

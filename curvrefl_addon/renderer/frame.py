@@ -98,8 +98,8 @@ class Reflection:
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks."""
-        return tuple(part.solution for parts in self.parts for part in parts)
+        """Of all mirrors and chunks: of every vertex its first image."""
+        return tuple(part.solution for parts in self.parts for part in parts if part.image == 0)
 
 
 class Renderer:
@@ -292,8 +292,8 @@ class Renderer:
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
         start = perf_counter()
         reflection = self.reflect(view, follow=False)
-        for solution in reflection.solutions:
-            solution.wait()
+        for part in (part for parts in reflection.parts for part in parts):
+            part.solution.wait()
         solved = perf_counter()
         with canvas.bind():
             canvas.clear(color=(0.0, 0.0, 0.0, 0.0))

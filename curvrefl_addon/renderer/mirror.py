@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..optics.cube_map import CubeMapSurface
+from ..optics.curvature_regions import curvature_regions
 from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk
@@ -28,7 +29,7 @@ from .reflector_bake import Limits, bake_instance, polar
 from .reflector_map import ReflectorMap
 from .scene_geometry import CORNERS, Sight
 from .screen_maps import ScreenMaps, map_to_texels, widened
-from .solve import Reflector, SolvedChunk, VertexSolution, solve_vertices
+from .solve import Reflector, RegionTextures, SolvedChunk, VertexSolution, solve_region, solve_vertices
 from .split import split_angle
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ class Mirror:
         self._planes: Sequence[Plane] | None = None
         self._companion: tuple[Chunk, Batches] | None = None
         self._screen_maps = ScreenMaps()
+        self._regions: RegionTextures | None = None
         self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
         self._before: dict[int, tuple[Chunk, int, VertexSolution]] = {}
 
@@ -256,9 +258,32 @@ class Mirror:
                 # The chunk is kept with it, so that no other chunk can get its id.
                 self._before[id(chunk)] = (chunk, chunk.revision, solution)
             parts.append(SolvedChunk(chunk, batches, solution))
+        if method.several_images and reflector.side > 0.0:
+            parts += self._more_images(view, reflector, scenery, 0.1 * settings.pixel_tolerance)
         used = {id(chunk) for chunk, _ in scenery}
         self._grids = {key: grid for key, grid in self._grids.items() if key in used}
         return tuple(parts)
+
+    def _more_images(
+        self, view: View, reflector: Reflector, scenery: Sequence[tuple[Chunk, Batches]], tolerance: float
+    ) -> list[SolvedChunk]:
+        """One per region and chunk; none on a mirror that bends one way."""
+        if not self.may_hide_itself or self.is_open or self.map is None:
+            return []
+        if self._regions is None:
+            self._regions = RegionTextures(curvature_regions(CubeMapSurface(self.map.radial)))
+        if self._regions.count < 2:
+            return []
+        return [
+            SolvedChunk(
+                chunk,
+                batches,
+                solve_region(view, reflector, self._regions, region, chunk.positions, chunk.position_count, tolerance),
+                image=region + 1,
+            )
+            for region in range(self._regions.count)
+            for chunk, batches in scenery
+        ]
 
     def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
         maps = METHODS[settings.method].maps

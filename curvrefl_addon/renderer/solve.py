@@ -19,11 +19,21 @@ import numpy as np
 from ...gpu_shaders.loader import load
 from ..optics import status
 from ..optics.catalogue import METHODS
+from ..optics.curvature_regions import SEEDS, Regions
+from ..optics.newton_region import STEPS as REGION_STEPS
 from ..optics.secant_star import NEWTON_STEPS
 from ..scene.arrays import Float64Array
 from ..scene.view import View
 from .chunk import Batches, Chunk
-from .gpu_objects import dispatch, empty_index_texture, empty_record_texture, read_records, uniform_block
+from .gpu_objects import (
+    cube_texture,
+    dispatch,
+    empty_index_texture,
+    empty_record_texture,
+    read_records,
+    record_texture,
+    uniform_block,
+)
 
 GROUP = 64
 MOST_STRAGGLERS_AT_ONCE = 1 << 14
@@ -113,6 +123,8 @@ class SolvedChunk:
     chunk: Chunk
     batches: Batches
     solution: VertexSolution
+    image: int = 0
+    """0 for the image that every vertex has, or that says why not; 1, 2, ... for one in a region of the mirror"""
 
 
 def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
@@ -153,16 +165,8 @@ def solve_vertices(
     the same positions in the frame before, for methods that start from it. It is the result too where nothing has
     changed: `at_rest` says so of positions and maps. `first_rung` leaves starts of the clean-up pass out.
     """
-    world_to_map = reflector.world_to_map
     chosen = METHODS[method]
-    block = np.zeros(1, _BLOCK)
-    block["world_to_map"] = world_to_map.T
-    block["map_to_world"] = np.linalg.inv(world_to_map).T
-    block["map_to_search"] = reflector.map_to_search.T
-    block["eye"] = world_to_map @ view.eye
-    block["counts"] = (count, steps or chosen.steps, NEWTON_STEPS, 0)
-    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
-    block["plane"] = reflector.plane
+    block = _solver_block(view, reflector, count, steps or chosen.steps, tolerance)
     block["start"][0, :3] = (*reflector.start, first_rung)
     inputs = method.encode() + block.tobytes()
     if at_rest and previous is not None and previous.inputs == inputs:
@@ -193,6 +197,60 @@ def solve_vertices(
     return solution
 
 
+def solve_region(
+    view: View,
+    reflector: Reflector,
+    regions: RegionTextures,
+    region: int,
+    positions: Any,
+    count: int,
+    tolerance: float = 0.05,
+) -> VertexSolution:
+    """Images of `count` records of `positions` in one region of a mirror that bends both ways; UNSOLVED is none."""
+    block = _solver_block(view, reflector, count, 0, tolerance)
+    block["start"] = (SEEDS, region, REGION_STEPS, 0)
+    solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
+    # Bound by reference only: it has to outlive the dispatch.
+    uniforms = uniform_block(block)
+    shader = _region_shader()
+    shader.bind()
+    shader.uniform_block("solver", uniforms)
+    shader.uniform_sampler("positions", positions)
+    shader.uniform_sampler("radial", reflector.textures["radial"])
+    shader.uniform_sampler("region_masks", regions.masks)
+    shader.uniform_sampler("region_seeds", regions.seeds)
+    shader.image("reflection_points", solution.reflection_points)
+    shader.image("virtual_positions", solution.virtual_positions)
+    dispatch(shader, count, GROUP)
+    return solution
+
+
+class RegionTextures:
+    """Regions of one mirror on the GPU."""
+
+    def __init__(self, regions: Regions) -> None:
+        self.count = len(regions)
+        masks = np.zeros((*regions.masks.shape, 4), np.float32)
+        masks[..., 0] = regions.masks
+        self.masks = cube_texture(masks, linear=False)
+        seeds = np.zeros((regions.seeds.shape[0] * SEEDS, 4), np.float32)
+        seeds[:, :3] = regions.seeds.reshape(-1, 3)
+        self.seeds = record_texture(seeds)
+
+
+def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:
+    """All but `start`."""
+    block = np.zeros(1, _BLOCK)
+    block["world_to_map"] = reflector.world_to_map.T
+    block["map_to_world"] = np.linalg.inv(reflector.world_to_map).T
+    block["map_to_search"] = reflector.map_to_search.T
+    block["eye"] = reflector.world_to_map @ view.eye
+    block["counts"] = (count, steps, NEWTON_STEPS, 0)
+    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
+    block["plane"] = reflector.plane
+    return block
+
+
 def _samplers(method: str) -> list[tuple[str, str]]:
     return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
 
@@ -213,4 +271,20 @@ def _solver_shader(name: str, method: str) -> Any:
         info.image(3, "R32UI", "UINT_2D_ATOMIC", "straggler_count", qualifiers={"READ", "WRITE"})
     info.local_group_size(GROUP, 1)
     info.compute_source(load(f"{name}.comp.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _region_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_TYPEDEF)
+    info.uniform_buf(0, "Solver", "solver")
+    info.sampler(0, "FLOAT_2D", "positions")
+    info.sampler(1, "FLOAT_CUBE", "radial")
+    info.sampler(2, "FLOAT_CUBE", "region_masks")
+    info.sampler(3, "FLOAT_2D", "region_seeds")
+    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load("newton_region.comp.glsl"))
     return gpu.shader.create_from_info(info)

@@ -142,7 +142,8 @@ class VertexTruth:
         )
         for part in parts:
             part.solution.wait()
-        return parts
+        # What a vertex has beside its first image is not judged.
+        return tuple(part for part in parts if part.image == 0)
 
     def _judge(self, mirror: Mirror) -> _Judge:
         fine = bake_instance(self._arrays, mirror.index, FINER * Settings().map_resolution, limits=OPEN_LIMITS)
