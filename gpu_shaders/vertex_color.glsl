@@ -4,7 +4,8 @@
 
 vec3 unpack_vertex_color(float packed_color)
 {
-  int levels = int(packed_color + 0.5);
+  // A whole number that takes all the digits of a float: half of one more would round it up.
+  int levels = int(packed_color);
   vec3 root = vec3(levels & 255, (levels >> 8) & 255, levels >> 16) / 255.0;
   return root * root;
 }

@@ -5,7 +5,8 @@
 
     .venv/bin/python tools/make_scenes.py OUTDIR [NAME ..]
 
-Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `million` (a million
+Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `lamps` (point
+lamp, spot and sun in the dark), `million` (a million
 vertices) and `hidden` (one small file per hidden-surface case) are written when asked for.
 """
 

@@ -11,9 +11,10 @@ import pytest
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.convexity import is_convex
 from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.gpu_objects import read_texture
 from curvrefl.curvrefl_addon.renderer.mesh_inside import holds_point, is_closed
 from curvrefl.curvrefl_addon.renderer.ray_scene import OWN_RANGE
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays, WorldArrays
+from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_halls import MIRRORS, hall
 from scenes.mirror_room import Room
@@ -175,3 +176,105 @@ def test_an_eye_inside_a_closed_mirror_sees_its_inner_side() -> None:
     # Whatever is followed from there meets the inner side again.
     assert (frame.reflected_object() == 1).mean() > 0.98
     renderer.free()
+
+
+def same(one: Frame, other: Frame) -> bool:
+    names = ("seen_position", "reflected_position")
+    return all(
+        np.array_equal(one.surfaces[name][one.mask() > 0], other.surfaces[name][other.mask() > 0]) for name in names
+    )
+
+
+def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer() -> None:
+    """Things move, deform, go and come back; fitted and improved trees show the same as those just built."""
+    view = look_at(np.array(EYES[0]), np.zeros(3), 120, 90, 0.6)
+    scene = hall("vase", 0, clutter=8)
+    renderer = Renderer(scene, Settings(method="exact", samples=1))
+    first = renderer.render(view)
+    again = renderer.render(view)
+    assert np.array_equal(first.color(), again.color())
+
+    shifted = scene.instances[3].matrix.copy()
+    shifted[:3, 3] += (0.3, -0.2, 0.1)
+    moved = replace(
+        scene, instances=(*scene.instances[:3], replace(scene.instances[3], matrix=shifted), *scene.instances[4:])
+    )
+    ball = moved.meshes[1]
+    bent = replace(ball, positions=(ball.positions * np.array([1.0, 0.7, 1.2], np.float32)), signature=1)
+    deformed = replace(moved, meshes=(moved.meshes[0], bent, *moved.meshes[2:]))
+    fewer = replace(deformed, instances=deformed.instances[:6])
+    for state in (moved, deformed, fewer, deformed, scene):
+        renderer.update(state)
+        fresh = Renderer(state, Settings(method="exact", samples=1))
+        expected = fresh.render(view)
+        assert same(renderer.render(view), expected)
+        fresh.free()
+    assert renderer.ray_counters["hierarchies fitted"] >= 1
+    renderer.settle()
+    assert renderer.ray_counters["hierarchies improved"] >= 1
+    assert same(renderer.render(view), first)
+    renderer.free()
+
+
+def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -> None:
+    room = Room()
+    room.add_mirror(Ellipsoid(), 128)
+    room.add_rectangle((0.0, -3.0, 0.0), (4.0, 0.0, 0.0), (0.0, 0.0, 4.0))
+    arrays = room.arrays()
+    sheet = arrays.meshes[1]
+    uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], np.float32)
+    vertex_colors = np.tile(np.array([1.0, 0.25, 1.0, 1.0], np.float32), (4, 1))
+    sheet = replace(sheet, corner_uv=uv, corner_color=vertex_colors, triangle_slot=np.array([0, 1], np.int32))
+    pixels = np.zeros((2, 2, 4), np.float32)
+    pixels[:, 0], pixels[:, 1] = (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0)
+    materials = (
+        *arrays.materials,
+        MaterialArrays("image", base_color=(1.0, 1.0, 1.0), image=0, uses_vertex_color=True),
+        MaterialArrays("plain", base_color=(0.0, 0.0, 1.0)),
+    )
+    instances = (arrays.instances[0], replace(arrays.instances[1], materials=(2, 3)))
+    arrays = replace(
+        arrays,
+        meshes=(arrays.meshes[0], sheet),
+        instances=instances,
+        materials=materials,
+        images=(ImageArrays("halves", pixels, nearest=True),),
+    )
+    view = look_at(np.array([0.0, -2.9, 0.0]), np.zeros(3), 120, 90, 0.5)
+    renderer = Renderer(arrays, Settings(method="exact", samples=1))
+    frame = renderer.render(view)
+    path = renderer._targets_for(view).path(0)
+    base = read_texture(path.color)[..., :3]
+    hits = (frame.mask() > 0) & (frame.reflected_object() == 2)
+    place = frame.reflected_position()[..., :3]
+    across, up = (place[..., 0] + 4.0) / 8.0, (place[..., 2] + 4.0) / 8.0
+    for half, color in ((across < 0.49, (1.0, 0.0, 0.0)), (across > 0.51, (0.0, 0.25, 0.0))):
+        first = hits & (up < across - 0.01) & half
+        assert first.sum() > 50
+        # (vertex colors have eight bits)
+        assert np.abs(base[first] - color).max() < 5e-3
+    second = hits & (up > across + 0.01)
+    assert second.sum() > 50
+    assert np.abs(base[second] - (0.0, 0.0, 1.0)).max() < 2e-3
+    renderer.free()
+
+
+def test_rays_shadow_what_is_hit() -> None:
+    """A sun from above, a sheet over a floor: the floor is dark under the sheet, and lit beside it."""
+    room = Room()
+    room.add_mirror(Ellipsoid(), 128)
+    room.add_rectangle((0.0, 0.0, -1.2), (8.0, 0.0, 0.0), (0.0, 8.0, 0.0))
+    room.add_rectangle((0.0, -2.5, 1.6), (0.7, 0.0, 0.0), (0.0, 0.7, 0.0), visible_glossy=False)
+    sun = LightArrays("sun", "SUN", (3.0, 3.0, 3.0), np.eye(4))
+    arrays = replace(room.arrays(), lights=(sun,), world=WorldArrays())
+    view = look_at(np.array([0.0, -5.5, 0.6]), np.zeros(3), 160, 120, 0.6)
+    frame = Renderer(arrays, Settings(method="exact", samples=1, shadow_rays=True)).render(view)
+    place, color = frame.reflected_position()[..., :3], frame.color()[..., 0]
+    on_floor = (frame.mask() > 0) & (frame.reflected_object() == 2)
+    off = np.maximum(np.abs(place[..., 0]), np.abs(place[..., 1] + 2.5)) - 0.7
+    # The mirror itself stands between the sun and the floor below it.
+    beside_mirror = np.linalg.norm(place[..., :2], axis=-1) > 1.1
+    dark, lit = on_floor & (off < -0.02), on_floor & (off > 0.02) & beside_mirror
+    assert dark.sum() > 30 and lit.sum() > 300
+    assert color[dark].max() == 0.0
+    assert color[lit].min() > 0.3

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 import bootstrap
@@ -118,6 +118,31 @@ def dense() -> bpy.types.Object:
     add_sun((-0.5, -0.6, 0.9), 3.0)
     add_camera((0.0, -5.6, 1.5), (0.0, 0.0, 0.0), lens=58.0)
     return reflector
+
+
+def lamps() -> bpy.types.Object:
+    """The mirror sphere's scene in the dark, lit by a weak sun, a point lamp and a spot. 640 x 480."""
+    start_empty_scene()
+    reflector = add_reflector(sphere_radius)
+    add_surroundings(sphere_radius)
+    set_world_color((0.0, 0.0, 0.0))
+    add_sun((-0.5, -0.6, 0.9), 1.0)
+    add_lamp("POINT", (2.2, -2.6, 1.4), 400.0, radius=0.05)
+    add_lamp("SPOT", (-3.5, -3.0, 3.5), 1500.0, radius=0.05)
+    add_camera((0.0, -5.6, 1.5), (0.0, 0.0, 0.0), lens=58.0)
+    return reflector
+
+
+def add_lamp(kind: str, place: tuple[float, float, float], power: float, radius: float) -> None:
+    """A point lamp, or a spot that shines at the origin in a cone of 60 degrees; `power` in W."""
+    lamp = bpy.data.lights.new(kind.capitalize(), kind)
+    lamp.energy, lamp.shadow_soft_size = power, radius
+    thing = bpy.data.objects.new(kind.capitalize(), lamp)
+    thing.location = place
+    if kind == "SPOT":
+        lamp.spot_size, lamp.spot_blend = np.radians(60.0), 0.3
+        thing.rotation_euler = (-Vector(place)).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(thing)
 
 
 def add_reflector(radius: RadiusFunction, cells: int = CELLS) -> bpy.types.Object:
@@ -256,5 +281,6 @@ SCENES: dict[str, Callable[[], bpy.types.Object]] = {
     "ellipsoid": mirror_ellipsoid,
     "bumpy": bumpy,
     "dense": dense,
+    "lamps": lamps,
     "million": million,
 }
