@@ -90,7 +90,7 @@ bool find_reflector(inout ivec2 texel)
 
 ivec2 start_texel(int index)
 {
-  if (solver.counts.w == 1) {
+  if (solver.counts.w > 0) {
     vec4 before = fetch_record(previous_points, index);
     vec4 point = solver.world_to_map * vec4(before.xyz, 1.0);
     vec4 texel = solver.map_to_search * point;

@@ -3,9 +3,6 @@
 // Hidden surfaces of the reflected scene, three ways, without a stencil (Roger & Holzschuch 2006, section 3.3.6).
 #include "surface_color.glsl"
 
-// Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows: 8 degrees.
-#define STRETCHED 0.99
-
 vec3 towards_eye(vec3 point)
 {
   return normalize(view.eye.xyz - point * view.eye.w);
@@ -32,7 +29,7 @@ void main()
   }
   // A triangle whose vertices found different images of a mirror that bends both ways stretches across what lies between.
   vec3 ray = reflect(-towards_eye(seen_point), normal);
-  if (dot(ray, to_vertex) < STRETCHED * vertex_distance) {
+  if (dot(ray, to_vertex) < stretched * vertex_distance) {
     discard;
   }
 #ifdef BACK_FACES

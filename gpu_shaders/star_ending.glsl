@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a search on the radial map ends. Needs the sampler `radial`.
 #include "solver.glsl"
-#include "newton.glsl"
+#include "descent.glsl"
 #include "pierce.glsl"
 
 // After a search that ended at u: reflected, else hidden, else one more descent from between eye and vertex.

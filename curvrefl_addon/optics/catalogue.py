@@ -26,6 +26,10 @@ class Method:
     """Shader that solves the corners of bounding grids, for a method that interpolates between them"""
     follows_rays: bool = False
     """Whether every mirror pixel follows its own reflected ray"""
+    stragglers: str = ""
+    """Shader of a second pass over what the first one has not settled"""
+    several_images: bool = False
+    """It also looks for the images that a mirror that bends both ways shows beside the first"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -53,6 +57,16 @@ METHODS: dict[str, Method] = {
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial",),
         steps=4,
+    ),
+    "newton": Method(
+        "Newton",
+        "safeguarded Newton on Fermat's principle, from the last frame's points",
+        "every ray from the star center leaves the reflector once; one reflection per vertex and region of curvature",
+        ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_stragglers",
+        several_images=True,
     ),
     "secant_uv": Method(
         "Secant Search in UV",
@@ -84,7 +98,7 @@ METHODS: dict[str, Method] = {
         "Estalella et al. 2006",
         "the reflection point is in view, and no other part of the reflector is in front of it",
         ("search_resolution", (0.25, 0.5, 1.0, 2.0)),
-        maps=("screen",),
+        maps=("screen", "previous"),
     ),
     "planar": Method(
         "Planar Mirror",

@@ -1,177 +1,207 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Safeguarded Newton descent on the optical path length over the sphere of directions.
+"""The method `newton` in float64: descent on the path length from a good start, and a ladder of others where it fails.
 
-On a closed convex reflector the reflection of a vertex that can be seen in it is the minimum of the path length
-E-P-V, so a descent that never accepts a longer path cannot cycle or wander off. Second derivatives come from
-differences of the gradient, because the map holds r and grad r only.
+This is the reference that `newton.comp.glsl` and `newton_stragglers.comp.glsl` are held to.
 
-On a hollow mirror the reflection may also be a maximum or a saddle. There Newton looks for a zero of the gradient of
-any kind, and never accepts a longer gradient.
+A few steps from the last frame's point, or from the reflection in a sphere, solve nearly all vertices. The others are
+asked first whether the mirror hides them, and then climb the ladder of `RUNGS`: each is another direction to start
+from, with the full number of steps. Where a descent ends at a point that eye or vertex sees from behind, the way to it
+enters the mirror on its front; the path by way of that entry is shorter, so that the descent goes on from there.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from .fermat import SurfaceSample, path_gradient, sample
+from . import status
+from .descent import arc, guess, minimise, on_arc
+from .fermat import SurfaceSample, half_vector, is_reflection_side, mirror_error, path_gradient, sample
+from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
 from .screen import Screen
+from .secant_star import Solution
 
-DIFFERENCE = 1e-3
-"""Angle for second derivatives, radians; shrinks with the distance of a vertex or an eye in contact."""
-SMALLEST_DIFFERENCE = 1e-5
-FLATTEST = 1e-5
-"""Smallest eigenvalue of the second derivative, relative to the largest, that is not shifted."""
-LONGEST_STEP = 0.5
-"""Radians"""
-LONGEST_LAST_STEP = 0.005
-"""Radians: at the silhouette a long step along the line of sight covers few pixels, and leaves more"""
-SLACKENED = 0.98
-"""A step towards a point of any kind must shrink the gradient at least to this share."""
-TRIALS = 6
-"""Lengths of one step that are tried"""
-SHORTENING = 0.35
-SUFFICIENT = 1e-4
-"""Share of the predicted descent that a step must keep (Armijo)"""
-ROUNDING = 2e-7
-"""Path lengths closer than this share of the radius count as equal: float32 cannot tell them apart."""
-CONTRACTION = 0.7
-"""A step at positive curvature is also taken where it shrinks the gradient to this share. An interpolated map
-ripples by some 1e-4 of its radius between texels, which hides the last pixels of descent from the path length."""
-
-
-def tangent_frame(u: Float64Array) -> tuple[Float64Array, Float64Array]:
-    """Two unit vectors (n, 3) that complete the unit vectors u (n, 3) to right-handed frames."""
-    helper = np.where(np.abs(u[:, :1]) < 0.7, np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]]))
-    first = unit(np.cross(u, helper))
-    return first, np.cross(u, first)
+FIRST_STEPS = 6
+"""Of the first pass: on a GPU the slowest vertex of a group holds up the others."""
+STEPS = 20
+ENTRIES = 3
+"""How often one descent is taken back to where the way to its end enters the mirror"""
+SPHERE_ROUNDS = 3
+SMALLEST_HEIGHT = 1e-6
+"""Of eye and vertex over the sphere of the guess, relative to its radius"""
+STRAIGHT = 0.05
+"""Length of the half vector under which the path is the straight segment: it pierces the mirror there"""
+ON_HORIZON = 0.02
+"""The same where a descent has failed: reflected and hidden are one there, and the map's texels hold neither"""
+BISECTIONS = 16
+RUNGS = ("sphere", "any kind", "between", "vertex", "eye", "bisection")
+"""Where the descents of a straggler start. The second goes on where the first has ended, to a zero of the gradient of
+any kind: where texels of the map meet with a kink, above all at the cube's corners, the curvature may be negative."""
+ANY_KIND = 1
+FIRST_PASS = -1
+"""Rung of what the first pass has solved"""
+HIDDEN_AT_ONCE = -2
+"""Rung of a straggler that the mirror was found to hide before the ladder"""
 
 
-def guess(eye: Float64Array, vertices: Float64Array) -> Float64Array:
-    """Directions (n, 3) between an eye (4,), or eyes (n, 4), and vertices, nearer to the one that is nearer the centre.
+def sphere_guess(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) -> Float64Array:
+    """Directions (n, 3) where a sphere about the star centre, as large as the mirror is there, would reflect.
 
-    On the great circle from the eye's direction to the vertex's, at the share d_E / (d_E + d_V).
+    With heights h over a sphere of radius R and k = 1 + h / R, an angle x from P to an end makes the incidence
+    x + atan(sin x / (k - cos x)), which grows with x. Newton balances both ends from the paraxial share, where
+    incidence is x (1 + R / h). Two reads of the map whatever the rounds.
     """
-    eyes = np.broadcast_to(eye, (len(vertices), 4))
-    a, b = unit(eyes[:, :3]), unit(vertices)
-    distance = np.linalg.norm(eyes[:, :3], axis=1)
-    share = np.where(eyes[:, 3] > 0.0, distance / (distance + np.linalg.norm(vertices, axis=1)), 1.0)
-    cosine = np.clip(np.einsum("ij,ij->i", a, b), -1.0, 1.0)
-    across = b - cosine[:, None] * a
-    across = np.where(np.linalg.norm(across, axis=1, keepdims=True) < 1e-6, tangent_frame(a)[0], unit(across))
-    angle = (share * np.arccos(cosine))[:, None]
-    return np.cos(angle) * a + np.sin(angle) * across
+    a, b = unit(np.broadcast_to(eye[:3], vertices.shape)), unit(vertices)
+    angle, across = arc(a, b)
+    radius_a, radius_b = surface.radius(a)[0], surface.radius(b)[0]
+    radius = 0.5 * (radius_a + radius_b)
+    over_eye = np.maximum((np.linalg.norm(eye[:3]) - radius_a) / radius, SMALLEST_HEIGHT) if eye[3] else np.inf
+    over_vertex = np.maximum((np.linalg.norm(vertices, axis=1) - radius_b) / radius, SMALLEST_HEIGHT)
+    near_eye, near_vertex = 1.0 + 1.0 / over_eye, 1.0 + 1.0 / over_vertex
+    x = angle * near_vertex / (near_eye + near_vertex)
+
+    def incidence(x: Float64Array, over: Float64Array | float) -> tuple[Float64Array, Float64Array]:
+        """And its derivative."""
+        if np.isinf(over).any():
+            return x, np.ones(len(x))
+        # k - cos x without its cancellation
+        sine, away = np.sin(x), over + 2.0 * np.sin(0.5 * x) ** 2
+        return x + np.arctan2(sine, away), 1.0 + (np.cos(x) * away - sine**2) / (away**2 + sine**2)
+
+    for _ in range(SPHERE_ROUNDS):
+        (at_eye, slope_eye), (at_vertex, slope_vertex) = incidence(x, over_eye), incidence(angle - x, over_vertex)
+        x = np.clip(x - (at_eye - at_vertex) / (slope_eye + slope_vertex), 0.0, angle)
+    return np.cos(x)[:, None] * a + np.sin(x)[:, None] * across
 
 
-def path_change(eye: Float64Array, vertices: Float64Array, start: Float64Array, end: Float64Array) -> Float64Array:
-    """Path length by `end` minus path length by `start` (n,), without subtracting two long lengths.
+def arc_minimum(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) -> Float64Array:
+    """Directions (n, 3) where the path length stops falling on the great circle from eye to vertex, by bisection."""
+    a, b = unit(np.broadcast_to(eye[:3], vertices.shape)), unit(vertices)
+    angle, across = arc(a, b)
+    low, high = np.zeros(len(vertices)), angle
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        cosine, sine = np.cos(middle)[:, None], np.sin(middle)[:, None]
+        u, along = cosine * a + sine * across, cosine * across - sine * a
+        falls = np.einsum("ij,ij->i", path_gradient(eye, vertices, u, sample(surface, u)), along) < 0.0
+        low, high = np.where(falls, middle, low), np.where(falls, high, middle)
+    return on_arc(a, b, np.where(angle > 0.0, 0.5 * (low + high) / np.where(angle > 0.0, angle, 1.0), 0.0))
 
-    |X-Q| - |X-P| = (Q-P).(P+Q-2X) / (|X-P| + |X-Q|); for an eye at infinity the first leg is a projection.
+
+def start_of_rung(
+    rung: int, surface: RadialSurface, eye: Float64Array, vertices: Float64Array, hollow: bool
+) -> Float64Array:
+    """Directions (n, 3) to start a descent from, on any rung but ANY_KIND."""
+    name = RUNGS[rung]
+    if name == "sphere":
+        u = guess(eye, vertices) if hollow else sphere_guess(surface, eye, vertices)
+    elif name == "between":
+        u = guess(eye, vertices)
+    elif name == "vertex":
+        u = unit(vertices)
+    elif name == "eye":
+        u = unit(np.broadcast_to(eye[:3], vertices.shape))
+    else:
+        u = arc_minimum(surface, eye, vertices)
+    return on_hollow_side(surface, eye, vertices, u) if hollow else u
+
+
+def on_hollow_side(surface: RadialSurface, eye: Float64Array, vertices: Float64Array, u: Float64Array) -> Float64Array:
+    """Directions (n, 3), or their opposites where a hollow mirror reflects better there."""
+    ahead, behind = (mirror_error(eye, vertices, sample(surface, sign * u)) for sign in (1.0, -1.0))
+    # The angle to the inward normal is the supplement.
+    return np.where((behind > ahead)[:, None], -u, u)
+
+
+def solve(
+    surface: RadialSurface,
+    screen: Screen,
+    vertices: Float64Array,
+    previous: Float64Array | None = None,
+    tolerance: float = 0.05,
+    side: float = 1.0,
+    first_steps: int = FIRST_STEPS,
+    first_rung: int = 0,
+) -> tuple[Solution, np.ndarray]:
+    """Reflection points of vertices (n, 3) relative to the star centre, and on which rung (n,) each was settled.
+
+    `tolerance` in pixels; `previous` (n, 3) are directions where the vertices were reflected in the last frame, NaN
+    where they were not. `side` is -1 for a mirror that is hollow towards the eye. `first_rung` leaves rungs out.
     """
-    moved = end - start
+    eye, hollow, count = screen.eye, side < 0.0, len(vertices)
+    u = start_of_rung(0, surface, eye, vertices, hollow)
+    if previous is not None:
+        u = np.where(np.isfinite(previous), previous, u)
+    u, converged, iterations = minimise(surface, screen, vertices, u, first_steps, tolerance, hollow)
+    code = np.full(count, status.UNSOLVED)
+    rung = np.full(count, FIRST_PASS)
+    at = sample(surface, u)
+    code[converged & is_reflection_side(eye, vertices, at, side)] = status.REFLECTED
+    straight = _is_straight(eye, vertices, at) & converged & (code == status.UNSOLVED) & (not hollow)
+    code[straight] = status.HIDDEN
+    # The segment may enter the mirror elsewhere, nearer to the eye.
+    rows = np.flatnonzero(straight)
+    pierced, point = pierce(surface, eye, vertices[rows])
+    u[rows[pierced]] = unit(point[pierced])
 
-    def leg(x: Float64Array) -> Float64Array:
-        lengths = np.linalg.norm(x - start, axis=1) + np.linalg.norm(x - end, axis=1)
-        return np.einsum("ij,ij->i", moved, start + end - 2.0 * x) / np.maximum(lengths, 1e-30)
+    left = np.flatnonzero(code == status.UNSOLVED)
+    if not hollow:
+        pierced, point = pierce(surface, eye, vertices[left])
+        code[left[pierced]], rung[left[pierced]] = status.HIDDEN, HIDDEN_AT_ONCE
+        u[left[pierced]] = unit(point[pierced])
+        left = left[~pierced]
+    end = start_of_rung(0, surface, eye, vertices[left], hollow)
+    for number in range(first_rung, len(RUNGS)):
+        if len(left) == 0:
+            break
+        start = end if number == ANY_KIND else start_of_rung(number, surface, eye, vertices[left], hollow)
+        end, converged, taken = _descend(
+            surface, screen, vertices[left], start, tolerance, hollow, hollow or number == ANY_KIND
+        )
+        iterations[left] += taken
+        rung[left] = number
+        kept = converged | (code[left] == status.UNSOLVED)
+        u[left[kept]] = end[kept]
+        at = sample(surface, end)
+        right = converged & is_reflection_side(eye, vertices[left], at, side)
+        code[left[right]] = status.REFLECTED
+        hidden = ~right & converged
+        if not hollow:
+            length = np.linalg.norm(half_vector(eye, vertices[left], at.position), axis=1)
+            hidden = ~right & (length < np.where(converged, STRAIGHT, ON_HORIZON))
+        code[left[hidden]] = status.HIDDEN
+        # On a hollow mirror nothing proves that a vertex is hidden: other rungs may still find its reflection.
+        still = ~right if hollow else ~right & ~hidden
+        left, end = left[still], end[still]
+    return Solution(u, sample(surface, u), code, iterations), rung
 
-    return (leg(eye[:3]) if eye[3] else -(moved @ eye[:3])) + leg(vertices)
 
-
-def minimise(
+def _descend(
     surface: RadialSurface,
     screen: Screen,
     vertices: Float64Array,
     start: Float64Array,
-    steps: int,
     tolerance: float,
-    any_kind: bool = False,
+    hollow: bool,
+    any_kind: bool,
 ) -> tuple[Float64Array, np.ndarray, np.ndarray]:
-    """Descend from `start` (n, 3): directions (n, 3), converged (n,), steps taken (n,).
-
-    Converged means that a Newton step at a point of positive curvature moves less than `tolerance` pixels. With
-    `any_kind` the curvature may be of any sign.
-    """
-    eye = screen.eye
-    u = start.copy()
-    converged = np.zeros(len(vertices), bool)
-    iterations = np.zeros(len(vertices), int)
-    active = np.arange(len(vertices))
-
-    for _ in range(steps):
-        if len(active) == 0:
+    """As `minimise` with the full number of steps, and on from where the way to a point seen from behind enters."""
+    u, converged, iterations = minimise(surface, screen, vertices, start, STEPS, tolerance, any_kind)
+    for _ in range(0 if hollow else ENTRIES):
+        at = sample(surface, u)
+        behind = converged & ~is_reflection_side(screen.eye, vertices, at) & ~_is_straight(screen.eye, vertices, at)
+        rows = np.flatnonzero(behind)
+        enters, point = pierce(surface, screen.eye, at.position[rows])
+        rows = rows[enters]
+        if len(rows) == 0:
             break
-        here, target = u[active], vertices[active]
-        at = sample(surface, here)
-        g = path_gradient(eye, target, here, at)
-        step, regular = _newton_step(surface, eye, target, here, at, g, any_kind)
-        pixels = np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
-        done = (pixels < tolerance) & (np.linalg.norm(step, axis=1) < LONGEST_LAST_STEP) & regular
-        iterations[active] += 1
-
-        slope = _dot(g, step)
-        length = np.linalg.norm(g, axis=1)
-        factor = np.ones(len(active))
-        accepted = np.zeros(len(active), bool)
-        moved = here.copy()
-        for _ in range(TRIALS):
-            trial = unit(here + factor[:, None] * step)
-            there = sample(surface, trial)
-            change = path_change(eye, target, at.position, there.position)
-            descends = change <= SUFFICIENT * factor * slope + ROUNDING * at.radius
-            shortened = np.linalg.norm(path_gradient(eye, target, trial, there), axis=1)
-            contracts = shortened < (SLACKENED if any_kind else CONTRACTION) * length
-            good = ~accepted & regular & contracts if any_kind else ~accepted & (descends | (regular & contracts))
-            moved[good] = trial[good]
-            accepted |= good
-            factor = np.where(accepted, factor, SHORTENING * factor)
-            if accepted.all():
-                break
-        # The last step is below the tolerance: where rounding hides its descent the point stays.
-        u[active] = moved
-        converged[active[done]] = True
-        active = active[~done & accepted]
+        u[rows], converged[rows], taken = minimise(
+            surface, screen, vertices[rows], unit(point[enters]), STEPS, tolerance, any_kind
+        )
+        iterations[rows] += taken
     return u, converged, iterations
 
 
-def _newton_step(
-    surface: RadialSurface,
-    eye: Float64Array,
-    vertices: Float64Array,
-    u: Float64Array,
-    at: SurfaceSample,
-    g: Float64Array,
-    any_kind: bool,
-) -> tuple[Float64Array, np.ndarray]:
-    """Tangent step (n, 3), and whether the second derivative was positive as it was, without a shift."""
-    first, second = tangent_frame(u)
-    nearest = np.linalg.norm(vertices - at.position, axis=1)
-    if eye[3]:
-        nearest = np.minimum(nearest, np.linalg.norm(eye[:3] - at.position, axis=1))
-    delta = DIFFERENCE * np.minimum(1.0, 3.0 * nearest / at.radius) + SMALLEST_DIFFERENCE
-
-    def difference(direction: Float64Array) -> Float64Array:
-        moved = unit(u + delta[:, None] * direction)
-        return (path_gradient(eye, vertices, moved, sample(surface, moved)) - g) / delta[:, None]
-
-    by_first, by_second = difference(first), difference(second)
-    gx, gy = _dot(g, first), _dot(g, second)
-    hxx, hyy = _dot(by_first, first), _dot(by_second, second)
-    hxy = 0.5 * (_dot(by_first, second) + _dot(by_second, first))
-    middle, spread = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
-    lowest, highest = middle - spread, middle + spread
-    shift = np.maximum(0.0, np.maximum(np.abs(lowest), FLATTEST * np.abs(highest)) - lowest)
-    shift *= not any_kind
-    hxx, hyy = hxx + shift, hyy + shift
-    determinant = hxx * hyy - hxy * hxy
-    solvable = determinant != 0.0 if any_kind else determinant > 0.0
-    safe = np.where(solvable, determinant, np.inf)
-    sx = -(hyy * gx - hxy * gy) / safe
-    sy = -(hxx * gy - hxy * gx) / safe
-    capped = np.minimum(1.0, LONGEST_STEP / np.maximum(np.hypot(sx, sy), 1e-30))
-    step = (capped * sx)[:, None] * first + (capped * sy)[:, None] * second
-    return step, (shift == 0.0) & solvable
-
-
-def _dot(p: Float64Array, q: Float64Array) -> Float64Array:
-    return np.einsum("ij,ij->i", p, q)
+def _is_straight(eye: Float64Array, vertices: Float64Array, at: SurfaceSample) -> np.ndarray:
+    return np.linalg.norm(half_vector(eye, vertices, at.position), axis=1) < STRAIGHT

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cube_map import nearest_texel, texel_directions
+from .descent import guess, tangent_frame
 from .fermat import SurfaceSample, path_gradient, sample, towards_eye
-from .newton import guess, tangent_frame
 from .radial_surfaces import Float64Array, RadialSurface, unit
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .descent import tangent_frame
 from .fermat import sample, towards_eye
-from .newton import tangent_frame
 from .oracle import Oracle
 from .pierce import pierce
 from .radial_surfaces import Float64Array, unit

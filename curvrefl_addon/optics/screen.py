@@ -24,5 +24,9 @@ class Screen:
         """Offsets (n, 3) at points (n, 3) as seen from the eye: perpendicular part in pixels, (n, 3)."""
         direction = towards_eye(self.eye, points)
         across = offsets - np.einsum("ij,ij->i", offsets, direction)[:, None] * direction
+        return across * self.pixels_per_length(points)[:, None]
+
+    def pixels_per_length(self, points: Float64Array) -> Float64Array:
+        """(n,) pixels of a unit length at points (n, 3) across the line of sight."""
         distance = np.linalg.norm(self.eye[:3] - points, axis=1) if self.eye[3] else np.ones(len(points))
-        return across * (self.focal / np.maximum(distance, 1e-30))[:, None]
+        return self.focal / np.maximum(distance, 1e-30)

@@ -13,9 +13,9 @@ Two things go beyond the paper, because the search alone leaves 4 to 48 percent 
 when contact and grazing are included (`tools/measure_solver.py`):
 
 * a step longer than `LONGEST_STEP` radians is shortened, so that an extrapolation cannot leave for the far side;
-* the end of the search is checked and polished by `newton.minimise`: Newton steps on the path length with second
+* the end of the search is checked and polished by `descent.minimise`: Newton steps on the path length with second
   derivatives by differences of the same gradient. It takes one step where the secant search was right, and finds the
-  point where it was not. Where it fails it begins once more between eye and vertex (`newton.guess`); what that cannot
+  point where it was not. Where it fails it begins once more between eye and vertex (`descent.guess`); what that cannot
   solve stays unsolved.
 
 A vertex that ends on the far side, or unsolved, is hidden if the segment from the eye to it pierces the reflector
@@ -29,8 +29,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import status
+from .descent import guess, minimise, tangent_frame
 from .fermat import SurfaceSample, is_reflection_side, mirror_error, path_gradient, sample
-from .newton import guess, minimise, tangent_frame
 from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
 from .screen import Screen

@@ -30,8 +30,8 @@ from numpy.typing import NDArray
 
 from . import radial_surfaces, status
 from .cube_map import CubeMapSurface, nearest_texel
+from .descent import tangent_frame
 from .fermat import half_vector, towards_eye
-from .newton import tangent_frame
 from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
 from .screen import Screen

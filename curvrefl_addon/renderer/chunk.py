@@ -70,6 +70,8 @@ class Chunk:
         self._is_count = len(meshes) == 1 and is_count(self._corner_position)
         self._batches: dict[tuple[bytes, bool], Batches] = {}
         self._caster_batches: dict[frozenset[tuple[int, int]], Any] = {}
+        self.revision = 0
+        """Another one when positions are not the same any more"""
 
         corner_count = int(self._corner_starts[-1])
         sources = np.zeros((padded_count(self.position_count), 4), np.float32)
@@ -100,6 +102,7 @@ class Chunk:
         """Replace instances by the same with another matrix, object_id or mirror number."""
         for index, item in changed.items():
             self.placed[index] = item
+        self.revision += 1
         self._fill_table(changed)
         if len(changed) > MOST_RANGES:
             self._place(((0, self.position_count, 0, int(self._corner_starts[-1])),))

@@ -149,7 +149,7 @@ class DiagnosticPass:
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             marks.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             for mirror, chunks in enumerate(parts, 1):
-                for chunk in chunks:
+                for chunk in (part for part in chunks if part.image == 0):
                     self._draw_failed(mirror, chunk, seen, view_uniforms)
                     if options.point_size > 0.0:
                         self._draw_vertices(mirror, chunk, seen, reflected, view_uniforms, options.point_size)

@@ -123,8 +123,8 @@ class Reflection:
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks."""
-        return tuple(part.solution for parts in self.parts for part in parts)
+        """Of all mirrors and chunks: of every vertex its first image."""
+        return tuple(part.solution for parts in self.parts for part in parts if part.image == 0)
 
 
 class Renderer:
@@ -255,9 +255,9 @@ class Renderer:
         color.filter_mode(False)
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
         start = perf_counter()
-        reflection = self.reflect(view)
-        for solution in reflection.solutions:
-            solution.wait()
+        reflection = self.reflect(view, follow=False)
+        for part in (part for parts in reflection.parts for part in parts):
+            part.solution.wait()
         solved = perf_counter()
         with canvas.bind():
             canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
@@ -274,10 +274,11 @@ class Renderer:
         }
         return Frame(self, reflection, color, times)
 
-    def reflect(self, view: View, solve: bool = True) -> Reflection:
+    def reflect(self, view: View, solve: bool = True, follow: bool = True) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
 
-        Without `solve`, for diagnostic views of the mirrors' surface alone.
+        Without `solve`, for diagnostic views of the mirrors' surface alone. With `follow` the solve may start from the
+        last one's points.
         """
         if not solve:
             return Reflection(view, (), (), self.warnings)
@@ -302,6 +303,7 @@ class Renderer:
                 self.geometry.scenery(mirror.index),
                 self.geometry.of_instance(mirror.index),
                 self._materials,
+                follow,
             )
             for mirror in self.mirrors
         )

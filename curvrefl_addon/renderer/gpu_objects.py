@@ -100,6 +100,11 @@ def empty_record_texture(count: int) -> Any:
     return texture
 
 
+def empty_index_texture(count: int) -> Any:
+    """R32UI texture, TEXTURE_WIDTH wide, of so many numbers, to be written by a compute shader."""
+    return gpu.types.GPUTexture((TEXTURE_WIDTH, max(-(-count // TEXTURE_WIDTH), 1)), format="R32UI")
+
+
 def dispatch(shader: Any, count: int, group: int) -> None:
     """Run a bound compute shader for at least `count` invocations in groups of (group, 1, 1).
 

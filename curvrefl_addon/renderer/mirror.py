@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..optics.cube_map import CubeMapSurface
+from ..optics.curvature_regions import curvature_regions
 from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk
@@ -28,7 +29,7 @@ from .reflector_bake import bake_instance, polar
 from .reflector_map import ReflectorMap
 from .scene_geometry import CORNERS, Sight
 from .screen_maps import ScreenMaps, map_to_texels, widened
-from .solve import Reflector, SolvedChunk, VertexSolution, solve_vertices
+from .solve import Reflector, RegionTextures, SolvedChunk, VertexSolution, solve_region, solve_vertices
 from .split import split_angle
 
 if TYPE_CHECKING:
@@ -76,8 +77,9 @@ class Mirror:
         self._planes: Sequence[Plane] | None = None
         self._companion: tuple[Chunk, Batches] | None = None
         self._screen_maps = ScreenMaps()
+        self._regions: RegionTextures | None = None
         self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
-        self._before: dict[int, tuple[Chunk, VertexSolution]] = {}
+        self._before: dict[int, tuple[Chunk, int, VertexSolution]] = {}
 
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
@@ -184,10 +186,13 @@ class Mirror:
         scenery: Sequence[tuple[Chunk, Batches]],
         own: tuple[Chunk, Batches],
         materials: Materials,
+        follow: bool = True,
     ) -> tuple[SolvedChunk, ...]:
         """Reflection points of all vertices of the scenery; `own` is the mirror's own surface.
 
-        Raises InputError where the method cannot work on this shape.
+        Methods that can start from the last solve do so, and where nothing has changed its solution stands; without
+        `follow` a method on the radial map starts afresh, as a picture of its own should. Raises InputError where the
+        method cannot work on this shape.
         """
         self.require(settings.method)
         method = METHODS[settings.method]
@@ -196,7 +201,9 @@ class Mirror:
         parts = []
         for chunk, batches in scenery:
 
-            def search(positions: Any, count: int, last: VertexSolution | None = None) -> VertexSolution:
+            def search(
+                positions: Any, count: int, last: VertexSolution | None = None, at_rest: bool = False
+            ) -> VertexSolution:
                 return solve_vertices(
                     method.grid_search or settings.method,
                     view,
@@ -206,20 +213,49 @@ class Mirror:
                     steps=settings.steps,
                     tolerance=0.1 * settings.pixel_tolerance,
                     previous=last,
+                    at_rest=at_rest,
                 )
 
             if method.grid_search:
                 solution = self._grid(chunk, settings.grid_share).solve(chunk, search)
             else:
-                known = before.get(id(chunk))
-                solution = search(chunk.positions, chunk.position_count, None if known is None else known[1])
-            if "screen" in method.maps:
+                known = before.get(id(chunk)) if follow or "screen" in method.maps else None
+                last, at_rest = None, False
+                if known is not None:
+                    last = known[2]
+                    # The maps of a view are drawn anew for each solve.
+                    at_rest = known[1] == chunk.revision and "screen" not in method.maps
+                solution = search(chunk.positions, chunk.position_count, last, at_rest)
+            if "previous" in method.maps:
                 # The chunk is kept with it, so that no other chunk can get its id.
-                self._before[id(chunk)] = (chunk, solution)
+                self._before[id(chunk)] = (chunk, chunk.revision, solution)
             parts.append(SolvedChunk(chunk, batches, solution))
+        if method.several_images and reflector.side > 0.0:
+            parts += self._more_images(view, reflector, scenery, 0.1 * settings.pixel_tolerance)
         used = {id(chunk) for chunk, _ in scenery}
         self._grids = {key: grid for key, grid in self._grids.items() if key in used}
         return tuple(parts)
+
+    def _more_images(
+        self, view: View, reflector: Reflector, scenery: Sequence[tuple[Chunk, Batches]], tolerance: float
+    ) -> list[SolvedChunk]:
+        """One per region and chunk; none on a mirror that bends one way."""
+        if not self.may_hide_itself or self.is_open or self.map is None:
+            return []
+        if self._regions is None:
+            self._regions = RegionTextures(curvature_regions(CubeMapSurface(self.map.radial)))
+        if self._regions.count < 2:
+            return []
+        return [
+            SolvedChunk(
+                chunk,
+                batches,
+                solve_region(view, reflector, self._regions, region, chunk.positions, chunk.position_count, tolerance),
+                image=region + 1,
+            )
+            for region in range(self._regions.count)
+            for chunk, batches in scenery
+        ]
 
     def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
         maps = METHODS[settings.method].maps

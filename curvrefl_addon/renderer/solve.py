@@ -19,13 +19,27 @@ import numpy as np
 from ...gpu_shaders.loader import load
 from ..optics import status
 from ..optics.catalogue import METHODS
+from ..optics.curvature_regions import SEEDS, Regions
+from ..optics.newton_region import STEPS as REGION_STEPS
 from ..optics.secant_star import NEWTON_STEPS
 from ..scene.arrays import Float64Array
 from ..scene.view import View
 from .chunk import Batches, Chunk
-from .gpu_objects import dispatch, empty_record_texture, read_records, uniform_block
+from .gpu_objects import (
+    cube_texture,
+    dispatch,
+    empty_index_texture,
+    empty_record_texture,
+    read_records,
+    record_texture,
+    uniform_block,
+)
 
 GROUP = 64
+MOST_STRAGGLERS_AT_ONCE = 1 << 14
+"""Invocations of a clean-up pass, which share whatever the first pass has left"""
+SAME_VIEW = 2
+"""Solver block's last count where the last frame had the same view: a vertex that has not moved keeps what it showed"""
 SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
     "radial": (("FLOAT_CUBE", "radial"),),
     "parametric": (
@@ -34,7 +48,8 @@ SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
         ("FLOAT_2D", "surface_dv"),
         ("FLOAT_CUBE", "uv_of_direction"),
     ),
-    "screen": (("FLOAT_2D", "screen_position"), ("FLOAT_2D", "screen_normal"), ("FLOAT_2D", "previous_points")),
+    "screen": (("FLOAT_2D", "screen_position"), ("FLOAT_2D", "screen_normal")),
+    "previous": (("FLOAT_2D", "previous_points"), ("FLOAT_2D", "previous_virtual")),
     "plane": (),
 }
 """What a method's `maps` are to its shader: kind and name of each sampler, beside `positions`"""
@@ -85,6 +100,8 @@ class VertexSolution:
     virtual_positions: Any
     """Per position: where the vertex seems to be, and |PV|"""
     count: int
+    inputs: bytes = b""
+    """All that it was solved from beside positions and maps"""
 
     def read(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """P (n, 3), status (n,), iterations (n,), virtual positions with |PV| (n, 4); waits for the GPU."""
@@ -106,6 +123,8 @@ class SolvedChunk:
     chunk: Chunk
     batches: Batches
     solution: VertexSolution
+    image: int = 0
+    """0 for the image that every vertex has, or that says why not; 1, 2, ... for one in a region of the mirror"""
 
 
 def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
@@ -137,39 +156,99 @@ def solve_vertices(
     steps: int = 0,
     tolerance: float = 0.05,
     previous: VertexSolution | None = None,
+    at_rest: bool = False,
+    first_rung: int = 0,
 ) -> VertexSolution:
     """Solve `count` records of the `positions` texture with a method that has a compute shader of its own.
 
     `steps` of the search, 0 for the method's own number; `tolerance` in pixels of `view`; `previous` is the solution of
-    the same positions in the frame before, for methods that start from it.
+    the same positions in the frame before, for methods that start from it. It is the result too where nothing has
+    changed: `at_rest` says so of positions and maps. `first_rung` leaves starts of the clean-up pass out.
     """
-    world_to_map = reflector.world_to_map
     chosen = METHODS[method]
-    block = np.zeros(1, _BLOCK)
-    block["world_to_map"] = world_to_map.T
-    block["map_to_world"] = np.linalg.inv(world_to_map).T
-    block["map_to_search"] = reflector.map_to_search.T
-    block["eye"] = world_to_map @ view.eye
-    block["counts"] = (count, steps or chosen.steps, NEWTON_STEPS, previous is not None)
-    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
-    block["plane"] = reflector.plane
-    block["start"][0, :2] = reflector.start
+    block = _solver_block(view, reflector, count, steps or chosen.steps, tolerance)
+    block["start"][0, :3] = (*reflector.start, first_rung)
+    inputs = method.encode() + block.tobytes()
+    if at_rest and previous is not None and previous.inputs == inputs:
+        return previous
+    block["counts"][0, 3] = 0 if previous is None else SAME_VIEW if previous.inputs == inputs else 1
+    solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
+    images = {"reflection_points": solution.reflection_points, "virtual_positions": solution.virtual_positions}
+    if chosen.stragglers:
+        images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
+        images["straggler_count"].clear(format="UINT", value=(0,))
+    textures = dict(reflector.textures)
+    textures["previous_points"] = positions if previous is None else previous.reflection_points
+    textures["previous_virtual"] = positions if previous is None else previous.virtual_positions
+    # Bound by reference only: it has to outlive the dispatch.
+    uniforms = uniform_block(block)
+    for name, most in ((method, count), (chosen.stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
+        if not name:
+            continue
+        shader = _solver_shader(name, method)
+        shader.bind()
+        shader.uniform_block("solver", uniforms)
+        shader.uniform_sampler("positions", positions)
+        for _, sampler in _samplers(method):
+            shader.uniform_sampler(sampler, textures[sampler])
+        for image, texture in images.items():
+            shader.image(image, texture)
+        dispatch(shader, most, GROUP)
+    return solution
+
+
+def solve_region(
+    view: View,
+    reflector: Reflector,
+    regions: RegionTextures,
+    region: int,
+    positions: Any,
+    count: int,
+    tolerance: float = 0.05,
+) -> VertexSolution:
+    """Images of `count` records of `positions` in one region of a mirror that bends both ways; UNSOLVED is none."""
+    block = _solver_block(view, reflector, count, 0, tolerance)
+    block["start"] = (SEEDS, region, REGION_STEPS, 0)
     solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
     # Bound by reference only: it has to outlive the dispatch.
     uniforms = uniform_block(block)
-    shader = _solver_shader(method)
+    shader = _region_shader()
     shader.bind()
     shader.uniform_block("solver", uniforms)
     shader.uniform_sampler("positions", positions)
-    for _, name in _samplers(method):
-        texture = reflector.textures.get(name)
-        if name == "previous_points":
-            texture = positions if previous is None else previous.reflection_points
-        shader.uniform_sampler(name, texture)
+    shader.uniform_sampler("radial", reflector.textures["radial"])
+    shader.uniform_sampler("region_masks", regions.masks)
+    shader.uniform_sampler("region_seeds", regions.seeds)
     shader.image("reflection_points", solution.reflection_points)
     shader.image("virtual_positions", solution.virtual_positions)
     dispatch(shader, count, GROUP)
     return solution
+
+
+class RegionTextures:
+    """Regions of one mirror on the GPU."""
+
+    def __init__(self, regions: Regions) -> None:
+        self.count = len(regions)
+        masks = np.zeros((*regions.masks.shape, 4), np.float32)
+        masks[..., 0] = regions.masks
+        self.masks = cube_texture(masks, linear=False)
+        seeds = np.zeros((regions.seeds.shape[0] * SEEDS, 4), np.float32)
+        seeds[:, :3] = regions.seeds.reshape(-1, 3)
+        self.seeds = record_texture(seeds)
+
+
+def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:
+    """All but `start`."""
+    block = np.zeros(1, _BLOCK)
+    block["world_to_map"] = reflector.world_to_map.T
+    block["map_to_world"] = np.linalg.inv(reflector.world_to_map).T
+    block["map_to_search"] = reflector.map_to_search.T
+    block["eye"] = reflector.world_to_map @ view.eye
+    block["counts"] = (count, steps, NEWTON_STEPS, 0)
+    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
+    block["plane"] = reflector.plane
+    return block
 
 
 def _samplers(method: str) -> list[tuple[str, str]]:
@@ -177,15 +256,35 @@ def _samplers(method: str) -> list[tuple[str, str]]:
 
 
 @cache
-def _solver_shader(method: str) -> Any:
+def _solver_shader(name: str, method: str) -> Any:
+    """`gpu_shaders/<name>.comp.glsl` with what `method` gives its shaders."""
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(_TYPEDEF)
     info.uniform_buf(0, "Solver", "solver")
     info.sampler(0, "FLOAT_2D", "positions")
-    for slot, (kind, name) in enumerate(_samplers(method), 1):
-        info.sampler(slot, kind, name)
+    for slot, (kind, sampler) in enumerate(_samplers(method), 1):
+        info.sampler(slot, kind, sampler)
+    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
+    if METHODS[method].stragglers:
+        info.image(2, "R32UI", "UINT_2D", "stragglers", qualifiers={"READ", "WRITE"})
+        info.image(3, "R32UI", "UINT_2D_ATOMIC", "straggler_count", qualifiers={"READ", "WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load(f"{name}.comp.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _region_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_TYPEDEF)
+    info.uniform_buf(0, "Solver", "solver")
+    info.sampler(0, "FLOAT_2D", "positions")
+    info.sampler(1, "FLOAT_CUBE", "radial")
+    info.sampler(2, "FLOAT_CUBE", "region_masks")
+    info.sampler(3, "FLOAT_2D", "region_seeds")
     info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
     info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
     info.local_group_size(GROUP, 1)
-    info.compute_source(load(f"{method}.comp.glsl"))
+    info.compute_source(load("newton_region.comp.glsl"))
     return gpu.shader.create_from_info(info)

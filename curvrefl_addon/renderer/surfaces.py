@@ -13,6 +13,7 @@ from functools import cache
 from typing import Any
 
 import gpu
+import numpy as np
 
 from ...gpu_shaders.loader import load
 from .chunk import Batches, Chunk
@@ -20,6 +21,11 @@ from .gpu_objects import drawing_state, scissored
 from .materials import Materials
 from .solve import SolvedChunk
 from .view_block import TYPEDEF
+
+STRETCHED = float(np.cos(np.radians(8.0)))
+"""Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows"""
+STRETCHED_IN_REGION = float(np.cos(np.radians(3.0)))
+"""The same for further images: near folds neighbouring vertices may be in different ones"""
 
 
 class SurfaceBuffer:
@@ -123,6 +129,7 @@ def draw_reflected(
         if back_faces is not None:
             shader.uniform_sampler("back_faces", back_faces.distance)
         for part in scenery:
+            shader.uniform_float("stretched", STRETCHED if part.image == 0 else STRETCHED_IN_REGION)
             shader.uniform_sampler("positions", part.chunk.positions)
             shader.uniform_sampler("corners", part.chunk.corners)
             shader.uniform_sampler("reflection_points", part.solution.reflection_points)
@@ -169,6 +176,7 @@ def _reflected_shader(with_back_faces: bool) -> Any:
     Materials.declare(info, 2)
     info.push_constant("FLOAT", "mirror")
     info.push_constant("FLOAT", "depth_scale")
+    info.push_constant("FLOAT", "stretched")
     names = ["reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"]
     if with_back_faces:
         info.define("BACK_FACES")

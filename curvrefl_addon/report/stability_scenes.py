@@ -73,7 +73,8 @@ def trials() -> list[Trial]:
         _trial(
             "several images",
             "A mirror that bends both ways shows things two or three times: vertex methods find one image of each "
-            "vertex, and triangles between different images are left out; use an environment map for far things.",
+            "vertex, Newton one more in each region of the mirror, and triangles between different images are left "
+            "out; use an environment map for far things.",
             "strongly bumpy",
             (2.6, -3.2, 1.6),
             [_floor(-1.3), _box((2.2, -1.2, 0.4), 0.45), _box((-0.9, -2.6, 0.3), 0.45), _box((0.8, -2.4, -0.8), 0.3)],

@@ -133,11 +133,17 @@ class VertexTruth:
     def _solve(self, mirror: Mirror, settings: Settings) -> tuple[SolvedChunk, ...]:
         geometry = self._renderer.geometry
         parts = mirror.solve(
-            self._view, settings, geometry.scenery(mirror.index), geometry.of_instance(mirror.index), self._materials
+            self._view,
+            settings,
+            geometry.scenery(mirror.index),
+            geometry.of_instance(mirror.index),
+            self._materials,
+            follow=False,
         )
         for part in parts:
             part.solution.wait()
-        return parts
+        # What a vertex has beside its first image is not judged.
+        return tuple(part for part in parts if part.image == 0)
 
     def _judge(self, mirror: Mirror) -> _Judge:
         fine = bake_instance(self._arrays, mirror.index, FINER * Settings().map_resolution)

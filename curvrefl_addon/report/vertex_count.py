@@ -72,7 +72,7 @@ def _times(
 
     def solve() -> float:
         start = perf_counter()
-        for part in mirror.solve(view, settings, [(chunk, ())], own, materials):
+        for part in mirror.solve(view, settings, [(chunk, ())], own, materials, follow=False):
             part.solution.wait()
         return 1e3 * (perf_counter() - start)
 

@@ -38,6 +38,26 @@ def test_secant_star(rows: dict[tuple[str, str, str], Row], reflector: str) -> N
     assert hidden.misclassified == 0.0
 
 
+@pytest.mark.parametrize("reflector", ["sphere", "ellipsoid", "bumpy"])
+def test_newton(rows: dict[tuple[str, str, str], Row], reflector: str) -> None:
+    here = [rows[reflector, regime, "newton"] for regime in USUAL]
+    assert max(row.unconverged for row in here) == 0.0
+    assert max(row.error_p99_px for row in here) < 0.15
+    assert max(row.off for row in here) == 0.0
+    assert max(row.misclassified for row in here) == 0.0
+    mean = sum(row.iterations_mean for row in here) / len(here)
+    assert mean < {"sphere": 1.3, "ellipsoid": 4.5, "bumpy": 2.5}[reflector]
+    assert max(row.iterations_max for row in here) <= 40
+    hidden = rows[reflector, "hidden", "newton"]
+    assert (hidden.misclassified, hidden.unconverged) == (0.0, 0.0)
+
+
+def test_newton_in_a_hollow_mirror(rows: dict[tuple[str, str, str], Row]) -> None:
+    here = [rows["bowl", regime, "newton"] for regime in ("far", "near", "contact")]
+    assert max(row.error_p95_px for row in here) < 0.1
+    assert max(row.misclassified + row.unconverged for row in here) <= 0.1
+
+
 def test_secant_star_in_a_hollow_mirror(rows: dict[tuple[str, str, str], Row]) -> None:
     here = [rows["bowl", regime, "secant_star"] for regime in ("far", "near", "contact")]
     assert max(row.error_p95_px for row in here) < 0.1
@@ -88,6 +108,9 @@ def test_reflections_move_steadily() -> None:
     for path in ("eye", "objects"):
         assert found[path, "secant_star"].jitter_p99_px < 0.3
         assert found[path, "secant_star"].worst_pop_px < 1.0
+        assert found[path, "newton"].jitter_p99_px < 0.05
+        assert found[path, "newton"].worst_pop_px < 0.5
+        assert found[path, "newton"].iterations_later < 1.5
         # A search from texel to texel cannot be steadier than its texels, and starts where it ended.
         assert found[path, "bisector_screen"].jitter_p99_px < 8.0
         assert found[path, "bisector_screen"].iterations_later < 0.2 * found[path, "bisector_screen"].iterations_first

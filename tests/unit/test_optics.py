@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import fermat, newton, secant_star, sphere, status
+from curvrefl.curvrefl_addon.optics import descent, fermat, secant_star, sphere, status
 from curvrefl.curvrefl_addon.optics.pierce import pierce
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
@@ -36,7 +36,7 @@ def eye_at(distance: float, seed: int) -> np.ndarray:
 @pytest.mark.parametrize("name", SURFACES)
 def test_gradient_of_radius_is_the_derivative(name: str) -> None:
     surface, u = SURFACES[name], directions(500, 1)
-    first, second = newton.tangent_frame(u)
+    first, second = descent.tangent_frame(u)
     _, gradient = surface.radius(u)
     for tangent in (first, second):
         step = 1e-6
@@ -52,10 +52,10 @@ def test_path_gradient_is_the_derivative_of_the_path(name: str, w: float) -> Non
     surface, u, vertices = SURFACES[name], directions(500, 2), around(SURFACES[name], 500, 3)
     eye = eye_at(4.0, 4) if w else np.append(unit(np.array([1.0, 2.0, 3.0])), 0.0)
     gradient = fermat.path_gradient(eye, vertices, u, fermat.sample(surface, u))
-    for tangent in newton.tangent_frame(u):
+    for tangent in descent.tangent_frame(u):
         step = 1e-5
         ahead, behind = (fermat.sample(surface, unit(u + sign * step * tangent)).position for sign in (1, -1))
-        difference = newton.path_change(eye, vertices, behind, ahead) / (2 * step)
+        difference = descent.path_change(eye, vertices, behind, ahead) / (2 * step)
         np.testing.assert_allclose((gradient * tangent).sum(1), difference, rtol=1e-5, atol=2e-4)
 
 
@@ -66,7 +66,7 @@ def test_path_change_equals_the_difference_of_lengths() -> None:
     def length(p: np.ndarray) -> np.ndarray:
         return np.linalg.norm(eye[:3] - p, axis=1) + np.linalg.norm(vertices - p, axis=1)
 
-    np.testing.assert_allclose(newton.path_change(eye, vertices, start, end), length(end) - length(start), atol=1e-12)
+    np.testing.assert_allclose(descent.path_change(eye, vertices, start, end), length(end) - length(start), atol=1e-12)
 
 
 @given(distance=st.floats(1.01, 100.0), scale=st.floats(1e-3, 1e3), seed=st.integers(0, 10_000))

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first pass of `newton`: a few steps per vertex; what they do not settle is put on a list. Mirrors optics/newton.py.
+#include "newton_start.glsl"
+
+// solver.counts.w is 0 without a last frame, 1 with one, 2 where it had the same view
+#define SAME_VIEW 2
+
+// The last frame's reflection point, in world space and as a direction; whether there is one.
+bool last_point(vec4 before, out vec3 world_point, out vec3 u)
+{
+  world_point = before.xyz;
+  vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
+  u = safe_unit(point);
+  return int(before.w + 0.5) % 4 == REFLECTED && u != vec3(0.0);
+}
+
+void main()
+{
+  int index = invocation();
+  if (index >= solver.counts.x) {
+    return;
+  }
+  vec3 vertex = vertex_in_map(index);
+  if (!is_finite(vertex)) {
+    store_invalid(index);
+    return;
+  }
+  vec4 eye = solver.eye;
+  float side = solver.screen.w;
+  int iterations = 0;
+  vec3 world_point = vec3(0.0);
+  vec3 u;
+  bool warm = false;
+  if (solver.counts.w > 0) {
+    vec4 before = fetch_record(previous_points, index);
+    warm = last_point(before, world_point, u);
+    vec4 seemed = fetch_record(previous_virtual, index);
+    // To the last bit: what a vertex that has not moved showed in the same view stays as it is.
+    if (warm && solver.counts.w == SAME_VIEW && seemed.w == length_to(vertex, world_point)) {
+      imageStore(reflection_points, texel_of_record(index), before);
+      imageStore(virtual_positions, texel_of_record(index), seemed);
+      return;
+    }
+  }
+  if (!warm) {
+    u = first_guess(eye, vertex);
+  }
+  vec3 start = u;
+  bool converged = minimise(eye, solver.screen.x, vertex, solver.counts.y, solver.screen.y, side < 0.0, u, iterations);
+  SurfaceSample at = sample_surface(u);
+  if (converged && is_reflection_side(eye, vertex, at, side)) {
+    if (!warm || u != start) {
+      world_point = (solver.map_to_world * vec4(at.position, 1.0)).xyz;
+    }
+    store_reflected_at(index, iterations, vertex, world_point);
+  }
+  else if (converged && side > 0.0 && is_straight(eye, vertex, at.position, STRAIGHT)) {
+    store_pierced(index, iterations, vertex, at.position);
+  }
+  else {
+    store_unsolved(index, iterations, vertex, at.position);
+    uint place = imageAtomicAdd(straggler_count, ivec2(0), 1u);
+    imageStore(stragglers, texel_of_record(int(place)), uvec4(uint(index)));
+  }
+}
