@@ -54,11 +54,13 @@ class PathBuffer(SurfaceBuffer):
         window: Window,
         eye_is_inside: bool,
         depth_scale: float,
+        with_counts: bool = False,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
         `window` holds all of their pixels: outside of it the buffer is not touched. `depth_scale`: distance that gets
-        half of the depth range, metres.
+        half of the depth range, metres. `with_counts`: `direction` gets what each ray was tested against in place of
+        its direction: nodes, triangles, instances, and 1 where there is a ray.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
@@ -67,7 +69,7 @@ class PathBuffer(SurfaceBuffer):
             self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(*self._targets, self._uv))
         if window[2] <= 0 or window[3] <= 0:
             return
-        shader = _exact_shader(path is not None, self._uv is not None)
+        shader = _exact_shader(path is not None, self._uv is not None, with_counts)
         # ("ALWAYS": a depth test is what makes depth be written.)
         with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
@@ -103,8 +105,10 @@ class PathBuffer(SurfaceBuffer):
 
 
 @cache
-def _exact_shader(on_path: bool, with_images: bool) -> Any:
+def _exact_shader(on_path: bool, with_images: bool, with_counts: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
+    if with_counts:
+        info.define("WITH_COUNTS")
     info.vertex_in(0, "VEC2", "pos")
     info.push_constant("FLOAT", "depth_scale")
     RayScene.declare(info, 0)
