@@ -31,7 +31,7 @@ def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.Captu
         assert 1.0 < row["cold_iterations"] < 20.0
         assert row["cold_bytes"] == SOLVE_BYTES + FETCHES * FETCH_BYTES * row["cold_iterations"]
         assert row["cold_solves_per_second"] == pytest.approx(1e3 * row["solved"] / row["cold_ms"])
-        assert 0.0 < row["cold_of_bandwidth"] and 0.0 < row["cold_of_flops"]
+        assert row["cold_of_bandwidth"] > 0.0 and row["cold_of_flops"] > 0.0
     newton, secant = report["solves"]
     # A frame later the search begins where it ended.
     assert newton["warm_iterations"] < newton["cold_iterations"]
