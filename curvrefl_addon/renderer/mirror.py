@@ -285,6 +285,10 @@ class Mirror:
             for chunk, batches in scenery
         ]
 
+    def forget_solutions(self) -> None:
+        """Let the next solve begin as the first one did."""
+        self._before = {}
+
     def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
         maps = METHODS[settings.method].maps
         reflector = Reflector(self.world_to_map, self.bound, side=self.side(view))

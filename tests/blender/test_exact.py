@@ -278,3 +278,30 @@ def test_rays_shadow_what_is_hit() -> None:
     assert dark.sum() > 30 and lit.sum() > 300
     assert color[dark].max() == 0.0
     assert color[lit].min() > 0.3
+
+
+def test_what_has_moved_is_seen_where_it_is_now() -> None:
+    """A state of the scene in which only matrices differ; then one in which more does."""
+    scene = hall("vase", 2)
+    view = look_at(np.array(EYES[0]), np.zeros(3), 80, 60, 0.6)
+    renderer = Renderer(scene, Settings(method="exact", samples=1))
+    renderer.render(view)
+    before = dict(renderer.ray_counters)
+    turned = list(scene.instances)
+    for index in (0, 2, 5, 9):
+        matrix = turned[index].matrix.copy()
+        # One is turned inside out, too.
+        matrix[:3, 0] *= -1.0 if index == 5 else 1.0
+        matrix[:3, 3] += (0.1, -0.3, 0.2)
+        turned[index] = replace(turned[index], matrix=matrix)
+    moved = replace(scene, instances=tuple(turned))
+    renderer.update(moved)
+    verdict = judge(moved, view, renderer.render(view))
+    assert verdict.pixels > 500 and verdict.wrong == 0
+    assert renderer.ray_counters["hierarchies built"] == before["hierarchies built"]
+    hidden = replace(turned[2], visible_glossy=False, matrix=scene.instances[2].matrix)
+    rest = replace(moved, instances=(*turned[:2], hidden, *turned[3:]))
+    renderer.update(rest)
+    shown = renderer.render(view).reflected_object()
+    assert not (shown == hidden.object_id).any()
+    renderer.free()

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The benchmark counts what it says it counts; its times are no matter of tests."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from curvrefl.curvrefl_addon import cli
+from curvrefl.curvrefl_addon.report.benchmark import Limits
+from curvrefl.curvrefl_addon.report.benchmark_solves import FETCH_BYTES, FETCHES, SOLVE_BYTES
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+
+def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "out"
+    sizes = ["--vertices", "2000", "--triangles", "3000", "--bandwidth", "20", "--flops", "0.5"]
+    assert cli.main(["benchmark", *sizes, "--output", str(output)]) == 0
+    assert sorted(path.name for path in output.iterdir()) == ["benchmark.json", "benchmark.txt"]
+    report = json.loads((output / "benchmark.json").read_text())
+    assert all(report["device"].values())
+    assert report["limits"] == {"bandwidth": 20.0, "flops": 0.5}
+    assert [(row["method"], row["vertices"]) for row in report["solves"]] == [("newton", 2000), ("secant_star", 2000)]
+    for row in report["solves"]:
+        assert not row["left_out"]
+        assert row["solved"] == pytest.approx(2000, rel=0.1)
+        assert row["cold_unsolved"] == 0
+        assert 1.0 < row["cold_iterations"] < 20.0
+        assert row["cold_bytes"] == SOLVE_BYTES + FETCHES * FETCH_BYTES * row["cold_iterations"]
+        assert row["cold_solves_per_second"] == pytest.approx(1e3 * row["solved"] / row["cold_ms"])
+        assert row["cold_of_bandwidth"] > 0.0 and row["cold_of_flops"] > 0.0
+    newton, secant = report["solves"]
+    # A frame later the search begins where it ended.
+    assert newton["warm_iterations"] < newton["cold_iterations"]
+    assert secant["warm_ms"] is None
+    assert [row["triangles"] for row in report["rays"]] == [1000, 3000]
+    for row in report["rays"]:
+        assert not row["left_out"]
+        assert row["rays"] > 10_000
+        for state in ("quick", "best"):
+            # Every ray looks at the top level's root; some meet more.
+            assert row[f"{state}_nodes"] > 1.0
+            assert row[f"{state}_tested"] > 0.0
+            assert row[f"{state}_entered"] > 0.0
+    text = capfd.readouterr().out
+    assert (output / "benchmark.txt").read_text().strip() in text
+
+
+def test_shares_of_limits() -> None:
+    shares = Limits(bandwidth=100.0, flops=2.0).share(bytes_each=200.0, operations_each=1000.0, per_second=1e8)
+    assert shares == {"of_bandwidth": pytest.approx(0.2), "of_flops": pytest.approx(0.05)}
+    assert Limits().share(1.0, 1.0, 1.0) == {"of_bandwidth": None, "of_flops": None}
+
+
+@pytest.mark.parametrize("value", ["0", "-3", "many", "1e400"])
+def test_limits_are_numbers_above_zero(value: str) -> None:
+    assert cli.main(["benchmark", "--bandwidth", value]) == cli.BAD_INPUT
