@@ -59,7 +59,7 @@ def format_benchmark(report: dict[str, Any]) -> str:
     """As lines of text."""
     device = report["device"]
     lines = [f"{device['renderer']} ({device['vendor']}), {device['version']}, {device['backend']}", ""]
-    table = [_SOLVE_TITLES]
+    table: list[tuple[str, ...]] = [_SOLVE_TITLES]
     for row in report["solves"]:
         for state in ("cold", "warm"):
             if row["left_out"] or row[f"{state}_ms"] is None:
