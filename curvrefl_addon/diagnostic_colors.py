@@ -40,6 +40,9 @@ _METHOD_PALETTE: tuple[Color, ...] = (
     (0.350, 0.350, 0.350),
     (0.040, 0.040, 0.040),
     (0.450, 0.300, 0.900),
+    (0.750, 0.600, 0.480),
+    (0.000, 0.620, 0.560),
+    (0.900, 0.450, 0.620),
 )
 """Told apart by lightness too, as people with color blindness need; in the order of the catalogue"""
 

@@ -22,7 +22,9 @@ from .vertex_curves import Curve
 
 # Colors told apart by the color-blind: Paul Tol's "muted" scheme, black for the default method.
 STYLES: dict[str, tuple[str, str]] = {
-    "secant_star": ("#000000", "o"),
+    "auto": ("#000000", "o"),
+    "exact": ("#0077BB", "*"),
+    "secant_star": ("#663333", "o"),
     "newton": ("#EE3377", "H"),
     "secant_uv": ("#332288", "s"),
     "bisector_cube": ("#CC6677", "^"),

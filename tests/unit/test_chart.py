@@ -196,3 +196,13 @@ def test_missing_matplotlib_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_line_of_a_fit() -> None:
     assert Fit(2.0, 0.5, 3.0).at(4.0) == 11.0
+
+
+def test_every_method_has_a_look_of_its_own() -> None:
+    from curvrefl.curvrefl_addon.diagnostic_colors import method_color
+    from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+    from curvrefl.curvrefl_addon.report.chart_draw import STYLES
+
+    assert set(STYLES) == set(METHODS)
+    assert len(set(STYLES.values())) == len(METHODS)
+    assert len({method_color(name) for name in METHODS}) == len(METHODS)
