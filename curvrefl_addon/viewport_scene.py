@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from .errors import InputError
+from .optics.catalogue import METHODS
 from .options import marked_mirrors, newer_settings, overrides_of
 from .renderer.frame import Renderer, Settings
 from .renderer.scene_geometry import estimated_bytes
@@ -115,7 +116,8 @@ class ViewportScene:
         if arrays is None:
             self.free()
             return
-        needed = estimated_bytes(arrays)
+        method = METHODS.get(scene.curvrefl.method)
+        needed = estimated_bytes(arrays, method is None or method.follows_rays or method.chooses)
         if needed > memory_cap:
             self._arrays = None
             self.messages.append(

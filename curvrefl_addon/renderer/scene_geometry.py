@@ -344,12 +344,17 @@ def _box_corners(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float6
     return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
 
 
-def estimated_bytes(scene: SceneArrays) -> int:
-    """GPU memory that the scene's meshes will take, about, before edges are split."""
+def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
+    """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
     sizes = [
         32 * len(mesh.positions) + 64 * len(mesh.corner_vertex) + 24 * len(mesh.triangles) for mesh in scene.meshes
     ]
-    return sum(sizes[instance.mesh] for instance in scene.instances)
+    total = sum(sizes[instance.mesh] for instance in scene.instances)
+    if with_rays:
+        used = [scene.meshes[index] for index in {instance.mesh for instance in scene.instances}]
+        # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
+        total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
+    return total
 
 
 def _relative(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
