@@ -220,7 +220,7 @@ class Renderer:
         """One sentence each."""
         if self._warnings is None or self._warnings[0] != self.revision:
             self._warnings = (self.revision, self._found_warnings())
-        return self._warnings[1]
+        return self._warnings[1] if self._rays is None else (*self._warnings[1], *self._rays.warnings)
 
     def _bumpy_mirrors(self) -> list[str]:
         """Names of mirrors with bumps or normal maps."""

@@ -35,6 +35,8 @@ OWN_RANGE = 1e-4
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
+LARGEST_COORDINATE = 1e18
+"""As in vectors.glsl: squares of larger ones overflow"""
 OUT_OF_THE_WAY = 1e30
 """Where a box is that no ray need enter"""
 WORSE = 1.4
@@ -70,6 +72,8 @@ class RayScene:
         self.build_ms = 0.0
         """Of the last time that meshes came"""
         self._facts = facts
+        self._left_out: list[MeshArrays] = []
+        """Of which some triangles have no place"""
         self._meshes: dict[int, _MeshRays] = {}
         self._instances: list[InstanceArrays] = []
         """Those that have triangles"""
@@ -152,6 +156,13 @@ class RayScene:
         return [index for index, _, _ in differ if index in self._place_of]
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence each."""
+        return tuple(
+            f'"{mesh.name}" has vertices too far out: their triangles are left out.' for mesh in self._left_out
+        )
+
+    @property
     def can_improve(self) -> bool:
         """Whether `improve` would do anything."""
         return self._build is not None or any(not item.is_best for item in self._meshes.values())
@@ -188,6 +199,7 @@ class RayScene:
 
     def _read_meshes(self, scene: SceneArrays) -> None:
         start = perf_counter()
+        self._left_out = [mesh for mesh in self._left_out if any(mesh is other for other in scene.meshes)]
         used = {instance.mesh for instance in scene.instances}
         meshes = {id(mesh): mesh for index, mesh in enumerate(scene.meshes) if index in used}
         gone = {key: item for key, item in self._meshes.items() if key not in meshes}
@@ -197,7 +209,10 @@ class RayScene:
             if key in self._meshes:
                 continue
             places = _triangle_places(mesh)
-            kept = np.flatnonzero(np.isfinite(places).all(axis=(1, 2)))
+            # (nor is a comparison with what is no number true)
+            kept = np.flatnonzero((np.abs(places) < LARGEST_COORDINATE).all(axis=(1, 2)))
+            if len(kept) < len(places):
+                self._left_out.append(mesh)
             if len(kept) == 0:
                 continue
             boxes = _triangle_boxes(places[kept])

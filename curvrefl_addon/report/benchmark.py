@@ -80,8 +80,27 @@ def format_benchmark(report: dict[str, Any]) -> str:
 
 
 _WORK_TITLES = ("bytes", "operations", "of bandwidth", "of flops")
-_SOLVE_TITLES = ("vertices", "method", "start", "solve ms", "", "M/s", "iterations", "draw ms", *_WORK_TITLES)
-_RAY_TITLES = ("triangles", "hierarchy", "walk ms", "", "M rays/s", "nodes", "triangles tested", *_WORK_TITLES)
+_SOLVE_TITLES: tuple[str, ...] = (
+    "vertices",
+    "method",
+    "start",
+    "solve ms",
+    "",
+    "M/s",
+    "iterations",
+    "draw ms",
+    *_WORK_TITLES,
+)
+_RAY_TITLES: tuple[str, ...] = (
+    "triangles",
+    "hierarchy",
+    "walk ms",
+    "",
+    "M rays/s",
+    "nodes",
+    "triangles tested",
+    *_WORK_TITLES,
+)
 
 
 def _solve_cells(row: dict[str, Any], state: str) -> tuple[str, ...]:

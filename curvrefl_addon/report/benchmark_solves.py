@@ -89,30 +89,33 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     scenery: list[tuple[Chunk, Batches]] = [(chunk, chunk.batches(np.ones(1, bool)))]
     turn = 0.0
 
-    def solve() -> tuple[float, tuple[SolvedChunk, ...]]:
-        nonlocal turn
+    parts: list[SolvedChunk] = []
+
+    def solve() -> float:
+        # (Of the last solve alone: those of ten million vertices take 320 MB each.)
+        nonlocal turn, parts
         turn += TURN
         view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)
         start = perf_counter()
-        parts = mirror.solve(view, renderer.settings, scenery, own, materials)
-        for part in parts:
+        solved = mirror.solve(view, renderer.settings, scenery, own, materials)
+        for part in solved:
             part.solution.wait()
-        return 1e3 * (perf_counter() - start), parts
+        time = 1e3 * (perf_counter() - start)
+        parts = [part for part in solved if part.image == 0]
+        return time
 
     def solve_cold() -> float:
         mirror.forget_solutions()
-        return solve()[0]
+        return solve()
 
     solve_cold()
     cold = Timing(tuple(repeated(solve_cold, REPEATS, SECONDS)))
-    mirror.forget_solutions()
-    cold_parts = solve()[1]
     columns: dict[str, Any] = {"solved": mesh.positions.shape[0], "triangles": len(mesh.triangles)}
     columns |= timing_columns("cold_ms", cold)
-    columns |= _work("cold", [part for part in cold_parts if part.image == 0])
+    columns |= _work("cold", parts)
     if "previous" in METHODS[renderer.settings.method].maps:
-        columns |= timing_columns("warm_ms", Timing(tuple(time for time, _ in repeated(solve, REPEATS, SECONDS))))
-        columns |= _work("warm", [part for part in solve()[1] if part.image == 0])
+        columns |= timing_columns("warm_ms", Timing(tuple(repeated(solve, REPEATS, SECONDS))))
+        columns |= _work("warm", parts)
     else:
         columns |= timing_columns("warm_ms", None)
     for state in ("cold", "warm"):
@@ -122,7 +125,6 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     uniforms = view_block(view)
     seen, shown = SurfaceBuffer(*SIZE), SurfaceBuffer(*SIZE)
     draw_primary(seen, [own], materials, uniforms)
-    parts = [part for part in cold_parts if part.image == 0]
 
     def draw() -> float:
         shown.clear()

@@ -165,10 +165,25 @@ def test_a_reflector_that_cannot_be_one(
     path = saved(tmp_path, change)
     output = tmp_path / "out" / "x.exr"
     destination = output if verb == "render" else output.parent
-    code = cli.main([verb, str(path), "--reflector", "Mirror Ball", "--output", str(destination)])
+    # (rays need no map)
+    method = () if verb == "bake" else ("--method", "secant_star")
+    code = cli.main([verb, str(path), "--reflector", "Mirror Ball", *method, "--output", str(destination)])
     said = refused(code, output, capfd)
     assert "Mirror Ball" in said
     assert re.search(named, said), said
+
+
+@pytest.mark.parametrize("change", [bent_to_a_horseshoe, turned_to_a_bowl])
+def test_rays_take_any_shape(change: Change, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path, change))
+    assert code == 0, capfd.readouterr().err
+    assert np.isfinite(load_exr(output)).all()
+
+
+def test_triangles_too_far_out_are_left_out_with_a_warning(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    code, output = render(saved(tmp_path, with_a_vertex_far_out), "--method", "exact")
+    assert "too far out" in warned(code, capfd)
+    assert np.isfinite(load_exr(output)).all()
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
@@ -248,7 +263,7 @@ def test_a_camera_inside_the_reflector(tmp_path: Path, capfd: pytest.CaptureFixt
     def change(_ball: bpy.types.Object) -> None:
         bpy.data.objects["Eye"].location = (0.0, 0.0, 0.0)
 
-    code, output = render(saved(tmp_path, change))
+    code, output = render(saved(tmp_path, change), "--method", "secant_star")
     assert "inside" in warned(code, capfd)
     assert np.isfinite(load_exr(output)).all()
 
