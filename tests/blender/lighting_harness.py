@@ -307,7 +307,8 @@ class Harness:
 _MAIN = """
 vec3 mirror_at(Surface s, vec3 to_viewer)
 {
-  return mirror_reflectance(s, max(dot(s.normal, to_viewer), 0.0));
+  float cosine = max(dot(s.normal, to_viewer), 0.0);
+  return sharp_reflectance(s.base_color, s.metallic, s.ior, s.specular_level, s.glossy_only, cosine);
 }
 
 vec3 world_and_lamps_at(Surface s, vec3 to_viewer)
