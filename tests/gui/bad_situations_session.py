@@ -270,6 +270,15 @@ def grown_fin(faces: bmesh.types.BMesh) -> None:
 
 @situation
 def mirror_open() -> Steps:
+    bpy.context.scene.curvrefl.method = "secant_star"
+    changed_mesh(mirror(), cut_in_half)
+    yield CAUSED
+    yield from opened()
+
+
+@situation
+def mirror_open_under_rays() -> Steps:
+    bpy.context.scene.curvrefl.method = "exact"
     changed_mesh(mirror(), cut_in_half)
     yield CAUSED
     yield from opened()

@@ -39,6 +39,7 @@ EXPECTED = {
     "scenery_linked": GOES_ON,
     "mirror_linked": GOES_ON,
     "mirror_open": Expected(False, '"Mirror Ball" is open'),
+    "mirror_open_under_rays": GOES_ON,
     "mirror_not_manifold": GOES_ON,
     "scenery_open_and_not_manifold": GOES_ON,
     "scenery_scaled_negative": GOES_ON,
