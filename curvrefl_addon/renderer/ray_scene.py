@@ -211,7 +211,8 @@ class RayScene:
             places = _triangle_places(mesh)
             # (nor is a comparison with what is no number true)
             kept = np.flatnonzero((np.abs(places) < LARGEST_COORDINATE).all(axis=(1, 2)))
-            if len(kept) < len(places):
+            if len(kept) < np.isfinite(places).all(axis=(1, 2)).sum():
+                # (of what is no number the reader has said so)
                 self._left_out.append(mesh)
             if len(kept) == 0:
                 continue
