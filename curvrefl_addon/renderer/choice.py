@@ -28,8 +28,8 @@ PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7
 """Cost of a mirror pixel onto which solved triangles are drawn, of a solved vertex, of a triangle drawn"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
-CLEARLY = 0.8
-"""Reflection points are solved where they cost less than this share of rays: they need a map first"""
+CLEARLY = 0.5
+"""Points are solved where they cost less than this share of rays: they need a map first, and rays err less"""
 STRICTER = 0.7
 """Share of the error asked for to which edges are split: an edge is half of what a triangle's inside may be off"""
 MAPS = ((60.0, 64), (250.0, 128), (600.0, 256))
