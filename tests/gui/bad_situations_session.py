@@ -318,8 +318,9 @@ def mirror_scaled_to_nothing() -> Steps:
 
 
 def with_nan(item: bpy.types.Object) -> None:
+    # (of an infinity Blender makes the largest number, which is finite)
     item.data.vertices[0].co = (float("nan"), 0.0, 0.0)
-    item.data.vertices[1].co = (float("inf"), 0.0, 0.0)
+    item.data.vertices[1].co = (0.0, float("nan"), 0.0)
     item.data.update()
 
 
