@@ -393,8 +393,8 @@ class Renderer:
 
     def settle(self) -> None:
         """Do at once all that `improve` would do."""
-        while self.can_improve:
-            self.improve()
+        if self._rays is not None:
+            self._rays.finish()
 
     @property
     def ray_counters(self) -> dict[str, int]:

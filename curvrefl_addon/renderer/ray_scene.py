@@ -94,11 +94,6 @@ class RayScene:
         self._top_places = (0, 0, 0, 0)
         self._build: tuple[_MeshRays, HierarchyBuild] | None = None
 
-    @property
-    def is_empty(self) -> bool:
-        """There is nothing that a ray could hit."""
-        return not self._instances
-
     def bind(self, shader: Any) -> None:
         """Set what ray_walk.glsl needs on a bound shader that has called `declare`."""
         shader.uniform_sampler("rays", self.regions.texture)

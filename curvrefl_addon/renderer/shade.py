@@ -80,9 +80,9 @@ class ShadePass:
         classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
         with drawing_state("EQUAL"), classes.frame_buffer.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            self._add_light(classes, seen, reflected, view_uniforms, weight, mirrors_only, shadows)
+            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows)
             gpu.state.blend_set("ADDITIVE_PREMULT")
-            self._add_front(classes, seen, view_uniforms, weight, mirrors_only)
+            self._add_front(seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
             self._add_path(classes, bounce, view_uniforms, weight, shadows)
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
@@ -94,7 +94,6 @@ class ShadePass:
 
     def _add_light(
         self,
-        _classes: PixelClasses,
         seen: SurfaceBuffer,
         reflected: SurfaceBuffer | Sequence[Environment] | None,
         view_uniforms: Any,
@@ -126,9 +125,7 @@ class ShadePass:
             environment.bind(shader, environment.radiance)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
 
-    def _add_front(
-        self, _classes: PixelClasses, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool
-    ) -> None:
+    def _add_front(self, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool) -> None:
         """What adds to that in some scenes only (see `shade_front.frag.glsl`)."""
         mirrors = (PixelClass.MIRROR, PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
         if self._has_base:
