@@ -3,16 +3,19 @@
 // The first pass of `newton`: a few steps per vertex; what they do not settle is put on a list. Mirrors optics/newton.py.
 #include "newton_start.glsl"
 
-// solver.counts.w is 0 without a last frame, 1 with one, 2 where it had the same view
+// solver.counts.w is 0 without a last frame, 1 with one, 2 where it had the same view; solver.start.w is 1 on a closed
+// convex mirror
 #define SAME_VIEW 2
 
-// The last frame's reflection point, in world space and as a direction; whether there is one.
-bool last_point(vec4 before, out vec3 world_point, out vec3 u)
+// The last frame's reflection point, in world space and as a direction, or on a convex mirror where the way to a hidden
+// vertex entered it; whether there is one.
+bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
 {
   world_point = before.xyz;
   vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
   u = safe_unit(point);
-  return int(before.w + 0.5) % 4 == REFLECTED && u != vec3(0.0);
+  int status = int(before.w + 0.5) % 4;
+  return (status == REFLECTED || (convex && status == HIDDEN)) && u != vec3(0.0);
 }
 
 void main()
@@ -28,13 +31,14 @@ void main()
   }
   vec4 eye = solver.eye;
   float side = solver.screen.w;
+  bool convex = solver.start.w > 0.5;
   int iterations = 0;
   vec3 world_point = vec3(0.0);
   vec3 u;
   bool warm = false;
   if (solver.counts.w > 0) {
     vec4 before = fetch_record(previous_points, index);
-    warm = last_point(before, world_point, u);
+    warm = last_point(before, convex, world_point, u);
     vec4 seemed = fetch_record(previous_virtual, index);
     // To the last bit: what a vertex that has not moved showed in the same view stays as it is.
     if (warm && solver.counts.w == SAME_VIEW && seemed.w == length_to(vertex, world_point)) {
@@ -49,14 +53,22 @@ void main()
   vec3 start = u;
   bool converged = minimise(eye, solver.screen.x, vertex, solver.counts.y, solver.screen.y, side < 0.0, u, iterations);
   SurfaceSample at = sample_surface(u);
+  if (!warm || u != start) {
+    world_point = in_world(at.position);
+  }
   if (converged && is_reflection_side(eye, vertex, at, side)) {
-    if (!warm || u != start) {
-      world_point = (solver.map_to_world * vec4(at.position, 1.0)).xyz;
-    }
     store_reflected_at(index, iterations, vertex, world_point);
   }
   else if (converged && side > 0.0 && is_straight(eye, vertex, at.position, STRAIGHT)) {
-    store_pierced(index, iterations, vertex, at.position);
+    vec3 normal = surface_normal(at);
+    vec3 point = at.position;
+    // The way into a convex mirror leads over one front and one back; elsewhere another front may come before.
+    bool is_entry = convex && dot(normal, towards_eye(eye, point)) > 0.0;
+    if (!is_entry && pierce(eye, vertex, solver.screen.z, point)) {
+      world_point = in_world(point);
+      normal = surface_normal(sample_surface(safe_unit(point)));
+    }
+    store_hidden_at(index, iterations, vertex, world_point, normal);
   }
   else {
     store_unsolved(index, iterations, vertex, at.position);

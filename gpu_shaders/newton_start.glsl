@@ -54,6 +54,11 @@ bool is_straight(vec4 eye, vec3 vertex, vec3 point, float longest)
   return length(towards_eye(eye, point) + safe_unit(vertex - point)) < longest;
 }
 
+vec3 in_world(vec3 point)
+{
+  return (solver.map_to_world * vec4(point, 1.0)).xyz;
+}
+
 float length_to(vec3 vertex, vec3 world_point)
 {
   return length(vertex - (solver.world_to_map * vec4(world_point, 1.0)).xyz);
@@ -71,13 +76,14 @@ void store_reflected_at(int index, int iterations, vec3 vertex, vec3 world_point
       virtual_positions, texel, vec4((solver.map_to_world * vec4(virtual_position, 1.0)).xyz, length_to_vertex));
 }
 
-// A vertex that the mirror hides, with a point where the segment to it pierces the mirror; another may be nearer to the
-// eye.
-void store_pierced(int index, int iterations, vec3 vertex, vec3 point)
+// The same of a vertex that the mirror hides (see `store_hidden`).
+void store_hidden_at(int index, int iterations, vec3 vertex, vec3 world_point, vec3 normal)
 {
-  vec3 entry;
-  if (pierce(solver.eye, vertex, solver.screen.z, entry)) {
-    point = entry;
-  }
-  store_hidden(index, iterations, vertex, point, surface_normal(sample_surface(safe_unit(point))));
+  vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
+  vec3 offset = vertex - point;
+  vec3 mirrored = vertex - 2.0 * dot(normal, offset) * normal;
+  ivec2 texel = texel_of_record(index);
+  imageStore(reflection_points, texel, vec4(world_point, float(HIDDEN + 4 * iterations)));
+  imageStore(virtual_positions, texel,
+             vec4(in_world(mirrored), length_to(vertex, world_point)));
 }

@@ -73,7 +73,7 @@ void settle(int index)
   int iterations = solver.counts.y;
   vec3 point;
   if (side > 0.0 && pierce(eye, vertex, solver.screen.z, point)) {
-    store_hidden(index, iterations, vertex, point, surface_normal(sample_surface(safe_unit(point))));
+    store_hidden_at(index, iterations, vertex, in_world(point), surface_normal(sample_surface(safe_unit(point))));
     return;
   }
   bool ended = false;
@@ -88,13 +88,12 @@ void settle(int index)
     bool converged = descend(eye, vertex, side < 0.0 || rung == ANY_KIND, u, iterations);
     SurfaceSample at = sample_surface(u);
     if (converged && is_reflection_side(eye, vertex, at, side)) {
-      store_reflected_at(
-          index, min(iterations, STEP_BITS), vertex, (solver.map_to_world * vec4(at.position, 1.0)).xyz);
+      store_reflected_at(index, min(iterations, STEP_BITS), vertex, in_world(at.position));
       return;
     }
     // Where a descent fails on the horizon reflected and hidden are one, and the map's texels hold neither.
     if (side > 0.0 && is_straight(eye, vertex, at.position, converged ? STRAIGHT : ON_HORIZON)) {
-      store_hidden(index, iterations, vertex, at.position, surface_normal(at));
+      store_hidden_at(index, iterations, vertex, in_world(at.position), surface_normal(at));
       return;
     }
     // On a hollow mirror nothing proves that a vertex is hidden: other rungs may still find its reflection.
@@ -105,7 +104,7 @@ void settle(int index)
   }
   SurfaceSample at = sample_surface(ended ? end : u);
   if (ended) {
-    store_hidden(index, iterations, vertex, at.position, side * surface_normal(at));
+    store_hidden_at(index, iterations, vertex, in_world(at.position), side * surface_normal(at));
   }
   else {
     store_unsolved(index, iterations, vertex, at.position);

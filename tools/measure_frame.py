@@ -35,6 +35,7 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import frame as frame_module  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting import Lighting  # noqa: E402
@@ -114,6 +115,7 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (SurfaceBuffer, "clear", "clear", SurfaceBuffer.clear, _of_buffer),
         (BackFaces, "draw", "back faces", BackFaces.draw, _of_buffer),
         (frame_module, "draw_reflected", "reflected", frame_module.draw_reflected, _of_buffer),
+        (PathBuffer, "follow", "walk", PathBuffer.follow, _of_buffer),
         (Lighting, "prepare", "shadows", Lighting.prepare, _nothing),
         (PixelClasses, "sort", "classes", PixelClasses.sort, _of_buffer),
         (ShadePass, "_add_light", "shade", ShadePass._add_light, _of_second),

@@ -29,7 +29,6 @@ from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, Flo
 from curvrefl.curvrefl_addon.optics.screen import Screen  # noqa: E402
 from curvrefl.curvrefl_addon.optics.study_surfaces import Study  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.frame import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.gpu_objects import record_texture  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector  # noqa: E402
 from curvrefl.curvrefl_addon.report.solver_table import OFF, study_view  # noqa: E402
 
@@ -163,21 +162,14 @@ def main() -> None:
                 for regime_number, regime in enumerate(REGIMES):
                     seed = [list(shapes(1.0)).index(shape), eye_number, regime_number]
                     vertices, points = make_cases(surface, eye, regime, wanted, np.random.default_rng(seed))
-                    count = len(vertices)
-                    if count == 0:
+                    if len(vertices) == 0:
                         continue
-                    records = np.zeros((count, 4), np.float32)
-                    records[:, :3] = vertices
-                    positions = record_texture(records)
-                    previous = reflector.solve_records(
-                        "newton", view_before, Settings(method="newton"), positions, count
-                    )
+                    previous = reflector.solve("newton", view_before, Settings(method="newton"), vertices)
                     started = previous.read()[1] == status.REFLECTED
                     for name in names:
                         method, kind = name.split()
-                        settings = Settings(method=method)
                         start = previous if kind == "warm" else None
-                        solution = reflector.solve_records(method, view, settings, positions, count, start)
+                        solution = reflector.solve(method, view, Settings(method=method), vertices, start)
                         found, code, iterations, _ = solution.read()
                         error = np.linalg.norm(screen.pixels(points, found.astype(np.float64) - points), axis=1)
                         for key in (shape, regime, eye_name + " eye", "all"):
@@ -203,26 +195,15 @@ def measure_times(surface: RadialSurface, texels: int, names: list[str]) -> dict
     vertices = np.concatenate(
         [make_cases(surface, eye, regime, TIMED // len(REGIMES), random)[0] for regime in REGIMES]
     )
-    records = np.zeros((len(vertices), 4), np.float32)
-    records[:, :3] = vertices
-    positions = record_texture(records)
-    newton = Settings(method="newton")
-    previous = reflector.solve_records("newton", study_view(before), newton, positions, len(records))
+    previous = reflector.solve("newton", study_view(before), Settings(method="newton"), vertices)
+    solvers = {name: reflector.solver(name.split()[0], Settings(method=name.split()[0]), vertices) for name in names}
     times: dict[str, list[float]] = {name: [] for name in names}
     for repeat in range(REPEATS + 1):
         for name in names:
-            method, kind = name.split()
             begin = perf_counter()
-            reflector.solve_records(
-                method,
-                study_view(eye),
-                Settings(method=method),
-                positions,
-                len(records),
-                previous if kind == "warm" else None,
-            ).wait()
+            solvers[name](study_view(eye), previous if name.endswith("warm") else None).wait()
             if repeat > 0:
-                times[name].append(1e9 * (perf_counter() - begin) / len(records))
+                times[name].append(1e9 * (perf_counter() - begin) / len(vertices))
     return {name: float(np.median(values)) for name, values in times.items()}
 
 

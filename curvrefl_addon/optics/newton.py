@@ -16,7 +16,15 @@ import numpy as np
 
 from . import status
 from .descent import arc, guess, minimise, on_arc
-from .fermat import SurfaceSample, half_vector, is_reflection_side, mirror_error, path_gradient, sample
+from .fermat import (
+    SurfaceSample,
+    half_vector,
+    is_reflection_side,
+    mirror_error,
+    path_gradient,
+    sample,
+    towards_eye,
+)
 from .pierce import pierce
 from .radial_surfaces import Float64Array, RadialSurface, unit
 from .screen import Screen
@@ -123,11 +131,13 @@ def solve(
     side: float = 1.0,
     first_steps: int = FIRST_STEPS,
     first_rung: int = 0,
+    convex: bool = False,
 ) -> tuple[Solution, np.ndarray]:
     """Reflection points of vertices (n, 3) relative to the star centre, and on which rung (n,) each was settled.
 
-    `tolerance` in pixels; `previous` (n, 3) are directions where the vertices were reflected in the last frame, NaN
-    where they were not. `side` is -1 for a mirror that is hollow towards the eye. `first_rung` leaves rungs out.
+    `tolerance` in pixels; `previous` (n, 3) are directions where the vertices were reflected in the last frame or, on a
+    convex mirror, where the way to hidden ones entered it; NaN for others. `side` is -1 for a mirror that is hollow
+    towards the eye; `convex` says that the mirror is closed and so. `first_rung` leaves rungs out.
     """
     eye, hollow, count = screen.eye, side < 0.0, len(vertices)
     u = start_of_rung(0, surface, eye, vertices, hollow)
@@ -140,8 +150,9 @@ def solve(
     code[converged & is_reflection_side(eye, vertices, at, side)] = status.REFLECTED
     straight = _is_straight(eye, vertices, at) & converged & (code == status.UNSOLVED) & (not hollow)
     code[straight] = status.HIDDEN
-    # The segment may enter the mirror elsewhere, nearer to the eye.
-    rows = np.flatnonzero(straight)
+    # The way into a convex mirror leads over one front and one back; elsewhere another front may come before.
+    is_front = np.einsum("ij,ij->i", at.normal, towards_eye(eye, at.position)) > 0.0
+    rows = np.flatnonzero(straight & ~(convex & is_front))
     pierced, point = pierce(surface, eye, vertices[rows])
     u[rows[pierced]] = unit(point[pierced])
 

@@ -143,6 +143,11 @@ class Study:
     rim: float = 1.0
     """No mirror in directions whose z is greater: it is open there"""
 
+    @property
+    def is_convex(self) -> bool:
+        """Closed and convex as seen from outside."""
+        return self.side > 0.0 and not self.mixed and self.rim >= 1.0
+
     def cover(self, u: Float64Array) -> NDArray[np.bool_]:
         """(n,) which unit directions (n, 3) meet the mirror."""
         return u[:, 2] <= self.rim

@@ -28,8 +28,8 @@ PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7
 """Cost of a mirror pixel onto which solved triangles are drawn, of a solved vertex, of a triangle drawn"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
-CLEARLY = 0.5
-"""Points are solved where they cost less than this share of rays: they need a map first, and rays err less"""
+CLEARLY = 1.0
+"""Points are solved where they cost less than this share of rays (figures: `tools/measure_auto.py`)"""
 STRICTER = 0.7
 """Share of the error asked for to which edges are split: an edge is half of what a triangle's inside may be off"""
 MAPS = ((60.0, 64), (250.0, 128), (600.0, 256))
@@ -75,11 +75,16 @@ class Scenery:
 
 
 def choose(
-    settings: Settings, view: View, mirrors: Sequence[Mirror], scenery: Scenery, bumpy: Sequence[str] = ()
+    settings: Settings,
+    view: View,
+    mirrors: Sequence[Mirror],
+    scenery: Scenery,
+    bumpy: Sequence[str] = (),
+    sub_frames: int = 1,
 ) -> Choice:
     """For `settings` whose method is `auto`; the maps of mirrors are not needed.
 
-    `bumpy`: names of mirrors with bumps, which no map has.
+    `bumpy`: names of mirrors with bumps, which no map has. `sub_frames` share one solve.
     """
     unseen = np.ones(len(scenery.radii), bool)
     for mirror in mirrors:
@@ -103,7 +108,8 @@ def choose(
     largest = max((mirror.radius_pixels(view) for mirror in mirrors), default=1.0)
     added = SPLIT_TRIANGLES / split_angle(largest, STRICTER * settings.pixel_tolerance) ** 2
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
-    by_points = pixels * PIXEL_DRAWN + VERTEX_SOLVED * (vertices + 0.5 * added) + TRIANGLE_DRAWN * (triangles + added)
+    by_points = pixels * PIXEL_DRAWN + TRIANGLE_DRAWN * (triangles + added)
+    by_points += VERTEX_SOLVED * (vertices + 0.5 * added) / sub_frames
     share = by_points / max(by_rays, 1e-30)
     cost = f"{vertices:,} vertices to solve cost about {share:.1f} times what {pixels:,.0f} rays do"
     if not mirrors or share > CLEARLY:

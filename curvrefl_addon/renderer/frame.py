@@ -18,7 +18,8 @@ from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
-from .choice import RAYS, Choice, Scenery, choose
+from .choice import RAYS, Choice, Scenery, choose, in_shadow
+from .chunk import Batches, Chunk
 from .diagnostics import DiagnosticPass
 from .environment import Environment
 from .environment_cube import EnvironmentCube
@@ -185,20 +186,20 @@ class Renderer:
             self._used = before
             raise
 
-    def _choose(self, view: View) -> None:
-        """Let `auto` choose what is done in a view."""
+    def _choose(self, view: View, sub_frames: int) -> None:
+        """Let `auto` choose what is done in a view whose solve so many sub-frames share."""
         if not METHODS[self.settings.method].chooses:
             self._choice = None
             return
         if self._scenery is None:
             self._scenery = self._read_scenery()
-        self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors())
+        self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), sub_frames)
         if self._choice.settings == self._used:
             return
         self._use(self._choice.settings)
         if METHODS[self._used.method].needs_map and any(mirror.refusal is not None for mirror in self.mirrors):
             # Baking has shown that there is no map: the other way is chosen now.
-            self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors())
+            self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), sub_frames)
             self._use(self._choice.settings)
 
     def _read_scenery(self) -> Scenery:
@@ -316,7 +317,8 @@ class Renderer:
         Without `solve`, for diagnostic views of the mirrors' surface alone. With `follow` the solve may start from the
         last one's points.
         """
-        self._choose(view)
+        # (A view that moves has one sub-frame each; at rest nothing else is chosen.)
+        self._choose(view, 1 if follow else self.settings.samples)
         if not solve:
             return Reflection(view, (), (), self.warnings)
         used = self._used
@@ -337,7 +339,7 @@ class Renderer:
             mirror.solve(
                 view,
                 used,
-                self.geometry.scenery(mirror.index),
+                self._scenery_shown(mirror, view),
                 self.geometry.of_instance(mirror.index),
                 self._materials,
                 follow,
@@ -345,6 +347,12 @@ class Renderer:
             for mirror in self.mirrors
         )
         return Reflection(view, parts, None, self.warnings)
+
+    def _scenery_shown(self, mirror: Mirror, view: View) -> list[tuple[Chunk, Batches]]:
+        """All that a mirror may show, but chunks that it cannot for sure: these are not solved."""
+        parts = self.geometry.scenery(mirror.index)
+        hidden = in_shadow(mirror, view, *self.geometry.chunk_balls([chunk for chunk, _ in parts]))
+        return [part for part, is_hidden in zip(parts, hidden.tolist(), strict=True) if not is_hidden]
 
     def add_sub_frame(
         self,

@@ -291,7 +291,9 @@ class Mirror:
 
     def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
         maps = METHODS[settings.method].maps
-        reflector = Reflector(self.world_to_map, self.bound, side=self.side(view))
+        reflector = Reflector(
+            self.world_to_map, self.bound, side=self.side(view), is_convex=self.facts.never_sees_itself
+        )
         if "radial" in maps:
             reflector = replace(reflector, textures={"radial": self.radial})
         if "parametric" in maps:

@@ -186,6 +186,12 @@ class SceneGeometry:
             box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
         return box
 
+    def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
+        """Centres (n, 3) and radii (n,) of balls around chunks, world space."""
+        boxes = np.array([self._box(chunk)[:, :3] for chunk in chunks]).reshape(-1, 8, 3)
+        low, high = boxes.min(axis=1), boxes.max(axis=1)
+        return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
+
     def seen(self, view: View) -> list[tuple[Chunk, Batches]]:
         """All that the eye may see directly."""
         if self._seen is None:

@@ -89,6 +89,8 @@ class Reflector:
     """(4, 4) homogeneous point in the map frame to texels of the screen maps"""
     start: Sequence[float] = (0.0, 0.0)
     """Texel where a search on the screen maps begins"""
+    is_convex: bool = False
+    """Closed and convex: a line enters it once"""
 
 
 @dataclass(frozen=True)
@@ -167,7 +169,7 @@ def solve_vertices(
     """
     chosen = METHODS[method]
     block = _solver_block(view, reflector, count, steps or chosen.steps, tolerance)
-    block["start"][0, :3] = (*reflector.start, first_rung)
+    block["start"] = (*reflector.start, first_rung, reflector.is_convex)
     inputs = method.encode() + block.tobytes()
     if at_rest and previous is not None and previous.inputs == inputs:
         return previous

@@ -147,7 +147,14 @@ class StudyReflector:
             textures |= self._screen_maps.draw(self._surface, self._materials, wide)
             to_search, start = map_to_texels(wide, np.eye(4)), (0.5 * wide.width, 0.5 * wide.height)
         return Reflector(
-            np.eye(4), self.study.surface.bound, textures, self.study.side, plane, map_to_search=to_search, start=start
+            np.eye(4),
+            self.study.surface.bound,
+            textures,
+            self.study.side,
+            plane,
+            to_search,
+            start,
+            self.study.is_convex,
         )
 
     @cached_property

@@ -12,6 +12,8 @@ from curvrefl.curvrefl_addon.optics.descent import minimise
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.renderer import choice as choices
+from curvrefl.curvrefl_addon.renderer import frame as frame_module
+from curvrefl.curvrefl_addon.renderer import scene_geometry
 from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
 from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
@@ -99,3 +101,26 @@ def test_what_lies_in_the_mirrors_shadow_is_not_reflected() -> None:
     assert isinstance(objects, dict) and objects["not reflected"] == 1
     exact = rendered(scene, view, method="exact")
     assert not (exact.reflected_object() == number).any()
+
+
+@pytest.mark.parametrize("method", ["newton", "secant_star"])
+def test_chunks_in_the_mirrors_shadow_are_not_solved(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The picture is the same to the last bit without them, and from the other side they are there."""
+    monkeypatch.setattr(scene_geometry, "CHUNK_TRIANGLES", 1)
+    scene = hall("sphere", 0, clutter=4)
+    behind = np.diag([0.3, 0.3, 0.3, 1.0])
+    behind[:3, 3] = -1.8 * unit(EYE[None])[0]
+    number = len(scene.instances) + 1
+    scene = replace(scene, instances=(*scene.instances, InstanceArrays("behind", number, 1, behind, (0,))))
+    renderer = Renderer(scene, Settings(method=method, samples=1))
+    view = look_at(EYE, np.zeros(3), 240, 180, 0.6)
+    frame = renderer.render(view)
+    solved, picture = frame.solve["vertices"], frame.color()
+    from_behind = renderer.render(look_at(EYE * (1.0, -1.0, 1.0), np.zeros(3), 240, 180, 0.6))
+    assert from_behind.solve["vertices"] > solved
+    assert (from_behind.reflected_object() == number).any()
+    with monkeypatch.context() as patched:
+        patched.setattr(frame_module, "in_shadow", lambda mirror, view, centers, radii: np.zeros(len(radii), bool))
+        whole = renderer.render(view)
+    assert whole.solve["vertices"] > solved
+    np.testing.assert_array_equal(whole.color(), picture)

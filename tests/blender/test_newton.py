@@ -168,9 +168,33 @@ def test_a_warm_start_takes_one_step_or_two() -> None:
     assert np.array_equal(points[hidden], cold_points[hidden])
 
 
-def test_points_at_rest_keep_their_bits() -> None:
+@pytest.mark.parametrize("name", ["sphere", "ellipsoid"])
+def test_on_a_convex_mirror_hidden_vertices_start_warm_too(name: str) -> None:
+    """From where the way to them entered the mirror, where it enters it now being asked for by no march."""
+    placed = Placed(SURFACES[name], 8000)
+    before, after = placed.view(), placed.view(EYE + 0.009 * np.array([2.9, 2.3, 0.0]))
+    expected, code, _, seeming = placed.solve(after).read()
+    placed.reflector = replace(placed.reflector, is_convex=True)
+    cold = placed.solve(after).read()
+    warm = placed.solve(after, placed.solve(before)).read()
+    hidden = code == status.HIDDEN
+    assert hidden.mean() > 0.1
+    for points, now, iterations, virtual in (cold, warm):
+        assert (now == code).mean() > 0.999
+        both = hidden & (now == status.HIDDEN)
+        off = np.linalg.norm(after.project(points) - after.project(expected), axis=1)[both]
+        assert np.percentile(off, 99) < 0.2
+        apart = np.linalg.norm(virtual - seeming, axis=1)[both]
+        assert np.median(apart / (1e-6 + seeming[both, 3])) < 1e-3
+        if now is warm[1]:
+            assert iterations[both].mean() < 2.0
+
+
+@pytest.mark.parametrize("name", ["sphere", "bumpy"])
+def test_points_at_rest_keep_their_bits(name: str) -> None:
     """Solved from itself, over and over, without the shortcut for what has not changed."""
-    placed = Placed(SURFACES["bumpy"], 8000)
+    placed = Placed(SURFACES[name], 8000)
+    placed.reflector = replace(placed.reflector, is_convex=name == "sphere")
     view = placed.view()
     first = placed.solve(view)
     latest = first

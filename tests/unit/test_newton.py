@@ -134,6 +134,33 @@ def test_every_rung_of_the_ladder_is_reached() -> None:
     assert (reached > 0).all(), dict(zip(newton.RUNGS, reached, strict=True))
 
 
+@pytest.mark.parametrize("height", [0.03, 3.0])
+@pytest.mark.parametrize("name", ["sphere", "flat ellipsoid", "ellipsoid"])
+def test_known_to_be_convex_hidden_vertices_are_marched_for_once(
+    name: str, height: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The descent ends where the way to them enters the mirror or leaves it; the next frame's starts at the entry."""
+    surface = SURFACES[name]
+    eye = eye_over(surface, height, 3)
+    screen = Screen(eye, 660.0)
+    vertices = around(surface, 4000, 4)
+    expected, _ = newton.solve(surface, screen, vertices)
+    marched = []
+    march = newton.pierce
+    monkeypatch.setattr(newton, "pierce", lambda *args: marched.append(len(args[2])) or march(*args))
+    solution, _ = newton.solve(surface, screen, vertices, convex=True)
+    hidden = solution.status == status.HIDDEN
+    assert np.array_equal(solution.status, expected.status) and hidden.mean() > 0.02
+    off = screen.pixels(expected.at.position[hidden], (solution.at.position - expected.at.position)[hidden])
+    assert np.percentile(np.linalg.norm(off, axis=1), 99) < 0.1
+    assert marched[0] < 0.8 * hidden.sum()
+    marched.clear()
+    warm, _ = newton.solve(surface, screen, vertices, previous=solution.u, convex=True)
+    assert sum(marched) < 0.01 * hidden.sum()
+    assert (warm.status == solution.status).mean() > 0.999
+    assert warm.iterations[hidden].mean() < 1.5
+
+
 @pytest.mark.parametrize("rung", range(len(newton.RUNGS)), ids=newton.RUNGS)
 def test_each_rung_alone_is_right(rung: int) -> None:
     """With no step of the first pass allowed to converge, and all rungs before it left out."""
