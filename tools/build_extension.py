@@ -26,7 +26,7 @@ def build(folder: Path) -> Path:
 
 def _shipped(*parts: str) -> str:
     """A script that comes with Blender."""
-    return str(Path(bpy.utils.system_resource("SCRIPTS"), *parts))
+    return str(Path(bpy.utils.system_resource("SCRIPTS"), *parts))  # type: ignore[attr-defined]  # (the stubs lack it)
 
 
 def _call(tool: str, *arguments: str) -> None:

@@ -49,7 +49,7 @@ def main() -> None:
             total += (verdict.pixels, verdict.wrong, verdict.ties)
         seed += 1
     print(f"{'mirror':<10} {'pixels':>9} {'wrong':>6} {'edges':>6}")
-    for name, total in [*totals.items(), ("all", sum(totals.values()))]:
+    for name, total in [*totals.items(), ("all", np.sum(list(totals.values()), axis=0))]:
         print(f"{name:<10} {total[0]:>9,} {total[1]:>6} {total[2]:>6}")
 
 

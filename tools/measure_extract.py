@@ -16,6 +16,7 @@ import statistics
 import subprocess
 import sys
 import time
+from typing import Any
 
 import bootstrap
 import bpy
@@ -46,7 +47,8 @@ def grid(side: int, kind: str) -> bpy.types.Object:
     if kind.startswith("sharp"):
         sharp = np.zeros(len(mesh.edges), bool)
         sharp[::101] = True
-        mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE").data.foreach_set("value", sharp)
+        attribute: Any = mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
+        attribute.data.foreach_set("value", sharp)
     if kind.endswith("UV"):
         uv = (0.5 * positions[..., :2] + 0.5).reshape(-1, 2)[quads.reshape(-1)]
         mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", np.ascontiguousarray(uv).reshape(-1))
@@ -69,6 +71,7 @@ def measure(side: int, repeats: int, kind: str) -> None:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     obj = grid(side, kind)
     scene = bpy.context.scene
+    assert scene is not None
     times, cpu_times = [], []
     corners = 0
     bpy.context.evaluated_depsgraph_get()

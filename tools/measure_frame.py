@@ -129,7 +129,9 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
 
 def extracted(reflectors: list[bpy.types.Object]) -> SceneArrays:
     """The open scene, read anew."""
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), bpy.context.scene, reflectors)
+    scene = bpy.context.scene
+    assert scene is not None
+    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors)
 
 
 def passes_of(renderer: Renderer, view: View, repeats: int) -> dict[str, float]:
@@ -199,7 +201,7 @@ def compare(renderer: Renderer, view: View, name: str, dump: Path | None, agains
     arrays = {"color": frame.color(), **frame.surfaces}
     if dump is not None:
         dump.mkdir(parents=True, exist_ok=True)
-        np.savez(dump / name, **arrays)
+        np.savez(dump / name, allow_pickle=False, **arrays)
     if against is not None:
         with np.load(against / name) as before:
             for key, now in arrays.items():

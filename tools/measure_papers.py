@@ -105,7 +105,9 @@ def ball(
 
 def block(center: tuple[float, ...], halves: tuple[float, ...], cells: int) -> MeshArrays:
     """A box with cells^2 quads on each side."""
-    positions, normals, triangles = [], [], []
+    positions: list[np.ndarray] = []
+    normals: list[np.ndarray] = []
+    triangles: list[np.ndarray] = []
     edge = np.linspace(-1.0, 1.0, cells + 1)
     x, y = (grid.ravel() for grid in np.meshgrid(edge, edge))
     low = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()

@@ -17,10 +17,14 @@ bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.optics import secant_star, sphere, status  # noqa: E402
 from curvrefl.curvrefl_addon.optics.fermat import sample  # noqa: E402
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, unit  # noqa: E402
+from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit  # noqa: E402
 from curvrefl.curvrefl_addon.optics.screen import Screen  # noqa: E402
 
-SHAPES = {"sphere": Ellipsoid(), "ellipsoid 2:1:0.5": Ellipsoid(1.0, 0.5, 0.25), "bumpy": Bumpy(0.15)}
+SHAPES: dict[str, RadialSurface] = {
+    "sphere": Ellipsoid(),
+    "ellipsoid 2:1:0.5": Ellipsoid(1.0, 0.5, 0.25),
+    "bumpy": Bumpy(0.15),
+}
 EYE = np.array([2.3, -2.9, 1.8, 1.0])
 FOCAL = 240 / np.tan(np.radians(20))
 """Pixels: 480 rows at 40 degrees"""

@@ -63,7 +63,9 @@ class Session:
         if self.changes:
             changes, self.changes = self.changes, Changes()
             depsgraph = bpy.context.evaluated_depsgraph_get()
-            arrays = self.reader.read(depsgraph, bpy.context.scene, [bpy.data.objects["Mirror"]], changes)
+            scene = bpy.context.scene
+            assert scene is not None
+            arrays = self.reader.read(depsgraph, scene, [bpy.data.objects["Mirror"]], changes)
             if self.renderer is None:
                 self.renderer = Renderer(arrays, settings)
             else:
@@ -120,7 +122,7 @@ def build(count: int, vertices: int) -> None:
     for index in range(count):
         obj = bpy.data.objects.new(f"item {index}", mesh)
         direction = rng.normal(size=3)
-        obj.location = direction / np.linalg.norm(direction) * rng.uniform(3.0, 12.0)
+        obj.location = (direction / np.linalg.norm(direction) * rng.uniform(3.0, 12.0)).tolist()
         obj.scale = (0.2, 0.2, 0.2)
         bpy.context.scene.collection.objects.link(obj)
     lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "AREA"))

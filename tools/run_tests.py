@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import shutil
 import subprocess
 import sys
@@ -44,23 +45,28 @@ def run(layers: Sequence[str]) -> int:
     return 0 if passed else 1
 
 
-def _check(label: str, *command: str, cwd: Path = ROOT) -> bool:
-    """Run a tool of this Python in `cwd`; its output comes through."""
-    passed = subprocess.run([sys.executable, "-m", *command], cwd=cwd).returncode == 0
+def _check(label: str, *command: str, cwd: Path = ROOT, paths: str = "") -> bool:
+    """Run a tool of this Python in `cwd`, `paths` for mypy to find modules on; its output comes through."""
+    environment = os.environ | ({"MYPYPATH": paths} if paths else {})
+    passed = subprocess.run([sys.executable, "-m", *command], cwd=cwd, env=environment).returncode == 0
     print(f"{label}: {'passed' if passed else 'FAILED'}", flush=True)
     return passed
 
 
 def _check_types() -> bool:
-    """mypy wants a folder that is called like the package: links to what ships."""
+    """Of what ships and of the tools. mypy wants a folder that is called like the package: links to what ships."""
     package = ROOT / "build" / "mypy" / "curvrefl"
     shutil.rmtree(package, ignore_errors=True)
     package.mkdir(parents=True)
     for name in TYPE_CHECKED:
         (package / name).symlink_to(ROOT / name)
-    settings = str(ROOT / "pyproject.toml")
-    cache = str(ROOT / ".mypy_cache")
-    return _check("mypy", "mypy", "--config-file", settings, "--cache-dir", cache, "-p", "curvrefl", cwd=package.parent)
+    command = ("mypy", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(ROOT / ".mypy_cache"))
+    ships = _check("mypy", *command, "-p", "curvrefl", cwd=package.parent)
+    tools = [str(path) for path in sorted((ROOT / "tools").glob("*.py"))]
+    # (In the stubs of bpy nearly everything may be None.)
+    loose = ("--namespace-packages", "--explicit-package-bases", "--disable-error-code", "union-attr")
+    folders = os.pathsep.join(str(folder) for folder in (package.parent, ROOT / "tools", ROOT / "tests"))
+    return _check("mypy of the tools", *command, *loose, *tools, paths=folders) and ships
 
 
 def _run_pytest(folders: Sequence[Path]) -> bool:
