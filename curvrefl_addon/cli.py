@@ -93,9 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument(
         "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
     )
-    render.add_argument(
-        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
-    )
+    _add_shadow_rays(render)
     render.add_argument(
         "--passes",
         default="color",
@@ -110,9 +108,7 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument(
         "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
     )
-    compare.add_argument(
-        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
-    )
+    _add_shadow_rays(compare)
     compare.add_argument(
         "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"
     )
@@ -220,6 +216,12 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
         "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )
     parser.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
+
+
+def _add_shadow_rays(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
+    )
 
 
 def _between(least: int, most: int) -> Callable[[str], int]:

@@ -116,13 +116,9 @@ vec3 start_direction(vec4 eye, vec3 vertex)
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec4 eye = solver.eye;

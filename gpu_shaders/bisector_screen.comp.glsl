@@ -110,13 +110,9 @@ ivec2 start_texel(int index, out bool was_hidden)
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec4 eye = solver.eye;

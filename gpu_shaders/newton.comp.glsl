@@ -20,13 +20,9 @@ bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec4 eye = solver.eye;

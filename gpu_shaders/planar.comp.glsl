@@ -6,13 +6,9 @@
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec3 normal = solver.plane.xyz;

@@ -125,13 +125,9 @@ vec3 secant_search(vec4 eye, float focal, vec3 vertex, int steps, inout int iter
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec4 eye = solver.eye;

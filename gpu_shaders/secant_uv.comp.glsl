@@ -134,13 +134,9 @@ vec2 nearest_on_map(vec2 wraps, vec3 point)
 
 void main()
 {
-  int index = invocation();
-  if (index >= solver.counts.x) {
-    return;
-  }
-  vec3 vertex = vertex_in_map(index);
-  if (!is_finite(vertex)) {
-    store_invalid(index);
+  int index;
+  vec3 vertex;
+  if (!begin(index, vertex)) {
     return;
   }
   vec4 eye = solver.eye;

@@ -28,6 +28,22 @@ void store_invalid(int index)
   store(index, INVALID, 0, vec3(0.0), vec3(0.0), 0.0);
 }
 
+// The vertex of this invocation, in the map frame; false where there is none to solve, which is stored then.
+bool begin(out int index, out vec3 vertex)
+{
+  vertex = vec3(0.0);
+  index = invocation();
+  if (index >= solver.counts.x) {
+    return false;
+  }
+  vertex = vertex_in_map(index);
+  if (!is_finite(vertex)) {
+    store_invalid(index);
+    return false;
+  }
+  return true;
+}
+
 void store_reflected(int index, int iterations, vec3 vertex, vec3 point)
 {
   float length_to_vertex = length(vertex - point);

@@ -76,8 +76,6 @@ class Mirror:
             self.world_to_map, self.bound = self.map.world_to_map, self.map.r_max
         self.bake_ms = 1e3 * (perf_counter() - start)
         self._instance = instance
-        self._mesh = facts.mesh
-        self._box = facts.box
         self.may_hide_itself = not facts.is_convex
         self.facts = facts
         self.index, self.number = index, number
@@ -93,7 +91,7 @@ class Mirror:
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
         instance = scene.instances[index]
-        if scene.meshes[instance.mesh] is not self._mesh:
+        if scene.meshes[instance.mesh] is not self.facts.mesh:
             return False
         if instance is not self._instance:
             placed = _moved_map(self.world_to_map, self._instance, instance)
@@ -136,7 +134,7 @@ class Mirror:
     @property
     def mesh(self) -> MeshArrays:
         """What was baked."""
-        return self._mesh
+        return self.facts.mesh
 
     @property
     def object_id(self) -> int:
@@ -162,8 +160,8 @@ class Mirror:
         matrix = self._instance.matrix
         if self._inner_radius is None:
             # The same wherever it moves: a mirror that is stretched is another one.
-            corners = (self._mesh.positions - middle) @ matrix[:3, :3].T
-            a, b, c = (corners[self._mesh.corner_vertex[self._mesh.triangles[:, k]]] for k in range(3))
+            corners = (self.facts.mesh.positions - middle) @ matrix[:3, :3].T
+            a, b, c = (corners[self.facts.mesh.corner_vertex[self.facts.mesh.triangles[:, k]]] for k in range(3))
             normals = np.cross(b - a, c - a)
             lengths = np.linalg.norm(normals, axis=1)
             # Slivers have no plane.
@@ -182,7 +180,7 @@ class Mirror:
             return False
         if self.map is None:
             place = np.linalg.solve(self._instance.matrix, view.eye)[:3]
-            return self.facts.is_closed and holds_point(self._mesh, place)
+            return self.facts.is_closed and holds_point(self.facts.mesh, place)
         if distance == 0.0:
             return True
         radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / distance)
@@ -190,7 +188,7 @@ class Mirror:
 
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
-        low, high = self._box
+        low, high = self.facts.box
         corners = np.ones((8, 4))
         corners[:, :3] = np.where(CORNERS, high, low)
         clip = corners @ (view.world_to_clip @ self._instance.matrix).T
@@ -300,7 +298,7 @@ class Mirror:
             reflector = replace(reflector, textures=self._parametric_map().samplers())
         if "plane" in maps:
             if self._planes is None:
-                self._planes = flat_parts(self._mesh, self._instance, self.world_to_map)
+                self._planes = flat_parts(self.facts.mesh, self._instance, self.world_to_map)
             reflector = replace(reflector, plane=facing_plane(self._planes, self.world_to_map @ view.eye))
         if "screen" in maps:
             wide = widened(view, settings.frustum, settings.search_resolution)
@@ -325,8 +323,8 @@ class Mirror:
             return 1.0
         eye = self.world_to_map @ view.eye
         to_map = self.world_to_map @ self._instance.matrix
-        positions = self._mesh.positions @ to_map[:3, :3].T + to_map[:3, 3]
-        corners = positions[self._mesh.corner_vertex[self._mesh.triangles]]
+        positions = self.facts.mesh.positions @ to_map[:3, :3].T + to_map[:3, 3]
+        corners = positions[self.facts.mesh.corner_vertex[self.facts.mesh.triangles]]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         middle = corners.mean(axis=1)
         normals *= np.sign(np.einsum("ij,ij->i", normals, middle))[:, None]
@@ -345,7 +343,7 @@ class Mirror:
         from .parametric_map import bake_parametric
 
         if self._parametric is None:
-            self._parametric = bake_parametric(self._mesh, self._instance, self.world_to_map)
+            self._parametric = bake_parametric(self.facts.mesh, self._instance, self.world_to_map)
         return self._parametric
 
 
