@@ -95,6 +95,8 @@ class Reflection:
     """One sentence each"""
     follows_rays: bool = False
     """Mirror pixels follow their rays: there is nothing to solve before"""
+    is_final: bool = True
+    """Nothing is left that `reflect` would do for a view at rest alone"""
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
@@ -291,7 +293,7 @@ class Renderer:
         color.filter_mode(False)
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
         start = perf_counter()
-        reflection = self.reflect(view, follow=False)
+        reflection = self.reflect(view, follow=False, at_rest=True)
         for part in (part for parts in reflection.parts for part in parts):
             part.solution.wait()
         solved = perf_counter()
@@ -310,11 +312,12 @@ class Renderer:
         }
         return Frame(self, reflection, color, times, self._choice)
 
-    def reflect(self, view: View, solve: bool = True, follow: bool = True) -> Reflection:
+    def reflect(self, view: View, solve: bool = True, follow: bool = True, at_rest: bool = False) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
 
         Without `solve`, for diagnostic views of the mirrors' surface alone. With `follow` the solve may start from the
-        last one's points.
+        last one's points. What is only worth its time where the view rests is done `at_rest`: edges are split where
+        their solved midpoints leave the chord.
         """
         self._choose(view)
         if not solve:
@@ -344,7 +347,15 @@ class Renderer:
             )
             for mirror in self.mirrors
         )
-        return Reflection(view, parts, None, self.warnings)
+        curves = METHODS[used.method].curves_edges
+        if curves and at_rest:
+            parts = tuple(
+                mirror.with_curved_edges(
+                    view, used, found, self.geometry.of_instance(mirror.index), self._materials
+                )
+                for mirror, found in zip(self.mirrors, parts, strict=True)
+            )
+        return Reflection(view, parts, None, self.warnings, is_final=at_rest or not curves)
 
     def add_sub_frame(
         self,

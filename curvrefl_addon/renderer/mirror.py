@@ -19,6 +19,7 @@ from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk
 from .companion import closed_companion
+from .curved_edges import Solve, with_curved_edges
 from .gpu_objects import cube_texture
 from .grid_solve import ChunkGrid
 from .materials import Materials
@@ -284,6 +285,45 @@ class Mirror:
             for region in range(self._regions.count)
             for chunk, batches in scenery
         ]
+
+    def with_curved_edges(
+        self,
+        view: View,
+        settings: Settings,
+        parts: Sequence[SolvedChunk],
+        own: tuple[Chunk, Batches],
+        materials: Materials,
+    ) -> tuple[SolvedChunk, ...]:
+        """What `solve` has found, with edges split where their solved midpoint leaves the chord (`curved_edges`).
+
+        For methods with `curves_edges`; reads the solutions back from the GPU.
+        """
+        reflector = self._reflector(view, settings, own, materials)
+        tolerance = 0.1 * settings.pixel_tolerance
+
+        def found(image: int) -> Solve:
+            def search(positions: Any, count: int, start: VertexSolution) -> VertexSolution:
+                if image == 0:
+                    return solve_vertices(
+                        settings.method,
+                        view,
+                        reflector,
+                        positions,
+                        count,
+                        steps=settings.steps,
+                        tolerance=tolerance,
+                        previous=start,
+                    )
+                assert self._regions is not None
+                return solve_region(view, reflector, self._regions, image - 1, positions, count, tolerance)
+
+            return search
+
+        return tuple(
+            piece
+            for part in parts
+            for piece in with_curved_edges(part, view, settings.pixel_tolerance, found(part.image))
+        )
 
     def forget_solutions(self) -> None:
         """Let the next solve begin as the first one did."""

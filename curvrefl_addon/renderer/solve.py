@@ -117,10 +117,19 @@ class VertexSolution:
 
 
 @dataclass(frozen=True)
+class Pieces:
+    """Parts of triangles as record textures, laid out as those of a `Chunk`."""
+
+    positions: Any
+    corners: Any
+
+
+@dataclass(frozen=True)
 class SolvedChunk:
     """A part of a mirror's scenery with its reflection points."""
 
-    chunk: Chunk
+    chunk: Chunk | Pieces
+    """Whose triangles `batches` index; pieces are of triangles that had an edge split (`curved_edges`)"""
     batches: Batches
     solution: VertexSolution
     image: int = 0
