@@ -239,7 +239,8 @@ def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
 def unpack_color(packed: Float32Array) -> Float32Array:
     """(n, 3) scene-linear colours of what `pack_color` has packed (n,)."""
     levels = np.rint(packed).astype(np.int32)
-    return (np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]) / np.float32(255.0)) ** 2
+    root = np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]).astype(np.float32) / np.float32(255.0)
+    return root * root
 
 
 def pack_color(color: Float32Array) -> Float32Array:

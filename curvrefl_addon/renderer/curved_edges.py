@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Splits edges of solved triangles where the edge's solved midpoint leaves the chord that would be drawn.
 
-`split` halves edges by a bound that holds for every eye on a mirror that bends one way all over. This is what is left
-after it: in one view, for a picture that is worth it, the midpoints of edges are solved too, and an edge is halved
-where its midpoint is more than the tolerance away from where the rasteriser would draw it. The halves are asked again.
-The triangles that an edge was halved of are taken out of their chunk's batches; their parts, with the records that the
-chunk's solution has for the old vertices and those of the solved midpoints, are drawn from textures of their own. So
-the scene's geometry stays as it is, and no vertex is solved twice.
+`split` halves edges by a bound that knows no eye and no bumps. What it leaves is done here, in one view, for a picture
+that is worth it: midpoints of edges are solved too, and an edge is halved where its midpoint is seen more than the
+tolerance away from where the rasteriser would draw it. The halves are asked again. Triangles that are cut so are taken
+out of their chunk's batches; their parts are drawn from records of their own: those that the chunk's solution has for
+the old vertices, and those of the solved midpoints. So the scene's geometry stays as it is, and no vertex is solved
+twice.
 
-Whether an edge is halved depends on its ends and its midpoint alone, and both are what they are for every triangle that
-has the edge: no crack opens.
+Whether an edge is halved depends on its ends and its midpoint alone, and they are the same for all triangles that have
+the edge: no crack opens. Edges across the horizon, with an end that the mirror hides, are left as they are: the hidden
+end is placed to go on smoothly, and cut they showed more wrong pixels (`docs/figures.md`).
 """
 
 from __future__ import annotations
@@ -23,17 +24,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..optics import status
-from ..optics.screen import Screen
-from ..scene.arrays import Float32Array, Float64Array, Int32Array
+from ..scene.arrays import Float32Array, Int32Array
 from ..scene.view import View
 from .chunk import Chunk, by_material, pack_color, unpack_color
 from .gpu_objects import read_records, record_texture
 from .solve import Pieces, SolvedChunk, VertexSolution
-from .split import number_pairs, subdivide, with_middles
+from .split import number_pairs, subdivide
 
 MOST_ROUNDS = 6
-"""Halvings of one edge: what is still off then is where neighbours show different images, and has no midpoint"""
+"""Halvings of one edge: what leaves its chord then lies between vertices that show different images"""
 MOST_TRIANGLES = 1_000_000
+"""More parts than these are not cut again"""
 SHORTEST = 10.0
 """Tolerances: an edge that is drawn shorter is not asked. An arc with so short a chord that it leaves by the tolerance
 turns by 45 degrees."""
@@ -42,186 +43,173 @@ type Solve = Callable[[Any, int, VertexSolution], VertexSolution]
 """Of a record texture of world positions, their number, and points to start from as a solution"""
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Vertices:
-    """Records (n, 4) of positions as in `Chunk` and `VertexSolution`, float32."""
+    """Records (n, 4) of positions as in `Chunk` and `VertexSolution`."""
 
     positions: Float32Array
     points: Float32Array
     virtual: Float32Array
+    pixels: Float32Array
+    """(n, 2) where they are seen; NaN where they are not"""
 
-    @property
-    def status(self) -> Int32Array:
-        return np.rint(self.points[:, 3]).astype(np.int32) & 3
+    @classmethod
+    def read(cls, positions: Any, solution: VertexSolution, view: View) -> _Vertices:
+        """From the GPU."""
+        points = read_records(solution.reflection_points, solution.count)
+        virtual = read_records(solution.virtual_positions, solution.count)
+        seen = np.flatnonzero(np.rint(points[:, 3]).astype(np.int32) & 3 == status.REFLECTED)
+        pixels = np.full((solution.count, 2), np.nan, np.float32)
+        pixels[seen] = view.project(virtual[seen, :3].astype(np.float64))
+        return cls(read_records(positions, solution.count), points, virtual, pixels)
 
     def joined(self, other: _Vertices) -> _Vertices:
-        return _Vertices(
-            np.concatenate([self.positions, other.positions]),
-            np.concatenate([self.points, other.points]),
-            np.concatenate([self.virtual, other.virtual]),
-        )
+        """The other's after these."""
+        return _Vertices(*(np.concatenate(pair) for pair in zip(self._arrays, other._arrays, strict=True)))
 
     def of(self, rows: NDArray[np.integer]) -> _Vertices:
-        return _Vertices(self.positions[rows], self.points[rows], self.virtual[rows])
+        """Those of some rows."""
+        return _Vertices(*(array[rows] for array in self._arrays))
+
+    @property
+    def _arrays(self) -> tuple[Float32Array, ...]:
+        return self.positions, self.points, self.virtual, self.pixels
+
+
+class _Cutting:
+    """Triangles of a chunk that are cut into parts, and their vertices."""
+
+    def __init__(self, chunk: Chunk, solution: VertexSolution, view: View, tolerance: float, solve: Solve) -> None:
+        self.vertices = _Vertices.read(chunk.positions, solution, view)
+        self.corner_position = chunk.corner_position
+        self.corner_records = np.zeros((0, 8), np.float32)
+        """(corners, 8) two records of each; read when something is cut"""
+        self._chunk, self._view, self._tolerance, self._solve = chunk, view, tolerance, solve
+        self._straight = np.zeros(0, np.int64)
+        """Keys of edges that have been asked, or need not be"""
+
+    def may_leave(self, first: Int32Array, second: Int32Array) -> NDArray[np.bool_]:
+        """(n,) whether edges between vertices `first` and `second` (n,) are both seen, long, and near the picture."""
+        a, b = self.vertices.pixels[first], self.vertices.pixels[second]
+        along = b - a
+        squared = np.einsum("ij,ij->i", along, along)
+        # Comparisons with NaN are false.
+        rows = np.flatnonzero(squared > (SHORTEST * self._tolerance) ** 2)
+        reach = np.sqrt(squared[rows])[:, None]
+        low, high = np.minimum(a[rows], b[rows]) - reach, np.maximum(a[rows], b[rows]) + reach
+        found = np.zeros(len(first), bool)
+        found[rows] = ((high > 0.0) & (low < np.array([self._view.width, self._view.height]))).all(axis=1)
+        return found
+
+    def cut(self, corners: Int32Array) -> tuple[Int32Array, NDArray[np.integer], NDArray[np.bool_]]:
+        """Parts (m, 3) of those of the triangles (n, 3) with an edge that leaves its chord, the triangle (m,) that each
+        is of, and whether (n,) a triangle is cut."""
+        places = self.corner_position[corners]
+        edge, pairs = number_pairs(places.ravel(), places[:, [1, 2, 0]].ravel(), 0)
+        keys = pairs[:, 0].astype(np.int64) << 32 | pairs[:, 1]
+        asked = self.may_leave(pairs[:, 0], pairs[:, 1]) & ~np.isin(keys, self._straight, assume_unique=True)
+        middles = self._middles(pairs[asked])
+        leaves = self._leaves(pairs[asked], middles)
+        is_split = np.zeros(len(pairs), bool)
+        is_split[asked] = leaves
+        self._straight = np.union1d(self._straight, keys[~is_split])
+
+        place = np.full(len(pairs), -1, np.int32)
+        place[is_split] = len(self.vertices.positions) + np.arange(np.count_nonzero(leaves))
+        middle_place = place[edge].reshape(-1, 3)
+        is_cut = (middle_place >= 0).any(axis=1)
+        rows = np.flatnonzero(is_cut)
+        if len(rows) == 0:
+            return corners[:0], rows, is_cut
+        self.vertices = self.vertices.joined(middles.of(np.flatnonzero(leaves)))
+        parts, parents = subdivide(corners[rows], self._middle_corners(corners[rows], middle_place[rows]))
+        return parts, rows[parents], is_cut
+
+    def _middles(self, pairs: Int32Array) -> _Vertices:
+        """Solved midpoints of edges (n, 2)."""
+        if len(pairs) == 0:
+            return self.vertices.of(np.zeros(0, np.int64))
+        middles = self.vertices.positions[pairs].mean(axis=1)
+        # From between the ends' points, as if reflected there: near, and the same image where there are several.
+        between = self.vertices.points[pairs].mean(axis=1)
+        between[:, 3] = status.REFLECTED
+        positions, start = record_texture(middles), record_texture(between)
+        solution = self._solve(positions, len(pairs), VertexSolution(start, start, len(pairs)))
+        return _Vertices.read(positions, solution, self._view)
+
+    def _leaves(self, pairs: Int32Array, middles: _Vertices) -> NDArray[np.bool_]:
+        """(n,) whether midpoints are drawn more than the tolerance from where they are seen."""
+        drawn = self._view.project(self.vertices.virtual[pairs, :3].astype(np.float64).mean(axis=1))
+        # Not of those that are not seen: their place is NaN.
+        return np.asarray(np.linalg.norm(middles.pixels - drawn, axis=1) > self._tolerance)
+
+    def _middle_corners(self, corners: Int32Array, middle_place: Int32Array) -> Int32Array:
+        """New corners half way on the edges of triangles (n, 3), -1 where `middle_place` has no position for one."""
+        count = len(self.corner_position)
+        if len(self.corner_records) == 0:
+            self.corner_records = read_records(self._chunk.corners, 2 * count).reshape(-1, 8)
+        halved = middle_place >= 0
+        middle, pairs = number_pairs(corners[halved], corners[:, [1, 2, 0]][halved], count)
+        place = np.empty(len(pairs), np.int32)
+        place[middle - count] = middle_place[halved]
+        self.corner_position = np.concatenate([self.corner_position, place])
+        ends = self.corner_records[pairs]
+        means = ends.mean(axis=1)
+        means[:, 6] = pack_color(np.mean([unpack_color(ends[:, end, 6]) for end in range(2)], axis=0))
+        self.corner_records = np.concatenate([self.corner_records, means])
+        result = np.full(corners.shape, -1, np.int32)
+        result[halved] = middle
+        return result
 
 
 def with_curved_edges(part: SolvedChunk, view: View, tolerance: float, solve: Solve) -> tuple[SolvedChunk, ...]:
     """The part with edges halved until they are drawn within `tolerance` pixels: itself, or what is left and the rest.
 
-    `solve` finds reflection points as those of the part were found.
+    `part` is of a whole chunk; `solve` finds reflection points as its own were found.
     """
     chunk = part.chunk
     assert isinstance(chunk, Chunk), "edges are split once"
-    screen = Screen(view.eye, view.focal_pixels)
-    corner_position = chunk.corner_position
-    vertices = _Vertices(
-        read_records(chunk.positions, part.solution.count),
-        read_records(part.solution.reflection_points, part.solution.count),
-        read_records(part.solution.virtual_positions, part.solution.count),
-    )
-    rows = np.flatnonzero(_may_be_off(screen, vertices, corner_position[chunk.triangles], tolerance))
-    corners = chunk.triangles[rows]
-    corner_records: Float32Array | None = None
-    done: list[tuple[Int32Array, NDArray[np.integer]]] = []
-    straight = np.zeros(0, np.int64)
-    halved = np.zeros(len(chunk.triangles), bool)
-    count = 0
-    for _ in range(MOST_ROUNDS):
-        places = corner_position[corners]
-        middle_place, pairs = number_pairs(places.ravel(), places[:, [1, 2, 0]].ravel(), 0)
-        asked, middles = _asked(screen, vertices, pairs, straight, tolerance, solve)
-        off = _off(screen, vertices, pairs[asked], middles, tolerance)
-        split = np.zeros(len(pairs), bool)
-        split[asked] = off
-        straight = np.union1d(straight, _keys(pairs[~split]))
-        edge_is_split = split[middle_place].reshape(-1, 3)
-        touched = edge_is_split.any(axis=1)
-        if corner_records is not None:
-            # Parts that nothing more is cut off of; of the first round's triangles these stay in the chunk.
-            done.append((corners[~touched], rows[~touched]))
-        if not touched.any() or count + 4 * int(touched.sum()) > MOST_TRIANGLES:
-            if corner_records is not None:
-                done.append((corners[touched], rows[touched]))
-            break
-        if corner_records is None:
-            halved[rows[touched]] = True
-            corner_records = read_records(chunk.corners, 2 * len(corner_position)).reshape(-1, 8)
-        corners, rows, edge_is_split = corners[touched], rows[touched], edge_is_split[touched]
-        # New positions in the order of the pairs that are split, one for all corners there.
-        new_place = np.full(len(pairs), -1, np.int64)
-        new_place[split] = len(vertices.positions) + np.arange(split.sum())
-        vertices = vertices.joined(middles.of(np.flatnonzero(off)))
-        place_of_edge = new_place[middle_place].reshape(-1, 3)[touched][edge_is_split]
-        start, end = corners[edge_is_split], corners[:, [1, 2, 0]][edge_is_split]
-        middle, corner_pairs = number_pairs(start, end, len(corner_position))
-        corner_records = _with_middle_corners(corner_records, corner_pairs)
-        joined = np.empty(len(corner_pairs), np.int32)
-        joined[middle - len(corner_position)] = place_of_edge
-        corner_position = np.concatenate([corner_position, joined])
-        middle_of_edge = np.full(corners.shape, -1, np.int32)
-        middle_of_edge[edge_is_split] = middle
-        corners, parents = subdivide(corners, middle_of_edge)
-        rows = rows[parents]
-        count = sum(len(item[0]) for item in done) + len(corners)
-    else:
-        done.append((corners, rows))
-    if corner_records is None:
+    cutting = _Cutting(chunk, part.solution, view, tolerance, solve)
+    places = chunk.corner_position[chunk.triangles]
+    asked = [cutting.may_leave(places[:, first], places[:, second]) for first, second in ((0, 1), (1, 2), (2, 0))]
+    rows = np.flatnonzero(np.any(asked, axis=0))
+    corners, parents, is_cut = cutting.cut(chunk.triangles[rows])
+    if not is_cut.any():
         return (part,)
-    triangles = np.concatenate([item[0] for item in done])
-    material = chunk.triangle_material[np.concatenate([item[1] for item in done])]
-    rest = by_material(chunk.triangles[~halved], chunk.triangle_material[~halved])
-    return (
-        replace(part, batches=rest),
-        _pieces(part, vertices, corner_records, corner_position, triangles, material),
+    whole = np.ones(len(chunk.triangles), bool)
+    whole[rows[is_cut]] = False
+    rows = rows[parents]
+    done: list[tuple[Int32Array, NDArray[np.integer]]] = []
+    for _ in range(1, MOST_ROUNDS):
+        if len(corners) == 0 or len(corners) > MOST_TRIANGLES:
+            break
+        parts, parents, is_cut = cutting.cut(corners)
+        done.append((corners[~is_cut], rows[~is_cut]))
+        corners, rows = parts, rows[parents]
+    done.append((corners, rows))
+    material = chunk.triangle_material
+    pieces = _pieces(
+        cutting,
+        np.concatenate([triangles for triangles, _ in done]),
+        material[np.concatenate([of_chunk for _, of_chunk in done])],
+        part.image,
     )
+    return replace(part, batches=by_material(chunk.triangles[whole], material[whole]), whole=whole), pieces
 
 
-def _may_be_off(screen: Screen, vertices: _Vertices, places: Int32Array, tolerance: float) -> NDArray[np.bool_]:
-    """(triangles,) which have an edge that may be asked, by their longest reach on screen."""
-    code = vertices.status
-    is_reflected = (code == status.REFLECTED)[places]
-    found = np.zeros(len(places), bool)
-    for first, second in ((0, 1), (1, 2), (2, 0)):
-        rows = np.flatnonzero(is_reflected[:, first] & is_reflected[:, second] & ~found)
-        found[rows] = _lengths(screen, vertices.virtual, places[rows][:, [first, second]]) > SHORTEST * tolerance
-    return found
-
-
-def _lengths(screen: Screen, virtual: Float32Array, pairs: Int32Array) -> Float64Array:
-    """(n,) pixels between the ends of edges, where they seem to be, about."""
-    a, b = (virtual[pairs[:, k], :3].astype(np.float64) for k in range(2))
-    return np.asarray(np.linalg.norm(screen.pixels(0.5 * (a + b), b - a), axis=1))
-
-
-def _asked(
-    screen: Screen,
-    vertices: _Vertices,
-    pairs: Int32Array,
-    straight: NDArray[np.int64],
-    tolerance: float,
-    solve: Solve,
-) -> tuple[NDArray[np.int64], _Vertices]:
-    """Which of the edges are to be asked, and their midpoints."""
-    code = vertices.status[pairs]
-    chosen = (code == status.REFLECTED).all(axis=1)
-    chosen &= ~np.isin(_keys(pairs), straight, assume_unique=True)
-    rows = np.flatnonzero(chosen)
-    rows = rows[_lengths(screen, vertices.virtual, pairs[rows]) > SHORTEST * tolerance]
-    if len(rows) == 0:
-        empty = np.zeros((0, 4), np.float32)
-        return rows, _Vertices(empty, empty, empty)
-    first, second = (vertices.positions[pairs[rows, k]] for k in range(2))
-    middles = np.float32(0.5) * (first + second)
-    middles[:, 3] = first[:, 3]
-    # From between the ends' points, as if reflected there: near, and the same image on a mirror that shows several.
-    between = np.float32(0.5) * (vertices.points[pairs[rows, 0]] + vertices.points[pairs[rows, 1]])
-    between[:, 3] = status.REFLECTED
-    start = record_texture(between)
-    solution = solve(record_texture(middles), len(middles), VertexSolution(start, start, len(middles)))
-    return rows, _Vertices(
-        middles,
-        read_records(solution.reflection_points, len(middles)),
-        read_records(solution.virtual_positions, len(middles)),
-    )
-
-
-def _off(
-    screen: Screen, vertices: _Vertices, pairs: Int32Array, middles: _Vertices, tolerance: float
-) -> NDArray[np.bool_]:
-    """(n,) whether the midpoint of an edge is drawn more than `tolerance` pixels from where it is seen."""
-    drawn = 0.5 * (vertices.virtual[pairs[:, 0], :3].astype(np.float64) + vertices.virtual[pairs[:, 1], :3])
-    solved = middles.virtual[:, :3].astype(np.float64)
-    off = np.linalg.norm(screen.pixels(solved, drawn - solved), axis=1)
-    return (off > tolerance) & (middles.status == status.REFLECTED)
-
-
-def _keys(pairs: Int32Array) -> NDArray[np.int64]:
-    return np.asarray(pairs[:, 0].astype(np.int64) << 32 | pairs[:, 1])
-
-
-def _with_middle_corners(records: Float32Array, pairs: Int32Array) -> Float32Array:
-    """Corner records (n, 8) with those half way between pairs of them added; indices of positions are still to come."""
-    middles = np.float32(0.5) * (records[pairs[:, 0]] + records[pairs[:, 1]])
-    colors = 0.5 * (unpack_color(records[pairs[:, 0], 6]) + unpack_color(records[pairs[:, 1], 6]))
-    middles[:, 6] = pack_color(colors.astype(np.float32))
-    return np.concatenate([records, middles])
-
-
-def _pieces(
-    part: SolvedChunk,
-    vertices: _Vertices,
-    corner_records: Float32Array,
-    corner_position: Int32Array,
-    triangles: Int32Array,
-    material: Int32Array,
-) -> SolvedChunk:
+def _pieces(cutting: _Cutting, triangles: Int32Array, material: Int32Array, image: int) -> SolvedChunk:
     """What was cut, with no more records than it needs."""
     used, renumbered = np.unique(triangles, return_inverse=True)
-    records = corner_records[used]
-    places, of_corner = np.unique(corner_position[used], return_inverse=True)
+    records = cutting.corner_records[used]
+    places, of_corner = np.unique(cutting.corner_position[used], return_inverse=True)
     records[:, 3] = of_corner
-    kept = vertices.of(places)
-    solution = VertexSolution(record_texture(kept.points), record_texture(kept.virtual), len(places))
-    pieces = Pieces(record_texture(kept.positions), record_texture(records.reshape(-1, 4)))
-    batches = by_material(renumbered.reshape(-1, 3).astype(np.int32), material)
-    return SolvedChunk(pieces, batches, solution, part.image)
+    vertices = cutting.vertices.of(places)
+    solution = VertexSolution(record_texture(vertices.points), record_texture(vertices.virtual), len(places))
+    triangles = renumbered.reshape(-1, 3).astype(np.int32)
+    pieces = Pieces(
+        record_texture(vertices.positions),
+        record_texture(records.reshape(-1, 4)),
+        triangles,
+        of_corner.astype(np.int32),
+    )
+    return SolvedChunk(pieces, by_material(triangles, material), solution, image)
