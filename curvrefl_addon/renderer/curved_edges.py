@@ -35,9 +35,9 @@ MOST_ROUNDS = 6
 """Halvings of one edge: what leaves its chord then lies between vertices that show different images"""
 MOST_TRIANGLES = 1_000_000
 """More parts than these are not cut again"""
-SHORTEST = 10.0
+SHORTEST = 8.0
 """Tolerances: an edge that is drawn shorter is not asked. An arc with so short a chord that it leaves by the tolerance
-turns by 45 degrees."""
+turns by 56 degrees."""
 
 type Solve = Callable[[Any, int, VertexSolution], VertexSolution]
 """Of a record texture of world positions, their number, and points to start from as a solution"""

@@ -34,7 +34,7 @@ from .ray_scene import RayScene
 from .scene_geometry import Difference, SceneGeometry
 from .settings import Settings, check_settings
 from .shade import ShadePass
-from .solve import SolvedChunk, VertexSolution, statistics
+from .solve import Pieces, SolvedChunk, VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, Window, draw_primary, draw_reflected
 from .view_block import view_block
 
@@ -100,8 +100,13 @@ class Reflection:
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks: of every vertex its first image."""
-        return tuple(part.solution for parts in self.parts for part in parts if part.image == 0)
+        """Of all mirrors and chunks: of every vertex its first image. Midpoints of split edges are not in it."""
+        return tuple(
+            part.solution
+            for parts in self.parts
+            for part in parts
+            if part.image == 0 and not isinstance(part.chunk, Pieces)
+        )
 
 
 class Renderer:
