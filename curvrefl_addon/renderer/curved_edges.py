@@ -88,35 +88,24 @@ class _Cutting:
         self._straight = np.zeros(0, np.int64)
         """Keys of edges that have been asked, or need not be"""
 
-    def may_leave(self, first: Int32Array, second: Int32Array) -> NDArray[np.bool_]:
-        """(n,) whether edges between vertices `first` and `second` (n,) are both seen, long, and near the picture."""
-        a, b = self.vertices.pixels[first], self.vertices.pixels[second]
-        along = b - a
-        squared = np.einsum("ij,ij->i", along, along)
-        # Comparisons with NaN are false.
-        rows = np.flatnonzero(squared > (SHORTEST * self._tolerance) ** 2)
-        reach = np.sqrt(squared[rows])[:, None]
-        low, high = np.minimum(a[rows], b[rows]) - reach, np.maximum(a[rows], b[rows]) + reach
-        found = np.zeros(len(first), bool)
-        found[rows] = ((high > 0.0) & (low < np.array([self._view.width, self._view.height]))).all(axis=1)
-        return found
-
     def cut(self, corners: Int32Array) -> tuple[Int32Array, NDArray[np.integer], NDArray[np.bool_]]:
         """Parts (m, 3) of those of the triangles (n, 3) with an edge that leaves its chord, the triangle (m,) that each
         is of, and whether (n,) a triangle is cut."""
         places = self.corner_position[corners]
-        edge, pairs = number_pairs(places.ravel(), places[:, [1, 2, 0]].ravel(), 0)
+        asked = self._may_leave(places)
+        edge, pairs = number_pairs(places[asked], places[:, [1, 2, 0]][asked], 0)
         keys = pairs[:, 0].astype(np.int64) << 32 | pairs[:, 1]
-        asked = self.may_leave(pairs[:, 0], pairs[:, 1]) & ~np.isin(keys, self._straight, assume_unique=True)
-        middles = self._middles(pairs[asked])
-        leaves = self._leaves(pairs[asked], middles)
+        new = ~np.isin(keys, self._straight, assume_unique=True)
+        middles = self._middles(pairs[new])
+        leaves = self._leaves(pairs[new], middles)
         is_split = np.zeros(len(pairs), bool)
-        is_split[asked] = leaves
+        is_split[new] = leaves
         self._straight = np.union1d(self._straight, keys[~is_split])
 
         place = np.full(len(pairs), -1, np.int32)
         place[is_split] = len(self.vertices.positions) + np.arange(np.count_nonzero(leaves))
-        middle_place = place[edge].reshape(-1, 3)
+        middle_place = np.full(corners.shape, -1, np.int32)
+        middle_place[asked] = place[edge]
         is_cut = (middle_place >= 0).any(axis=1)
         rows = np.flatnonzero(is_cut)
         if len(rows) == 0:
@@ -124,6 +113,19 @@ class _Cutting:
         self.vertices = self.vertices.joined(middles.of(np.flatnonzero(leaves)))
         parts, parents = subdivide(corners[rows], self._middle_corners(corners[rows], middle_place[rows]))
         return parts, rows[parents], is_cut
+
+    def _may_leave(self, places: Int32Array) -> NDArray[np.bool_]:
+        """(n, 3) whether edges of triangles of positions (n, 3) are seen at both ends, long, and near the picture."""
+        start = self.vertices.pixels[places]
+        end = start[:, [1, 2, 0]]
+        along = end - start
+        # Comparisons with NaN are false.
+        found = np.einsum("ijk,ijk->ij", along, along) > (SHORTEST * self._tolerance) ** 2
+        start, end = start[found], end[found]
+        reach = np.linalg.norm(end - start, axis=1)[:, None]
+        low, high = np.minimum(start, end) - reach, np.maximum(start, end) + reach
+        found[found] = ((high > 0.0) & (low < np.array([self._view.width, self._view.height]))).all(axis=1)
+        return found
 
     def _middles(self, pairs: Int32Array) -> _Vertices:
         """Solved midpoints of edges (n, 2)."""
@@ -170,15 +172,10 @@ def with_curved_edges(part: SolvedChunk, view: View, tolerance: float, solve: So
     chunk = part.chunk
     assert isinstance(chunk, Chunk), "edges are split once"
     cutting = _Cutting(chunk, part.solution, view, tolerance, solve)
-    places = chunk.corner_position[chunk.triangles]
-    asked = [cutting.may_leave(places[:, first], places[:, second]) for first, second in ((0, 1), (1, 2), (2, 0))]
-    rows = np.flatnonzero(np.any(asked, axis=0))
-    corners, parents, is_cut = cutting.cut(chunk.triangles[rows])
+    corners, rows, is_cut = cutting.cut(chunk.triangles)
     if not is_cut.any():
         return (part,)
-    whole = np.ones(len(chunk.triangles), bool)
-    whole[rows[is_cut]] = False
-    rows = rows[parents]
+    whole = ~is_cut
     done: list[tuple[Int32Array, NDArray[np.integer]]] = []
     for _ in range(1, MOST_ROUNDS):
         if len(corners) == 0 or len(corners) > MOST_TRIANGLES:

@@ -355,7 +355,14 @@ class Renderer:
         curves = METHODS[used.method].curves_edges
         if curves and at_rest:
             parts = tuple(
-                mirror.with_curved_edges(view, used, found, self.geometry.of_instance(mirror.index), self._materials)
+                mirror.with_curved_edges(
+                    view,
+                    used,
+                    found,
+                    self.geometry.of_instance(mirror.index),
+                    self._materials,
+                    self.geometry.longest_edge,
+                )
                 for mirror, found in zip(self.mirrors, parts, strict=True)
             )
         return Reflection(view, parts, None, self.warnings, is_final=at_rest or not curves)
