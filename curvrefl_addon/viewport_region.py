@@ -51,8 +51,8 @@ class RegionPicture:
 
     @property
     def is_coarse(self) -> bool:
-        """Drawn at less than the full resolution: it is worth another go once all rests."""
-        return self._divisor > 1
+        """Drawn at less than the full resolution, or with less care: it is worth another go once all rests."""
+        return self._divisor > 1 or (self._reflection is not None and not self._reflection.is_final)
 
     @property
     def is_complete(self) -> bool:
@@ -74,14 +74,14 @@ class RegionPicture:
         """
         diagnostic = diagnostic_of(settings, options)
         state = (self.renderer.revision, diagnostic)
-        divisor = 0
+        divisor, at_rest = 0, False
         if self._view is None or state != self._state or not _is_same(self._view, view):
             self._changed_at = now
             divisor = DIVISORS.get(settings.motion_resolution, DIVISORS["HALF"])
         elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
-            divisor = 1
+            divisor, at_rest = 1, True
         if divisor:
-            self._start(view, divisor, diagnostic, is_timed, counters)
+            self._start(view, divisor, diagnostic, is_timed, counters, at_rest)
         else:
             self.renderer.improve()
         self._view, self._state = view, state
@@ -141,7 +141,13 @@ class RegionPicture:
         return "" if self.renderer.choice is None else self.renderer.choice.why
 
     def _start(
-        self, view: View, divisor: int, diagnostic: Diagnostic | None, is_timed: bool, counters: dict[str, int]
+        self,
+        view: View,
+        divisor: int,
+        diagnostic: Diagnostic | None,
+        is_timed: bool,
+        counters: dict[str, int],
+        at_rest: bool,
     ) -> None:
         small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
         if self._texture is None or (self._texture.width, self._texture.height) != (small.width, small.height):
@@ -152,7 +158,8 @@ class RegionPicture:
         with self._canvas.bind():
             self._canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
         start = perf_counter()
-        self._reflection = self.renderer.reflect(small, solve=diagnostic is None or diagnostic.needs_solve)
+        is_solved = diagnostic is None or diagnostic.needs_solve
+        self._reflection = self.renderer.reflect(small, solve=is_solved, at_rest=at_rest)
         self._solve_ms = self._draw_ms = 0.0
         if is_timed:
             for solution in self._reflection.solutions:

@@ -34,6 +34,8 @@ class Method:
     """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
     several_images: bool = False
     """It also looks for the images that a mirror that bends both ways shows beside the first"""
+    curves_edges: bool = False
+    """At rest and in stills, edges are split where their solved midpoint leaves the chord"""
 
     @property
     def solves_vertices(self) -> bool:
@@ -76,6 +78,7 @@ METHODS: dict[str, Method] = {
         ("pixel_tolerance", (8.0, 4.0, 2.0, 1.0, 0.5, 0.25)),
         maps=("radial",),
         steps=4,
+        curves_edges=True,
     ),
     "newton": Method(
         "Newton",
@@ -86,6 +89,7 @@ METHODS: dict[str, Method] = {
         steps=6,
         stragglers="newton_stragglers",
         several_images=True,
+        curves_edges=True,
     ),
     "secant_uv": Method(
         "Secant Search in UV",

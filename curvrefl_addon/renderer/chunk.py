@@ -132,8 +132,23 @@ class Chunk:
             if not keep.all():
                 chosen = keep[self._triangle_instance]
                 triangles, material = triangles[chosen], material[chosen]
-            self._batches[key] = _by_material(triangles, material)
+            self._batches[key] = by_material(triangles, material)
         return self._batches[key]
+
+    @property
+    def triangles(self) -> Int32Array:
+        """(triangles, 3) index into corners; not to be changed, as the next two"""
+        return self._triangles
+
+    @property
+    def corner_position(self) -> Int32Array:
+        """(corners,) index into positions"""
+        return self._corner_position
+
+    @property
+    def triangle_material(self) -> Int32Array:
+        """(triangles,) material index"""
+        return self._triangle_material
 
     def casters(self, idle: frozenset[tuple[int, int]]) -> Any:
         """GPUBatch, indices into positions, of the triangles that cast shadows; None where there are none.
@@ -207,7 +222,8 @@ def _materials(item: Placed) -> Int32Array:
     return materials[np.minimum(item.drawn.triangle_slot, len(materials) - 1)]
 
 
-def _by_material(triangles: Int32Array, material: Int32Array) -> Batches:
+def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
+    """Batches of triangles (n, 3), whose materials are (n,)."""
     if len(triangles) == 0:
         return ()
     if (material == material[0]).all():
@@ -218,6 +234,13 @@ def _by_material(triangles: Int32Array, material: Int32Array) -> Batches:
     return tuple(
         (int(number), indexed_batch(triangles[group])) for number, group in zip(materials, groups, strict=True)
     )
+
+
+def unpack_color(packed: Float32Array) -> Float32Array:
+    """(n, 3) scene-linear colours of what `pack_color` has packed (n,)."""
+    levels = np.rint(packed).astype(np.int32)
+    root = np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]).astype(np.float32) / np.float32(255.0)
+    return root * root
 
 
 def pack_color(color: Float32Array) -> Float32Array:

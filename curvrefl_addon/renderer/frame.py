@@ -35,7 +35,7 @@ from .ray_scene import RayScene
 from .scene_geometry import Difference, SceneGeometry
 from .settings import Settings, check_settings
 from .shade import ShadePass
-from .solve import SolvedChunk, VertexSolution, statistics
+from .solve import Pieces, SolvedChunk, VertexSolution, statistics
 from .surfaces import BackFaces, SurfaceBuffer, Window, draw_primary, draw_reflected
 from .view_block import view_block
 
@@ -96,11 +96,18 @@ class Reflection:
     """One sentence each"""
     follows_rays: bool = False
     """Mirror pixels follow their rays: there is nothing to solve before"""
+    is_final: bool = True
+    """Nothing is left that `reflect` would do for a view at rest alone"""
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks: of every vertex its first image."""
-        return tuple(part.solution for parts in self.parts for part in parts if part.image == 0)
+        """Of all mirrors and chunks: of every vertex its first image. Midpoints of split edges are not in it."""
+        return tuple(
+            part.solution
+            for parts in self.parts
+            for part in parts
+            if part.image == 0 and not isinstance(part.chunk, Pieces)
+        )
 
 
 class Renderer:
@@ -292,7 +299,7 @@ class Renderer:
         color.filter_mode(False)
         canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
         start = perf_counter()
-        reflection = self.reflect(view, follow=False)
+        reflection = self.reflect(view, follow=False, at_rest=True)
         for part in (part for parts in reflection.parts for part in parts):
             part.solution.wait()
         solved = perf_counter()
@@ -311,11 +318,12 @@ class Renderer:
         }
         return Frame(self, reflection, color, times, self._choice)
 
-    def reflect(self, view: View, solve: bool = True, follow: bool = True) -> Reflection:
+    def reflect(self, view: View, solve: bool = True, follow: bool = True, at_rest: bool = False) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
 
         Without `solve`, for diagnostic views of the mirrors' surface alone. With `follow` the solve may start from the
-        last one's points.
+        last one's points. What is only worth its time where the view rests is done `at_rest`: edges are split where
+        their solved midpoints leave the chord.
         """
         # (A view that moves has one sub-frame each; at rest nothing else is chosen.)
         self._choose(view, 1 if follow else self.settings.samples)
@@ -346,7 +354,20 @@ class Renderer:
             )
             for mirror in self.mirrors
         )
-        return Reflection(view, parts, None, self.warnings)
+        curves = METHODS[used.method].curves_edges
+        if curves and at_rest:
+            parts = tuple(
+                mirror.with_curved_edges(
+                    view,
+                    used,
+                    found,
+                    self.geometry.of_instance(mirror.index),
+                    self._materials,
+                    self.geometry.longest_edge,
+                )
+                for mirror, found in zip(self.mirrors, parts, strict=True)
+            )
+        return Reflection(view, parts, None, self.warnings, is_final=at_rest or not curves)
 
     def _scenery_shown(self, mirror: Mirror, view: View) -> list[tuple[Chunk, Batches]]:
         """All that a mirror may show, but chunks that it cannot for sure: these are not solved."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -19,6 +19,7 @@ from ..scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk
 from .companion import closed_companion
+from .curved_edges import SHORTEST, Solve, with_curved_edges
 from .gpu_objects import cube_texture
 from .grid_solve import ChunkGrid
 from .materials import Materials
@@ -152,6 +153,16 @@ class Mirror:
             distance = max(float(np.linalg.norm(view.eye[:3] - self.center)), self.bound)
         return view.focal_pixels * self.bound / distance
 
+    def most_pixels_per_metre(self, view: View) -> float:
+        """No length that it reflects covers more pixels: what is seen in a mirror that bends outwards everywhere is no
+        larger than it would be at the mirror itself."""
+        if not self.facts.never_sees_itself:
+            return np.inf
+        if view.is_orthographic:
+            return view.focal_pixels
+        nearest = float(np.linalg.norm(view.eye[:3] - self.center)) - self.bound
+        return view.focal_pixels / nearest if nearest > 0.0 else np.inf
+
     @property
     def inner_ball(self) -> tuple[Float64Array, float]:
         """Center (3,), world space, and radius, metres, of a ball inside of a closed convex mirror."""
@@ -282,6 +293,53 @@ class Mirror:
             for region in range(self._regions.count)
             for chunk, batches in scenery
         ]
+
+    def with_curved_edges(
+        self,
+        view: View,
+        settings: Settings,
+        parts: Sequence[SolvedChunk],
+        own: tuple[Chunk, Batches],
+        materials: Materials,
+        longest_edge: Callable[[Chunk], float],
+    ) -> tuple[SolvedChunk, ...]:
+        """What `solve` has found, with edges split where their solved midpoint leaves the chord (`curved_edges`).
+
+        For methods with `curves_edges`; reads the solutions back from the GPU, but not of chunks whose edges are all
+        too short: `longest_edge` is theirs, metres.
+        """
+        scale = self.most_pixels_per_metre(view)
+        reflector = self._reflector(view, settings, own, materials)
+        tolerance = 0.1 * settings.pixel_tolerance
+
+        def found(image: int) -> Solve:
+            def search(positions: Any, count: int, start: VertexSolution) -> VertexSolution:
+                if image == 0:
+                    return solve_vertices(
+                        settings.method,
+                        view,
+                        reflector,
+                        positions,
+                        count,
+                        steps=settings.steps,
+                        tolerance=tolerance,
+                        previous=start,
+                    )
+                assert self._regions is not None
+                return solve_region(view, reflector, self._regions, image - 1, positions, count, tolerance)
+
+            return search
+
+        return tuple(
+            piece
+            for part in parts
+            for piece in (
+                with_curved_edges(part, view, settings.pixel_tolerance, found(part.image))
+                if isinstance(part.chunk, Chunk)
+                and scale * longest_edge(part.chunk) > SHORTEST * settings.pixel_tolerance
+                else (part,)
+            )
+        )
 
     def forget_solutions(self) -> None:
         """Let the next solve begin as the first one did."""

@@ -225,6 +225,12 @@ class SceneGeometry:
         centers = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
         return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * _stretches(matrices)
 
+    def longest_edge(self, chunk: Chunk) -> float:
+        """Of the triangles drawn for a chunk, world space, or a little more; metres."""
+        matrices = np.array([item.instance.matrix for item in chunk.placed])
+        lengths = np.array([self.facts.of(item.drawn).longest_edge for item in chunk.placed])
+        return float((lengths * _stretches(matrices)).max())
+
     def box_corners(self, indices: Sequence[int]) -> Float64Array:
         """(8 n, 3) corners of the boxes around instances, world space."""
         items = [self.placed[index] for index in indices]

@@ -15,6 +15,7 @@ from typing import Any
 
 import gpu
 import numpy as np
+from numpy.typing import NDArray
 
 from ...gpu_shaders.loader import load
 from ..optics import status
@@ -22,7 +23,7 @@ from ..optics.catalogue import METHODS
 from ..optics.curvature_regions import SEEDS, Regions
 from ..optics.newton_region import STEPS as REGION_STEPS
 from ..optics.secant_star import NEWTON_STEPS
-from ..scene.arrays import Float64Array
+from ..scene.arrays import Float64Array, Int32Array
 from ..scene.view import View
 from .chunk import Batches, Chunk
 from .gpu_objects import (
@@ -119,14 +120,35 @@ class VertexSolution:
 
 
 @dataclass(frozen=True)
+class Pieces:
+    """Parts of triangles as record textures, laid out as those of a `Chunk`."""
+
+    positions: Any
+    corners: Any
+    triangles: Int32Array
+    """(n, 3) index into corners"""
+    corner_position: Int32Array
+    """(corners,) index into positions"""
+
+
+@dataclass(frozen=True)
 class SolvedChunk:
     """A part of a mirror's scenery with its reflection points."""
 
-    chunk: Chunk
+    chunk: Chunk | Pieces
+    """Whose triangles `batches` index; pieces are of triangles that had an edge split (`curved_edges`)"""
     batches: Batches
     solution: VertexSolution
     image: int = 0
     """0 for the image that every vertex has, or that says why not; 1, 2, ... for one in a region of the mirror"""
+    whole: NDArray[np.bool_] | None = None
+    """(triangles of the chunk,) which are in `batches`, the others' parts are pieces; None: all"""
+
+    @property
+    def places(self) -> Int32Array:
+        """(n, 3) the triangles that `batches` draw, index into positions."""
+        places = self.chunk.corner_position[self.chunk.triangles]
+        return places if self.whole is None else places[self.whole]
 
 
 def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:

@@ -87,17 +87,17 @@ def split_mesh(
             break
         start = corners
         end = corners[:, [1, 2, 0]]
-        middle, pairs = _number_pairs(start[long_edge], end[long_edge], len(corner_vertex))
+        middle, pairs = number_pairs(start[long_edge], end[long_edge], len(corner_vertex))
         first, second = corner_vertex[pairs[:, 0]], corner_vertex[pairs[:, 1]]
-        vertex_middle, vertex_pairs = _number_pairs(first, second, len(vertex_layers[0]))
-        vertex_layers = [_with_middles(layer, vertex_pairs) for layer in vertex_layers]
+        vertex_middle, vertex_pairs = number_pairs(first, second, len(vertex_layers[0]))
+        vertex_layers = [with_middles(layer, vertex_pairs) for layer in vertex_layers]
         # Halves of interpolated attributes are kept as they are: normals not renormalised, so that the fragment's
         # interpolation is the unsplit triangle's.
-        corner_layers = [_with_middles(layer, pairs) for layer in corner_layers]
+        corner_layers = [with_middles(layer, pairs) for layer in corner_layers]
         corner_vertex = np.concatenate([corner_vertex, vertex_middle])
         middles = np.full(corners.shape, -1, np.int32)
         middles[long_edge] = middle
-        corners, rows = _subdivide(corners, middles)
+        corners, rows = subdivide(corners, middles)
         parents = parents[rows]
         count = sum(len(part[0]) for part in settled) + len(corners)
     settled.append((corners, parents))
@@ -118,7 +118,7 @@ def split_mesh(
     return result, parents
 
 
-def _with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
+def with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
     """The layer (n, k) with the means of the rows `pairs` (m, 2) added."""
     return np.concatenate([layer, np.float32(0.5) * (layer[pairs[:, 0]] + layer[pairs[:, 1]])])
 
@@ -135,7 +135,7 @@ def _long_edges(relative: Float32Array, corner_position: Int32Array, corners: In
         return squared > angle**2 * np.einsum("ijk,ijk->ij", closest, closest)
 
 
-def _number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[Int32Array, Int32Array]:
+def number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[Int32Array, Int32Array]:
     """New index (n,) from `start` on for each unordered pair, one for equal pairs, and the pairs (m, 2) in order."""
     low, high = np.minimum(first, second).astype(np.int64), np.maximum(first, second).astype(np.int64)
     keys, inverse = np.unique(low << 32 | high, return_inverse=True)
@@ -143,7 +143,7 @@ def _number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[In
     return (inverse + start).astype(np.int32), pairs
 
 
-def _subdivide(corners: Int32Array, middles: Int32Array) -> tuple[Int32Array, Int32Array]:
+def subdivide(corners: Int32Array, middles: Int32Array) -> tuple[Int32Array, Int32Array]:
     """Triangles cut at the middles (-1: edge stays) into 2, 3 or 4, and the row each came from."""
     rows = np.arange(len(corners))
     cuts = (middles >= 0).sum(axis=1)
