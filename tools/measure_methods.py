@@ -88,33 +88,28 @@ class Frames:
         uniforms = view_block(view)
         times = {"update": _timed(lambda: self.renderer.update(scene))}
         draw_primary(self.seen, self.renderer.geometry.seen(view), self.materials, uniforms)
-        _wait(self.seen)
+        self.seen.wait()
         mirror = self.renderer.mirrors[0]
         window = mirror.window(view)
 
         def walk() -> None:
             rays = self.renderer.rays()
             self.path.follow(self.seen, rays, self.materials, uniforms, window, False)
-            _wait(self.path)
+            self.path.wait()
 
         def bound_and_draw() -> None:
             self.footprints.draw(self.shown, self.seen, view, uniforms)
-            _wait(self.shown)
+            self.shown.wait()
 
         def solve_and_draw() -> None:
             reflection = self.renderer.reflect(view)
             self.shown.clear()
             parts = reflection.parts[0]
             draw_reflected(self.shown, self.seen, 1, None, parts, self.materials, uniforms, mirror.bound, window)
-            _wait(self.shown)
+            self.shown.wait()
 
         times["show"] = _timed({"exact": walk, "footprint": bound_and_draw}.get(self.method, solve_and_draw))
         return times
-
-
-def _wait(buffer: SurfaceBuffer) -> None:
-    with buffer.frame_buffer.bind():
-        buffer.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
 
 def _timed(action: Callable[[], Any]) -> tuple[float, float]:

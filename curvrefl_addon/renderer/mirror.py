@@ -224,7 +224,7 @@ class Mirror:
         """
         self.require(settings.method)
         method = METHODS[settings.method]
-        reflector = self._reflector(view, settings, own, materials)
+        reflector = self.reflector(view, settings, own, materials)
         before, self._before = self._before, {}
         parts = []
         for chunk, batches in scenery:
@@ -285,11 +285,9 @@ class Mirror:
             for chunk, batches in scenery
         ]
 
-    def forget_solutions(self) -> None:
-        """Let the next solve begin as the first one did."""
-        self._before = {}
-
-    def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
+    def reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
+        """What a solve in this view knows of it; `own` is its own surface. Draws the maps of methods that search in the
+        view's own."""
         maps = METHODS[settings.method].maps
         reflector = Reflector(self.world_to_map, self.bound, side=self.side(view))
         if "radial" in maps:
