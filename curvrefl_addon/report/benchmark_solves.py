@@ -88,8 +88,9 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
         view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)
         reflector = mirror.reflector(view, settings, own, materials)
         tolerance = 0.1 * settings.pixel_tolerance
-        count = chunk.position_count
-        return prepare_solve(settings.method, view, reflector, chunk.positions, count, tolerance, previous)
+        return prepare_solve(
+            settings.method, view, reflector, chunk.positions, chunk.position_count, tolerance, previous
+        )
 
     # Each is run again and again on what it was prepared with, so that memory holds two solutions and no more: those of
     # ten million vertices take 320 MB each.
