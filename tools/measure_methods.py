@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where following rays beats solving vertices: frames of scenes that stand still, move and deform.
 
-    python tools/measure_methods.py --output DIR [--triangles 2000000] [--repeats 5] [--kinds static,moving,deforming]
+    python tools/measure_methods.py --output DIR [--counts 1000,..] [--pixels 60,300] [--kinds static,..] [--repeats 5]
     python tools/measure_methods.py --output DIR --draw-only
 
 A frame is what differs between the methods: following the scene (geometry, hierarchies), and what the mirror shows
@@ -40,6 +40,7 @@ from curvrefl.curvrefl_addon.renderer.materials import Materials  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer, draw_primary, draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.view_block import view_block  # noqa: E402
 from curvrefl.curvrefl_addon.report.benchmark_scenes import (  # noqa: E402
+    THINGS,
     deformed,
     hall,
     moved,
@@ -49,8 +50,8 @@ from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from footprints import Footprints  # noqa: E402
 
 SIZE = (640, 480)
-MIRRORS = {"small": 60, "large": 300}
-"""Pixels across"""
+PIXELS = (60, 300)
+"""Mirrors, pixels across"""
 COUNTS = (1_000, 10_000, 125_000, 500_000, 2_000_000)
 METHODS = ("exact", "newton", "secant_star", "footprint")
 KINDS = ("static", "moving", "deforming")
@@ -118,9 +119,11 @@ def _timed(action: Callable[[], Any]) -> tuple[float, float]:
     return perf_counter() - wall, process_time() - cpu
 
 
-def measure(kind: str, count: int, methods: list[str], repeats: int) -> list[dict[str, Any]]:
-    """A row per mirror and method: medians of frames after the first one, milliseconds."""
-    scene = hall(count, as_one=kind == "deforming")
+def measure(
+    kind: str, count: int, things: int, mirrors: list[int], methods: list[str], repeats: int
+) -> list[dict[str, Any]]:
+    """A row per mirror, in pixels, and method: medians of frames after the first one, milliseconds."""
+    scene = hall(count, things, as_one=kind == "deforming")
     triangles = sum(len(scene.meshes[item.mesh].triangles) for item in scene.instances[1:])
     runs = {method: Frames(scene, method) for method in methods}
     rows = []
@@ -129,7 +132,7 @@ def measure(kind: str, count: int, methods: list[str], repeats: int) -> list[dic
             # As in a viewport that has rested before.
             runs["exact"].renderer.rays().finish()
         number = 0
-        for mirror, pixels in MIRRORS.items():
+        for pixels in mirrors:
             results: dict[str, list[Times]] = {method: [] for method in methods}
             for method in methods:
                 runs[method].frame(scene, pixels)
@@ -142,7 +145,7 @@ def measure(kind: str, count: int, methods: list[str], repeats: int) -> list[dic
                 if perf_counter() - start > LONGEST_ROUNDS:
                     break
             for method in methods:
-                row = {"scene": kind, "mirror": mirror, "triangles": triangles, "method": method}
+                row = {"scene": kind, "mirror": pixels, "triangles": triangles, "method": method}
                 rows.append(row | _medians(results[method]) | {"first_build_ms": runs[method].first_ms})
         return rows
     finally:
@@ -163,7 +166,7 @@ def crossings(rows: list[dict[str, Any]], other: str) -> list[str]:
     """Where `exact` and another method take the same time, from lines through what was measured (logarithms)."""
     lines = []
     for kind in KINDS:
-        for mirror in MIRRORS:
+        for mirror in sorted({row["mirror"] for row in rows}):
             exact, times = (dict(curve(rows, kind, mirror, method)) for method in ("exact", other))
             both = sorted(set(exact) & set(times))
             if not both:
@@ -175,14 +178,14 @@ def crossings(rows: list[dict[str, Any]], other: str) -> list[str]:
                     found.append(f"{np.exp(np.log(a) + x / (x - y) * np.log(b / a)):,.0f}")
             faster = other if gain[-1] > 0 else "exact"
             lines.append(
-                f"{kind}, {mirror} mirror: "
+                f"{kind}, mirror of {mirror} pixels: "
                 + (f"the lines cross at {', '.join(found)} triangles; beyond " if found else "everywhere ")
                 + f"{faster} is faster than {other if faster == 'exact' else 'exact'}"
             )
     return lines
 
 
-def curve(rows: list[dict[str, Any]], kind: str, mirror: str, method: str) -> list[tuple[int, float]]:
+def curve(rows: list[dict[str, Any]], kind: str, mirror: int, method: str) -> list[tuple[int, float]]:
     """(triangles, processor milliseconds of a frame)"""
     return [
         (row["triangles"], row["frame_cpu_ms"])
@@ -198,14 +201,23 @@ def draw(rows: list[dict[str, Any]], folder: Path) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, panels = pyplot.subplots(2, 3, figsize=(12.0, 7.0), sharex=True, sharey=True, layout="constrained")
+    mirrors = sorted({row["mirror"] for row in rows})
+    figure, panels = pyplot.subplots(
+        len(mirrors),
+        len(KINDS),
+        figsize=(12.0, 3.5 * len(mirrors)),
+        sharex=True,
+        sharey=True,
+        layout="constrained",
+        squeeze=False,
+    )
     styles = {
         "exact": ("#CC6677", "o", "-"),
         "newton": ("#332288", "s", "-"),
         "secant_star": ("#000000", "^", "-"),
         "footprint": ("#117733", "D", "--"),
     }
-    for row, mirror in enumerate(MIRRORS):
+    for row, mirror in enumerate(mirrors):
         for column, kind in enumerate(KINDS):
             panel = panels[row][column]
             for method, (color, marker, line) in styles.items():
@@ -213,9 +225,9 @@ def draw(rows: list[dict[str, Any]], folder: Path) -> None:
                 panel.loglog(
                     *zip(*points, strict=True) if points else ((), ()), line, color=color, marker=marker, label=method
                 )
-            panel.set_title(f"{kind}, mirror {MIRRORS[mirror]} pixels across", fontsize=10)
+            panel.set_title(f"{kind}, mirror {mirror} pixels across", fontsize=10)
             panel.grid(True, which="major", color="#DDDDDD")
-            panel.set_xlabel("triangles" if row else "")
+            panel.set_xlabel("triangles" if row == len(mirrors) - 1 else "")
             panel.set_ylabel("a frame's processor time, ms" if column == 0 else "")
     panels[0][0].legend()
     figure.savefig(folder / "methods.png", dpi=100)
@@ -226,7 +238,9 @@ def read(path: Path) -> list[dict[str, Any]]:
     """Rows of methods.csv."""
     with path.open(newline="", encoding="utf-8") as file:
         return [
-            row | {name: float(row[name]) for name in NUMBERS} | {"triangles": int(row["triangles"])}
+            row
+            | {name: float(row[name]) for name in NUMBERS}
+            | {name: int(row[name]) for name in ("mirror", "triangles")}
             for row in csv.DictReader(file)
         ]
 
@@ -235,7 +249,9 @@ def main() -> None:
     """Measure, write and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--triangles", type=int, default=COUNTS[-1], help="of the largest scene (%(default)s)")
+    parser.add_argument("--counts", type=_numbers, default=COUNTS, help="triangles of the scenes, about")
+    parser.add_argument("--things", type=int, default=THINGS, help="objects of a scene (%(default)s)")
+    parser.add_argument("--pixels", type=_numbers, default=PIXELS, help="widths of the mirrors")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--kinds", default=",".join(KINDS), help="(%(default)s)")
     parser.add_argument("--methods", default=",".join(METHODS), help="(%(default)s)")
@@ -250,8 +266,8 @@ def main() -> None:
             writer.writeheader()
             for kind in options.kinds.split(","):
                 methods = options.methods.split(",")
-                for count in [n for n in COUNTS if n <= options.triangles]:
-                    rows = measure(kind, count, methods, options.repeats)
+                for count in options.counts:
+                    rows = measure(kind, count, options.things, options.pixels, methods, options.repeats)
                     writer.writerows(rows)
                     file.flush()
                     for row in rows:
@@ -264,9 +280,13 @@ def main() -> None:
         print("\n".join([other, *crossings(rows, other)]))
 
 
+def _numbers(text: str) -> list[int]:
+    return [int(part) for part in text.split(",")]
+
+
 def _line(row: dict[str, Any]) -> str:
     return (
-        f"{row['scene']:10}{row['mirror']:6}{row['triangles']:>10,} {row['method']:12} update {row['update_ms']:8.1f}  "
+        f"{row['scene']:10}{row['mirror']:4}{row['triangles']:>10,} {row['method']:12} update {row['update_ms']:8.1f}  "
         f"show {row['show_ms']:8.1f}  cpu {row['frame_cpu_ms']:8.1f} ms"
     )
 

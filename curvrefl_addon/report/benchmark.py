@@ -81,7 +81,7 @@ def format_benchmark(report: dict[str, Any]) -> str:
     lines += [
         "Times are medians, with quartiles; of each in the mean of as many as were asked for at once, between two",
         f"waits for the device. {_waits(report)}",
-        "Submit is the processor's share: where it is nearly all, the device was idle.",
+        "Submit is the processor's share: where it is nearly all, the device was idle (or is a program, as llvmpipe).",
         "Bytes and operations are counted in the shaders, texels of 16 bytes.",
     ]
     return "\n".join(lines)
