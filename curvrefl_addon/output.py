@@ -53,6 +53,16 @@ def folder_to_publish(folder: Path) -> Iterator[Path]:
         shutil.rmtree(part, ignore_errors=True)
 
 
+def write_whole(path: Path, text: str) -> None:
+    """Write a file, in UTF-8, that is there whole or as it was: also when the program is stopped."""
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
 def _existing_base(folder: Path) -> Path:
     """`folder` itself or the nearest one above it that exists."""
     return next(base for base in (folder, *folder.parents) if base.exists())

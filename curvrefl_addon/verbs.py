@@ -167,17 +167,17 @@ def benchmark(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     _start_gpu()
 
-    from .report.benchmark import Limits, format_benchmark, measure_benchmark, save_benchmark
+    from .report.benchmark import Limits, format_benchmark, measure_benchmark
 
+    output.mkdir(parents=True, exist_ok=True)
     with _dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
             options.triangles,
             Limits(options.bandwidth, options.flops),
+            output,
             lambda line: print(line, file=stdout, flush=True),
         )
-    with folder_to_publish(output) as folder:
-        save_benchmark(report, folder)
     print(format_benchmark(report))
     print(f"Numbers: {output / 'benchmark.json'}")
     return 0

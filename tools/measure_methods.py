@@ -2,17 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where following rays beats solving vertices: frames of scenes that stand still, move and deform.
 
-    python tools/measure_methods.py --output DIR [--triangles 2000000] [--repeats 5]
+    python tools/measure_methods.py --output DIR [--counts 1000,..] [--pixels 60,300] [--kinds static,..] [--repeats 5]
+    python tools/measure_methods.py --output DIR --draw-only
 
 A frame is what differs between the methods: following the scene (geometry, hierarchies), and what the mirror shows
 (the walk of the rays; or the solve and the draw of solved triangles), not the surface buffer of what the eye sees, nor
-the shading. One sub-frame, 640 x 480. Writes methods.csv, methods.png and methods.svg.
+the shading. One sub-frame, 640 x 480. `footprint` is no method of the extension: see footprints.py. The methods take
+turns, frame by frame. Writes methods.csv as it goes, then methods.png and methods.svg.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +23,8 @@ from statistics import median
 from time import perf_counter, process_time
 from typing import Any
 
+# (numpy's products of small matrices go faster alone than in threads that wait for each other on a busy machine)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import bootstrap
@@ -35,74 +40,77 @@ from curvrefl.curvrefl_addon.renderer.materials import Materials  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer, draw_primary, draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.view_block import view_block  # noqa: E402
 from curvrefl.curvrefl_addon.report.benchmark_scenes import (  # noqa: E402
+    THINGS,
     deformed,
     hall,
     moved,
     view_of_mirror,
 )
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
+from footprints import Footprints  # noqa: E402
 
 SIZE = (640, 480)
-MIRRORS = {"small": 60, "large": 300}
-"""Pixels across"""
+PIXELS = (60, 300)
+"""Mirrors, pixels across"""
 COUNTS = (1_000, 10_000, 125_000, 500_000, 2_000_000)
-METHODS = ("exact", "newton", "secant_star")
+METHODS = ("exact", "newton", "secant_star", "footprint")
 KINDS = ("static", "moving", "deforming")
 LONGEST_FRAME = 8.0
-"""Seconds: larger scenes are left out after such a frame"""
+"""Seconds: a method is left out of larger scenes after such a frame"""
+LONGEST_ROUNDS = 20.0
+"""Seconds: no further round of frames begins after so long"""
+NUMBERS = ("update_ms", "show_ms", "frame_ms", "update_cpu_ms", "show_cpu_ms", "frame_cpu_ms", "first_build_ms")
+COLUMNS = ("scene", "mirror", "triangles", "method", "repeats", *NUMBERS)
 type Change = Callable[[SceneArrays, int], SceneArrays]
 CHANGES: dict[str, Change] = {
     "static": lambda scene, frame: scene,
     "moving": lambda scene, frame: moved(scene, 2, (0.02 * np.sin(frame), 0.02, 0.0)),
     "deforming": lambda scene, frame: deformed(scene, 2, 0.3 * frame),
 }
+type Times = dict[str, tuple[float, float]]
 
 
 class Frames:
     """One method in one scene, frame after frame."""
 
-    def __init__(self, scene: SceneArrays, method: str, pixels: float) -> None:
-        self.renderer = Renderer(scene, Settings(method=method, samples=1))
-        self.scene, self.pixels, self.turn = scene, pixels, 0.0
+    def __init__(self, scene: SceneArrays, method: str) -> None:
+        self.method, self.turn = method, 0.0
+        self.renderer = Renderer(scene, Settings(method="newton" if method == "footprint" else method, samples=1))
         self.materials = Materials(scene)
+        self.footprints = Footprints(self.renderer, self.materials)
         self.seen, self.shown = SurfaceBuffer(*SIZE), SurfaceBuffer(*SIZE)
         self.path = PathBuffer(*SIZE)
         self.first_ms = 1e3 * _timed(lambda: self.renderer.rays())[0] if method == "exact" else 0.0
 
-    def frame(self, scene: SceneArrays) -> dict[str, tuple[float, float]]:
-        """Wall and process seconds of each part."""
+    def frame(self, scene: SceneArrays, pixels: float) -> Times:
+        """Wall and process seconds of each part, with a mirror of so many pixels."""
         self.turn += 0.002
-        view = view_of_mirror(*SIZE, self.pixels, self.turn)
+        view = view_of_mirror(*SIZE, pixels, self.turn)
         uniforms = view_block(view)
         times = {"update": _timed(lambda: self.renderer.update(scene))}
         draw_primary(self.seen, self.renderer.geometry.seen(view), self.materials, uniforms)
-        _wait(self.seen)
+        self.seen.wait()
         mirror = self.renderer.mirrors[0]
         window = mirror.window(view)
-        if self.renderer.settings.method == "exact":
 
-            def walk() -> None:
-                rays = self.renderer.rays()
-                self.path.follow(self.seen, rays, self.materials, uniforms, window, False)
-                _wait(self.path)
+        def walk() -> None:
+            rays = self.renderer.rays()
+            self.path.follow(self.seen, rays, self.materials, uniforms, window, False)
+            self.path.wait()
 
-            times["show"] = _timed(walk)
-            return times
+        def bound_and_draw() -> None:
+            self.footprints.draw(self.shown, self.seen, view, uniforms)
+            self.shown.wait()
 
         def solve_and_draw() -> None:
             reflection = self.renderer.reflect(view)
             self.shown.clear()
             parts = reflection.parts[0]
             draw_reflected(self.shown, self.seen, 1, None, parts, self.materials, uniforms, mirror.bound, window)
-            _wait(self.shown)
+            self.shown.wait()
 
-        times["show"] = _timed(solve_and_draw)
+        times["show"] = _timed({"exact": walk, "footprint": bound_and_draw}.get(self.method, solve_and_draw))
         return times
-
-
-def _wait(buffer: SurfaceBuffer) -> None:
-    with buffer.frame_buffer.bind():
-        buffer.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
 
 def _timed(action: Callable[[], Any]) -> tuple[float, float]:
@@ -111,63 +119,79 @@ def _timed(action: Callable[[], Any]) -> tuple[float, float]:
     return perf_counter() - wall, process_time() - cpu
 
 
-def measure(kind: str, count: int, mirror: str, method: str, repeats: int) -> dict[str, Any]:
-    """Medians of frames after the first one, milliseconds."""
-    scene = hall(count, as_one=kind == "deforming")
-    frames = Frames(scene, method, MIRRORS[mirror])
+def measure(
+    kind: str, count: int, things: int, mirrors: list[int], methods: list[str], repeats: int
+) -> list[dict[str, Any]]:
+    """A row per mirror, in pixels, and method: medians of frames after the first one, milliseconds."""
+    scene = hall(count, things, as_one=kind == "deforming")
+    triangles = sum(len(scene.meshes[item.mesh].triangles) for item in scene.instances[1:])
+    runs = {method: Frames(scene, method) for method in methods}
+    rows = []
     try:
-        if method == "exact" and kind == "static":
-            # As in a viewport that has rested.
-            frames.renderer.rays().finish()
-        frames.frame(scene)
-        results = []
-        for number in range(1, repeats + 1):
-            scene = CHANGES[kind](scene, number)
-            results.append(frames.frame(scene))
-        row: dict[str, Any] = {
-            "scene": kind,
-            "mirror": mirror,
-            "triangles": sum(len(scene.meshes[item.mesh].triangles) for item in scene.instances[1:]),
-            "method": method,
-        }
-        for part in ("update", "show"):
-            row[f"{part}_ms"] = 1e3 * median(result[part][0] for result in results)
-        row["frame_ms"] = 1e3 * median(result["update"][0] + result["show"][0] for result in results)
-        row["frame_cpu_ms"] = 1e3 * median(result["update"][1] + result["show"][1] for result in results)
-        row["first_build_ms"] = frames.first_ms
-        return row
+        if "exact" in runs:
+            # As in a viewport that has rested before.
+            runs["exact"].renderer.rays().finish()
+        number = 0
+        for pixels in mirrors:
+            results: dict[str, list[Times]] = {method: [] for method in methods}
+            for method in methods:
+                runs[method].frame(scene, pixels)
+            start = perf_counter()
+            for _ in range(repeats):
+                number += 1
+                scene = CHANGES[kind](scene, number)
+                for method in methods:
+                    results[method].append(runs[method].frame(scene, pixels))
+                if perf_counter() - start > LONGEST_ROUNDS:
+                    break
+            for method in methods:
+                row = {"scene": kind, "mirror": pixels, "triangles": triangles, "method": method}
+                rows.append(row | _medians(results[method]) | {"first_build_ms": runs[method].first_ms})
+        return rows
     finally:
-        frames.renderer.free()
+        for run in runs.values():
+            run.renderer.free()
+
+
+def _medians(results: list[Times]) -> dict[str, Any]:
+    row: dict[str, Any] = {"repeats": len(results)}
+    for clock, unit in enumerate(("ms", "cpu_ms")):
+        for part in ("update", "show"):
+            row[f"{part}_{unit}"] = 1e3 * median(result[part][clock] for result in results)
+        row[f"frame_{unit}"] = 1e3 * median(result["update"][clock] + result["show"][clock] for result in results)
+    return row
 
 
 def crossings(rows: list[dict[str, Any]], other: str) -> list[str]:
     """Where `exact` and another method take the same time, from lines through what was measured (logarithms)."""
     lines = []
     for kind in KINDS:
-        for mirror in MIRRORS:
-            times = {
-                method: {
-                    r["triangles"]: r["frame_cpu_ms"]
-                    for r in rows
-                    if (r["scene"], r["mirror"], r["method"]) == (kind, mirror, method)
-                }
-                for method in ("exact", other)
-            }
-            both = sorted(set(times["exact"]) & set(times[other]))
+        for mirror in sorted({row["mirror"] for row in rows}):
+            exact, times = (dict(curve(rows, kind, mirror, method)) for method in ("exact", other))
+            both = sorted(set(exact) & set(times))
             if not both:
                 continue
-            gain = [np.log(times["exact"][n] / times[other][n]) for n in both]
+            gain = [np.log(exact[n] / times[n]) for n in both]
             found = []
             for a, b, x, y in zip(both[:-1], both[1:], gain[:-1], gain[1:], strict=True):
                 if (x > 0) != (y > 0):
-                    found.append(f"{np.exp(np.interp(0.0, sorted((x, y)), np.log((a, b) if x < y else (b, a)))):,.0f}")
+                    found.append(f"{np.exp(np.log(a) + x / (x - y) * np.log(b / a)):,.0f}")
             faster = other if gain[-1] > 0 else "exact"
             lines.append(
-                f"{kind}, {mirror} mirror: "
+                f"{kind}, mirror of {mirror} pixels: "
                 + (f"the lines cross at {', '.join(found)} triangles; beyond " if found else "everywhere ")
                 + f"{faster} is faster than {other if faster == 'exact' else 'exact'}"
             )
     return lines
+
+
+def curve(rows: list[dict[str, Any]], kind: str, mirror: int, method: str) -> list[tuple[int, float]]:
+    """(triangles, processor milliseconds of a frame)"""
+    return [
+        (row["triangles"], row["frame_cpu_ms"])
+        for row in rows
+        if (row["scene"], row["mirror"], row["method"]) == (kind, mirror, method)
+    ]
 
 
 def draw(rows: list[dict[str, Any]], folder: Path) -> None:
@@ -177,54 +201,94 @@ def draw(rows: list[dict[str, Any]], folder: Path) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, panels = pyplot.subplots(2, 3, figsize=(12.0, 7.0), sharex=True, sharey=True, layout="constrained")
-    styles = {"exact": ("#CC6677", "o"), "newton": ("#332288", "s"), "secant_star": ("#000000", "^")}
-    for row, mirror in enumerate(MIRRORS):
+    mirrors = sorted({row["mirror"] for row in rows})
+    figure, panels = pyplot.subplots(
+        len(mirrors),
+        len(KINDS),
+        figsize=(12.0, 3.5 * len(mirrors)),
+        sharex=True,
+        sharey=True,
+        layout="constrained",
+        squeeze=False,
+    )
+    styles = {
+        "exact": ("#CC6677", "o", "-"),
+        "newton": ("#332288", "s", "-"),
+        "secant_star": ("#000000", "^", "-"),
+        "footprint": ("#117733", "D", "--"),
+    }
+    for row, mirror in enumerate(mirrors):
         for column, kind in enumerate(KINDS):
             panel = panels[row][column]
-            for method, (color, marker) in styles.items():
-                chosen = [r for r in rows if (r["scene"], r["mirror"], r["method"]) == (kind, mirror, method)]
-                counts = [r["triangles"] for r in chosen]
-                panel.loglog(counts, [r["frame_cpu_ms"] for r in chosen], color=color, marker=marker, label=method)
-            panel.set_title(f"{kind}, mirror {MIRRORS[mirror]} pixels across", fontsize=10)
+            for method, (color, marker, line) in styles.items():
+                points = curve(rows, kind, mirror, method)
+                panel.loglog(
+                    *zip(*points, strict=True) if points else ((), ()), line, color=color, marker=marker, label=method
+                )
+            panel.set_title(f"{kind}, mirror {mirror} pixels across", fontsize=10)
             panel.grid(True, which="major", color="#DDDDDD")
-            panel.set_xlabel("triangles" if row else "")
-            panel.set_ylabel("processor time, ms" if column == 0 else "")
+            panel.set_xlabel("triangles" if row == len(mirrors) - 1 else "")
+            panel.set_ylabel("a frame's processor time, ms" if column == 0 else "")
     panels[0][0].legend()
     figure.savefig(folder / "methods.png", dpi=100)
     figure.savefig(folder / "methods.svg")
+
+
+def read(path: Path) -> list[dict[str, Any]]:
+    """Rows of methods.csv."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return [
+            row
+            | {name: float(row[name]) for name in NUMBERS}
+            | {name: int(row[name]) for name in ("mirror", "triangles")}
+            for row in csv.DictReader(file)
+        ]
 
 
 def main() -> None:
     """Measure, write and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--triangles", type=int, default=COUNTS[-1], help="of the largest scene (%(default)s)")
+    parser.add_argument("--counts", type=_numbers, default=COUNTS, help="triangles of the scenes, about")
+    parser.add_argument("--things", type=int, default=THINGS, help="objects of a scene (%(default)s)")
+    parser.add_argument("--pixels", type=_numbers, default=PIXELS, help="widths of the mirrors")
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--kinds", default=",".join(KINDS), help="(%(default)s)")
+    parser.add_argument("--methods", default=",".join(METHODS), help="(%(default)s)")
+    parser.add_argument("--draw-only", action="store_true", help="of the methods.csv that is there")
     options = parser.parse_args()
-    require_gpu()
     options.output.mkdir(parents=True, exist_ok=True)
-    rows: list[dict[str, Any]] = []
-    for kind in KINDS:
-        for mirror in MIRRORS:
-            for method in METHODS:
-                for count in [n for n in COUNTS if n <= options.triangles]:
-                    row = measure(kind, count, mirror, method, options.repeats)
-                    rows.append(row)
-                    print(
-                        f"{kind:10}{mirror:6}{row['triangles']:>10,} {method:12} update {row['update_ms']:8.1f}  "
-                        f"show {row['show_ms']:8.1f}  cpu {row['frame_cpu_ms']:8.1f} ms",
-                        flush=True,
-                    )
-                    if row["frame_ms"] > 1e3 * LONGEST_FRAME:
-                        break
-    with (options.output / "methods.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    path = options.output / "methods.csv"
+    if not options.draw_only:
+        require_gpu()
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            for kind in options.kinds.split(","):
+                methods = options.methods.split(",")
+                for count in options.counts:
+                    rows = measure(kind, count, options.things, options.pixels, methods, options.repeats)
+                    writer.writerows(rows)
+                    file.flush()
+                    for row in rows:
+                        print(_line(row), flush=True)
+                    slow = {row["method"] for row in rows if row["frame_ms"] > 1e3 * LONGEST_FRAME}
+                    methods = [method for method in methods if method not in slow]
+    rows = read(path)
     draw(rows, options.output)
     for other in METHODS[1:]:
-        print("\n".join(crossings(rows, other)))
+        print("\n".join([other, *crossings(rows, other)]))
+
+
+def _numbers(text: str) -> list[int]:
+    return [int(part) for part in text.split(",")]
+
+
+def _line(row: dict[str, Any]) -> str:
+    return (
+        f"{row['scene']:10}{row['mirror']:4}{row['triangles']:>10,} {row['method']:12} update {row['update_ms']:8.1f}  "
+        f"show {row['show_ms']:8.1f}  cpu {row['frame_cpu_ms']:8.1f} ms"
+    )
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ class Hierarchy:
 
     def fitted(self, low: Float32Array, high: Float32Array) -> Hierarchy:
         """The same tree over the same items when their boxes (items, 3) have changed."""
-        low, high = _fit(self.link, self.count, self.levels, low[self.order], high[self.order])
+        low, high = _fit(self.link, self.count, self.levels, *_taken(low, high, self.order))
         return replace(self, low=low, high=high)
 
     def cost(self) -> float:
@@ -207,7 +207,8 @@ class _Growth:
         is_leaf = link < 0
         link, count = np.where(is_leaf, self._joined(self._start), link), np.where(is_leaf, count, 0)
         levels = tuple(self._levels)
-        return Hierarchy(self.order, link, count, levels, *_fit(link, count, levels, low[self.order], high[self.order]))
+        fitted = _fit(link, count, levels, *_taken(low, high, self.order))
+        return Hierarchy(self.order, link, count, levels, *fitted)
 
     @staticmethod
     def _joined(parts: list[IntArray]) -> IntArray:
@@ -263,16 +264,25 @@ def _areas(ends: Float32Array) -> Float32Array:
     return np.where(x >= 0.0, x * y + y * z + z * x, 0.0)
 
 
+def _taken(low: Float32Array, high: Float32Array, order: IntArray) -> tuple[Float32Array, Float32Array]:
+    """Rows in another order (`take` is twice as fast as an index)."""
+    return np.take(low, order, axis=0), np.take(high, order, axis=0)
+
+
 def _fit(
     link: IntArray, count: IntArray, levels: tuple[int, ...], low: Float32Array, high: Float32Array
 ) -> tuple[Float32Array, Float32Array]:
     """Boxes (nodes, 3) of a tree over items' boxes in the tree's order."""
     leaves = np.flatnonzero(count > 0)
-    by_start = leaves[np.argsort(link[leaves])]
+    # Leaves in the order of their items: none begin where another does.
+    leaf_at = np.full(len(low), -1)
+    leaf_at[link[leaves]] = leaves
+    by_start = leaf_at[leaf_at >= 0]
+    starts = link[by_start]
     node_low, node_high = (np.empty((len(link), 3), np.float32) for _ in range(2))
     for axis in range(3):
-        node_low[by_start, axis] = np.minimum.reduceat(np.ascontiguousarray(low[:, axis]), link[by_start])
-        node_high[by_start, axis] = np.maximum.reduceat(np.ascontiguousarray(high[:, axis]), link[by_start])
+        node_low[by_start, axis] = np.minimum.reduceat(np.ascontiguousarray(low[:, axis]), starts)
+        node_high[by_start, axis] = np.maximum.reduceat(np.ascontiguousarray(high[:, axis]), starts)
     for begin, end in zip(levels[-2::-1], levels[:0:-1], strict=True):
         inner = begin + np.flatnonzero(count[begin:end] == 0)
         child = link[inner]

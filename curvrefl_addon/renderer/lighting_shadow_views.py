@@ -74,7 +74,11 @@ class SceneExtent:
                 group[start:stop][piece[start:stop] == part] = number
         # outlines of what casts and of everything: first of what lies in no plane of the hull, then per plane
         groups = [group == number for number in range(len(self.hull) + 1)]
-        self._outlines = [(outline(points[chosen & casts]), outline(points[chosen])) for chosen in groups]
+        self._outlines = []
+        for chosen in groups:
+            whole = outline(points[chosen])
+            some = chosen & casts
+            self._outlines.append((whole if (some == chosen).all() else outline(points[some]), whole))
         self._caster_balls = _balls(points[casts], group[casts], owner[casts])
 
     def spares(self, moved: Sequence[int], corners: Float64Array) -> bool:

@@ -233,7 +233,7 @@ class Mirror:
         """
         self.require(settings.method)
         method = METHODS[settings.method]
-        reflector = self._reflector(view, settings, own, materials)
+        reflector = self.reflector(view, settings, own, materials)
         before, self._before = self._before, {}
         parts = []
         for chunk, batches in scenery:
@@ -309,7 +309,7 @@ class Mirror:
         too short: `longest_edge` is theirs, metres.
         """
         scale = self.most_pixels_per_metre(view)
-        reflector = self._reflector(view, settings, own, materials)
+        reflector = self.reflector(view, settings, own, materials)
         tolerance = 0.1 * settings.pixel_tolerance
 
         def found(image: int) -> Solve:
@@ -341,11 +341,9 @@ class Mirror:
             )
         )
 
-    def forget_solutions(self) -> None:
-        """Let the next solve begin as the first one did."""
-        self._before = {}
-
-    def _reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
+    def reflector(self, view: View, settings: Settings, own: tuple[Chunk, Batches], materials: Materials) -> Reflector:
+        """What a solve in this view knows of it; `own` is its own surface. Draws the maps of methods that search in the
+        view's own."""
         maps = METHODS[settings.method].maps
         reflector = Reflector(
             self.world_to_map, self.bound, side=self.side(view), is_convex=self.facts.never_sees_itself

@@ -13,7 +13,7 @@ import numpy as np
 from ...gpu_shaders.loader import load
 from ..errors import InputError
 from ..scene.arrays import Float32Array
-from .gpu_objects import TEXTURE_WIDTH, dispatch, empty_record_texture, record_texture
+from .gpu_objects import TEXTURE_WIDTH, dispatch, empty_record_texture, padded_count, record_texture
 
 UNIT = 16
 """Regions begin at multiples of so many records: a float holds the quotient exactly"""
@@ -37,11 +37,14 @@ class RecordRegions:
         Raises InputError where the graphics driver has no texture of that size.
         """
         sizes = [_rounded(len(part)) for part in parts]
-        joined = np.zeros((sum(sizes), 4), np.float32)
+        # (of whole rows, or they would be copied once more)
+        joined = np.empty((padded_count(sum(sizes)), 4), np.float32)
         source = 0
         for part, size in zip(parts, sizes, strict=True):
             joined[source : source + len(part)] = part
+            joined[source + len(part) : source + size] = 0.0
             source += size
+        joined[source:] = 0.0
         starts = [self._take(size) for size in sizes]
         if sizes:
             staged = record_texture(joined)

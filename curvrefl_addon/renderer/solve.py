@@ -189,36 +189,79 @@ def solve_vertices(
     the same positions in the frame before, for methods that start from it. It is the result too where nothing has
     changed: `at_rest` says so of positions and maps. `first_rung` leaves starts of the clean-up pass out.
     """
-    chosen = METHODS[method]
-    block = _solver_block(view, reflector, count, steps or chosen.steps, tolerance)
+    block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
     block["start"] = (*reflector.start, first_rung, reflector.is_convex)
-    inputs = method.encode() + block.tobytes()
-    if at_rest and previous is not None and previous.inputs == inputs:
+    if at_rest and previous is not None and previous.inputs == _inputs(method, block):
         return previous
-    block["counts"][0, 3] = 0 if previous is None else SAME_VIEW if previous.inputs == inputs else 1
-    solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
-    images = {"reflection_points": solution.reflection_points, "virtual_positions": solution.virtual_positions}
-    if chosen.stragglers:
-        images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
-        images["straggler_count"].clear(format="UINT", value=(0,))
-    textures = dict(reflector.textures)
-    textures["previous_points"] = positions if previous is None else previous.reflection_points
-    textures["previous_virtual"] = positions if previous is None else previous.virtual_positions
-    # Bound by reference only: it has to outlive the dispatch.
-    uniforms = uniform_block(block)
-    for name, most in ((method, count), (chosen.stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
-        if not name:
-            continue
-        shader = _solver_shader(name, method)
-        shader.bind()
-        shader.uniform_block("solver", uniforms)
-        shader.uniform_sampler("positions", positions)
-        for _, sampler in _samplers(method):
-            shader.uniform_sampler(sampler, textures[sampler])
-        for image, texture in images.items():
-            shader.image(image, texture)
-        dispatch(shader, most, GROUP)
-    return solution
+    solve = PreparedSolve(method, reflector, block, positions, count, previous)
+    solve.run()
+    return solve.solution
+
+
+def prepare_solve(
+    method: str,
+    view: View,
+    reflector: Reflector,
+    positions: Any,
+    count: int,
+    tolerance: float = 0.05,
+    previous: VertexSolution | None = None,
+) -> PreparedSolve:
+    """As `solve_vertices`, but nothing has been run yet."""
+    block = _solver_block(view, reflector, count, METHODS[method].steps, tolerance)
+    block["start"] = (*reflector.start, 0, reflector.is_convex)
+    return PreparedSolve(method, reflector, block, positions, count, previous)
+
+
+class PreparedSolve:
+    """The dispatches of one solve: run again, for timing, they do the same again."""
+
+    def __init__(
+        self,
+        method: str,
+        reflector: Reflector,
+        block: np.ndarray,
+        positions: Any,
+        count: int,
+        previous: VertexSolution | None,
+    ) -> None:
+        """`block` of a solve without a last frame."""
+        inputs = _inputs(method, block)
+        block["counts"][0, 3] = 0 if previous is None else SAME_VIEW if previous.inputs == inputs else 1
+        self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
+        """There once it has run"""
+        self._method = method
+        self._images = {
+            "reflection_points": self.solution.reflection_points,
+            "virtual_positions": self.solution.virtual_positions,
+        }
+        if METHODS[method].stragglers:
+            self._images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
+        self._textures = {
+            **reflector.textures,
+            "positions": positions,
+            "previous_points": positions if previous is None else previous.reflection_points,
+            "previous_virtual": positions if previous is None else previous.virtual_positions,
+        }
+        # Bound by reference only: it has to outlive the dispatches.
+        self._uniforms = uniform_block(block)
+
+    def run(self) -> None:
+        """Have the GPU do it; returns before it has."""
+        stragglers, count = METHODS[self._method].stragglers, self.solution.count
+        if stragglers:
+            self._images["straggler_count"].clear(format="UINT", value=(0,))
+        for name, most in ((self._method, count), (stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
+            if not name:
+                continue
+            shader = _solver_shader(name, self._method)
+            shader.bind()
+            shader.uniform_block("solver", self._uniforms)
+            for sampler in ("positions", *(sampler for _, sampler in _samplers(self._method))):
+                shader.uniform_sampler(sampler, self._textures[sampler])
+            for image, texture in self._images.items():
+                shader.image(image, texture)
+            dispatch(shader, most, GROUP)
 
 
 def solve_region(
@@ -260,6 +303,11 @@ class RegionTextures:
         seeds = np.zeros((regions.seeds.shape[0] * SEEDS, 4), np.float32)
         seeds[:, :3] = regions.seeds.reshape(-1, 3)
         self.seeds = record_texture(seeds)
+
+
+def _inputs(method: str, block: np.ndarray) -> bytes:
+    """See `VertexSolution`."""
+    return method.encode() + block.tobytes()
 
 
 def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:

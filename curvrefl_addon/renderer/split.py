@@ -49,6 +49,8 @@ def longest_edge(mesh: MeshArrays) -> float:
         return float(np.sqrt(max(workers.map(longest_in, starts))))
 
 
+_SURELY = 1.0001
+"""More than rounding takes"""
 _BLOCK = 1 << 15
 """Triangles at a time: their places stay in the cache"""
 
@@ -125,14 +127,20 @@ def with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
 
 def _long_edges(relative: Float32Array, corner_position: Int32Array, corners: Int32Array, angle: float) -> np.ndarray:
     """(triangles, 3): edge k runs from corner k to corner k + 1."""
-    places = relative[corner_position[corners]]
+    places = np.take(relative, np.take(corner_position, corners), axis=0)
     edges = places[:, [1, 2, 0]] - places
     # Lengths whose squares overflow compare as not long: they are left as they are.
     with np.errstate(over="ignore", invalid="ignore"):
         squared = np.einsum("ijk,ijk->ij", edges, edges)
-        along = -np.einsum("ijk,ijk->ij", places, edges) / np.maximum(squared, 1e-30)
-        closest = places + np.clip(along, 0.0, 1.0)[..., None] * edges
-        return squared > angle**2 * np.einsum("ijk,ijk->ij", closest, closest)
+        # No point of an edge is nearer than its start is, less its length: few edges need a closer look.
+        reach = (1.0 + angle) / angle * _SURELY
+        found = reach**2 * squared > np.einsum("ijk,ijk->ij", places, places)
+        rows, columns = np.nonzero(found)
+        start, edge, square = places[rows, columns], edges[rows, columns], squared[rows, columns]
+        along = -np.einsum("ij,ij->i", start, edge) / np.maximum(square, 1e-30)
+        closest = start + np.clip(along, 0.0, 1.0)[:, None] * edge
+        found[rows, columns] = square > angle**2 * np.einsum("ij,ij->i", closest, closest)
+        return found
 
 
 def number_pairs(first: Int32Array, second: Int32Array, start: int) -> tuple[Int32Array, Int32Array]:

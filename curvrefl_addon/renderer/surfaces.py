@@ -54,6 +54,11 @@ class SurfaceBuffer:
         with self.frame_buffer.bind():
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
 
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+
 
 class BackFaces:
     """Distance from the eye to a reflector's nearest back face, 0 where there is none."""

@@ -10,9 +10,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from ..output import write_whole
 from .benchmark_rays import measure_rays
 from .benchmark_solves import measure_solves
-from .table import NO_NUMBER, aligned, milliseconds, number
+from .table import NO_NUMBER, aligned, number
 
 VERTEX_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000)
 TRIANGLE_COUNTS = (1_000, 10_000, 125_000, 500_000, 2_000_000)
@@ -35,24 +36,28 @@ class Limits:
         }
 
 
-def measure_benchmark(vertices: int, triangles: int, limits: Limits, say: Callable[[str], None]) -> dict[str, Any]:
-    """Everything up to so many vertices and triangles, as benchmark.json has it."""
+def measure_benchmark(
+    vertices: int, triangles: int, limits: Limits, folder: Path, say: Callable[[str], None]
+) -> dict[str, Any]:
+    """Everything up to so many vertices and triangles.
+
+    benchmark.json and benchmark.txt in `folder` are written anew with each row, so that a run that is stopped leaves
+    what it has.
+    """
+    report: dict[str, Any] = {"device": _device(), "limits": asdict(limits), "solves": [], "rays": []}
     solves = measure_solves(_up_to(VERTEX_COUNTS, vertices), say)
     rays = measure_rays(_up_to(TRIANGLE_COUNTS, triangles), say)
-    for rows, states, unit in ((solves, ("cold", "warm"), "solves"), (rays, ("quick", "best"), "rays")):
+    for name, rows, states in (("solves", solves, ("cold", "warm")), ("rays", rays, ("quick", "best"))):
         for row in rows:
             for state in states:
-                rate = row.get(f"{state}_{unit}_per_second")
+                rate = row.get(f"{state}_{name}_per_second")
                 if rate is not None:
                     shares = limits.share(row[f"{state}_bytes"], row[f"{state}_operations"], rate)
-                    row |= {f"{state}_{name}": share for name, share in shares.items()}
-    return {"device": _device(), "limits": asdict(limits), "solves": solves, "rays": rays}
-
-
-def save_benchmark(report: dict[str, Any], folder: Path) -> None:
-    """benchmark.json and benchmark.txt"""
-    (folder / "benchmark.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-    (folder / "benchmark.txt").write_text(format_benchmark(report) + "\n", encoding="utf-8")
+                    row |= {f"{state}_{share}": value for share, value in shares.items()}
+            report[name].append(row)
+            write_whole(folder / "benchmark.json", json.dumps(report, indent=1) + "\n")
+            write_whole(folder / "benchmark.txt", format_benchmark(report) + "\n")
+    return report
 
 
 def format_benchmark(report: dict[str, Any]) -> str:
@@ -73,9 +78,12 @@ def format_benchmark(report: dict[str, Any]) -> str:
                 table.append((*_ray_cells(row, state), *_share_cells(row, state)))
     lines += [*aligned(table), ""]
     lines += [f"Left out: {_what(row)}: {row['left_out']}." for row in _all(report) if row["left_out"]]
-    lines.append(
-        "Times are medians, with quartiles. Bytes and operations are counted in the shaders, texels of 16 bytes."
-    )
+    lines += [
+        "Times are medians, with quartiles; of each in the mean of as many as were asked for at once, between two",
+        f"waits for the device. {_waits(report)}",
+        "Submit is the processor's share: where it is nearly all, the device was idle (or is a program, as llvmpipe).",
+        "Bytes and operations are counted in the shaders, texels of 16 bytes.",
+    ]
     return "\n".join(lines)
 
 
@@ -86,6 +94,8 @@ _SOLVE_TITLES: tuple[str, ...] = (
     "start",
     "solve ms",
     "",
+    "at once",
+    "submit ms",
     "M/s",
     "iterations",
     "draw ms",
@@ -96,6 +106,8 @@ _RAY_TITLES: tuple[str, ...] = (
     "hierarchy",
     "walk ms",
     "",
+    "at once",
+    "submit ms",
     "M rays/s",
     "nodes",
     "triangles tested",
@@ -108,10 +120,10 @@ def _solve_cells(row: dict[str, Any], state: str) -> tuple[str, ...]:
         f"{row['solved']:,}",
         row["method"],
         state,
-        *_time_cells(row, f"{state}_ms"),
+        *_time_cells(row, state),
         number(1e-6 * row[f"{state}_solves_per_second"], 2),
         number(row[f"{state}_iterations"], 2),
-        milliseconds(row["draw_ms"]),
+        _ms(row["draw_ms"]),
     )
 
 
@@ -119,15 +131,32 @@ def _ray_cells(row: dict[str, Any], state: str) -> tuple[str, ...]:
     return (
         f"{row['in_scene']:,}",
         state,
-        *_time_cells(row, f"{state}_ms"),
+        *_time_cells(row, state),
         number(1e-6 * row[f"{state}_rays_per_second"], 2),
         number(row[f"{state}_nodes"], 1),
         number(row[f"{state}_tested"], 1),
     )
 
 
-def _time_cells(row: dict[str, Any], name: str) -> tuple[str, str]:
-    return milliseconds(row[name]), f"{milliseconds(row[f'{name}_q1'])}..{milliseconds(row[f'{name}_q3'])}"
+def _time_cells(row: dict[str, Any], state: str) -> tuple[str, ...]:
+    name = f"{state}_ms"
+    return (
+        _ms(row[name]),
+        f"{_ms(row[f'{name}_q1'])}..{_ms(row[f'{name}_q3'])}",
+        str(row[f"{state}_at_once"]),
+        _ms(row[f"{state}_submit_ms"]),
+    )
+
+
+def _ms(value: float) -> str:
+    """Three digits, of whatever size."""
+    return f"{value:.0f}" if value >= 100.0 else f"{value:.3g}"
+
+
+def _waits(report: dict[str, Any]) -> str:
+    """What a wait for nothing takes."""
+    times = [row["empty_wait_ms"] for row in _all(report) if not row["left_out"]]
+    return f"A wait for nothing takes {_ms(min(times))} to {_ms(max(times))} ms." if times else ""
 
 
 def _share_cells(row: dict[str, Any], state: str) -> tuple[str, ...]:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from time import perf_counter
 from typing import Any
 
@@ -19,7 +19,7 @@ from ..renderer.surfaces import SurfaceBuffer, draw_primary
 from ..renderer.view_block import view_block
 from .benchmark_scenes import hall, view_of_mirror
 from .benchmark_solves import MIRROR_PIXELS, SIZE
-from .repeats import Timing, repeated, timing_columns
+from .gpu_timing import empty_wait, time_on_gpu
 
 REPEATS, SECONDS = 20, 2.0
 NODE_BYTES, TRIANGLE_BYTES, INSTANCE_BYTES, RAY_BYTES = 64, 48, 80, 400
@@ -29,18 +29,16 @@ NODE_OPERATIONS, TRIANGLE_OPERATIONS, INSTANCE_OPERATIONS = 56, 53, 50
 """Counted in ray_walk.glsl: additions, products, comparisons, least and greatest; reciprocals as one"""
 
 
-def measure_rays(counts: tuple[int, ...], say: Callable[[str], None]) -> list[dict[str, Any]]:
+def measure_rays(counts: tuple[int, ...], say: Callable[[str], None]) -> Iterator[dict[str, Any]]:
     """A row per scene; `left_out` says why there are no times."""
-    rows = []
     for count in counts:
         say(f"exact: a scene of {count:,} triangles")
         row: dict[str, Any] = {"triangles": count, "left_out": ""}
-        rows.append(row)
         try:
             row |= _measured(count)
         except (InputError, MemoryError) as error:
             row["left_out"] = str(error) or "there is not enough memory"
-    return rows
+        yield row
 
 
 def _measured(count: int) -> dict[str, Any]:
@@ -58,29 +56,26 @@ def _measured(count: int) -> dict[str, Any]:
             "first_build_ms": rays.build_ms,
         }
 
-        def walk() -> float:
-            start = perf_counter()
+        def walk() -> None:
             path.follow(seen, rays, materials, uniforms, window, False)
-            with path.frame_buffer.bind():
-                path.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
-            return 1e3 * (perf_counter() - start)
 
+        walk()
+        columns["empty_wait_ms"] = empty_wait(path.wait)
         for state in ("quick", "best"):
             if state == "best":
                 start = perf_counter()
                 rays.finish()
                 columns["improve_ms"] = 1e3 * (perf_counter() - start)
-            walk()
-            timing = Timing(tuple(repeated(walk, REPEATS, SECONDS)))
+            measured = time_on_gpu(walk, path.wait, columns["empty_wait_ms"], REPEATS, SECONDS)
             path.follow(seen, rays, materials, uniforms, window, False, with_counts=True)
             x, y, width, height = window
             counted = read_texture(path.direction)[y : y + height, x : x + width].reshape(-1, 4)
             counted = counted[counted[:, 3] == 1.0]
             nodes, triangles, instances = counted[:, :3].astype(np.float64).mean(axis=0).tolist()
-            columns |= timing_columns(f"{state}_ms", timing)
+            columns |= measured.columns(state)
             columns |= {
                 "rays": len(counted),
-                f"{state}_rays_per_second": 1e3 * len(counted) / timing.median,
+                f"{state}_rays_per_second": 1e3 * len(counted) / measured.timing.median,
                 f"{state}_nodes": nodes,
                 f"{state}_tested": triangles,
                 f"{state}_entered": instances,

@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from time import perf_counter
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import gpu
@@ -14,16 +13,17 @@ import numpy as np
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..optics.radial_surfaces import Bumpy
-from ..renderer.chunk import Batches, Chunk, Placed
+from ..renderer.chunk import Chunk, Placed
 from ..renderer.frame import Renderer, Settings
 from ..renderer.gpu_objects import TEXTURE_WIDTH
 from ..renderer.materials import Materials
-from ..renderer.solve import SolvedChunk, statistics
+from ..renderer.solve import PreparedSolve, SolvedChunk, VertexSolution, prepare_solve, statistics
 from ..renderer.surfaces import SurfaceBuffer, draw_primary, draw_reflected
 from ..renderer.view_block import view_block
 from ..scene.arrays import InstanceArrays
 from .benchmark_scenes import hall, radial_mesh, view_of_mirror
-from .repeats import Timing, repeated, timing_columns
+from .gpu_timing import empty_wait, time_on_gpu
+from .repeats import timing_columns
 
 METHODS_MEASURED = ("newton", "secant_star")
 SIZE, MIRROR_PIXELS = (640, 480), 300
@@ -42,32 +42,28 @@ FETCHES, OPERATIONS = 3, 400
 change 60, second derivatives and step 90, the rest 25. Steps of the secant search need fewer."""
 
 
-def measure_solves(counts: tuple[int, ...], say: Callable[[str], None]) -> list[dict[str, Any]]:
+def measure_solves(counts: tuple[int, ...], say: Callable[[str], None]) -> Iterator[dict[str, Any]]:
     """A row per method and count; `left_out` says why there are no times."""
     scene = hall(1000)
-    rows = []
     for method in METHODS_MEASURED:
         renderer = Renderer(scene, Settings(method=method, samples=1))
         try:
             expected, before = 0.0, counts[0]
             for count in counts:
                 row: dict[str, Any] = {"method": method, "vertices": count, "left_out": ""}
-                rows.append(row)
                 expected *= count / before
                 before = count
                 row["left_out"] = _why_not(count, expected)
-                if row["left_out"]:
-                    continue
-                say(f"{method}: {count:,} vertices")
-                try:
-                    row |= _measured(renderer, Materials(scene), count)
-                except (InputError, MemoryError, RuntimeError) as error:
-                    row["left_out"] = str(error) or "there is not enough memory"
-                    continue
-                expected = 1e-3 * row["cold_ms"]
+                if not row["left_out"]:
+                    say(f"{method}: {count:,} vertices")
+                    try:
+                        row |= _measured(renderer, Materials(scene), count)
+                        expected = 1e-3 * row["cold_ms"]
+                    except (InputError, MemoryError, RuntimeError) as error:
+                        row["left_out"] = str(error) or "there is not enough memory"
+                yield row
         finally:
             renderer.free()
-    return rows
 
 
 def _why_not(count: int, seconds: float) -> str:
@@ -86,36 +82,28 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     mesh = radial_mesh(Bumpy(SHELL_BUMPS, SHELL * mirror.bound), rows - 1, 2 * rows)
     instance = InstanceArrays("shell", 9, 0, np.eye(4), (0,))
     chunk = Chunk([Placed(instance, mesh, mesh, np.zeros(len(mesh.triangles), np.int8))])
-    scenery: list[tuple[Chunk, Batches]] = [(chunk, chunk.batches(np.ones(1, bool)))]
-    turn = 0.0
+    method, settings = METHODS[renderer.settings.method], renderer.settings
 
-    parts: list[SolvedChunk] = []
-
-    def solve() -> float:
-        # (Of the last solve alone: those of ten million vertices take 320 MB each.)
-        nonlocal turn, parts
-        turn += TURN
+    def prepared(turn: float, previous: VertexSolution | None = None) -> PreparedSolve:
         view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)
-        start = perf_counter()
-        solved = mirror.solve(view, renderer.settings, scenery, own, materials)
-        for part in solved:
-            part.solution.wait()
-        time = 1e3 * (perf_counter() - start)
-        parts = [part for part in solved if part.image == 0]
-        return time
+        reflector = mirror.reflector(view, settings, own, materials)
+        tolerance = 0.1 * settings.pixel_tolerance
+        return prepare_solve(
+            settings.method, view, reflector, chunk.positions, chunk.position_count, tolerance, previous
+        )
 
-    def solve_cold() -> float:
-        mirror.forget_solutions()
-        return solve()
-
-    solve_cold()
-    cold = Timing(tuple(repeated(solve_cold, REPEATS, SECONDS)))
+    # Each is run again and again on what it was prepared with, so that memory holds two solutions and no more: those of
+    # ten million vertices take 320 MB each.
+    cold = prepared(0.0)
+    cold.run()
+    cold.solution.wait()
+    empty_ms = empty_wait(cold.solution.wait)
     columns: dict[str, Any] = {"solved": mesh.positions.shape[0], "triangles": len(mesh.triangles)}
-    columns |= timing_columns("cold_ms", cold)
-    columns |= _work("cold", parts)
-    if "previous" in METHODS[renderer.settings.method].maps:
-        columns |= timing_columns("warm_ms", Timing(tuple(repeated(solve, REPEATS, SECONDS))))
-        columns |= _work("warm", parts)
+    columns |= {"empty_wait_ms": empty_ms} | _timed("cold", cold, empty_ms)
+    last, turn = cold, 0.0
+    if "previous" in method.maps:
+        last, turn = prepared(TURN, cold.solution), TURN
+        columns |= _timed("warm", last, empty_ms)
     else:
         columns |= timing_columns("warm_ms", None)
     for state in ("cold", "warm"):
@@ -125,25 +113,22 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     uniforms = view_block(view)
     seen, shown = SurfaceBuffer(*SIZE), SurfaceBuffer(*SIZE)
     draw_primary(seen, [own], materials, uniforms)
+    parts = [SolvedChunk(chunk, chunk.batches(np.ones(1, bool)), last.solution)]
+    window = mirror.window(view)
 
-    def draw() -> float:
+    def draw() -> None:
         shown.clear()
-        start = perf_counter()
-        window = mirror.window(view)
         draw_reflected(shown, seen, 1, None, parts, materials, uniforms, mirror.bound, window)
-        with shown.frame_buffer.bind():
-            shown.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
-        return 1e3 * (perf_counter() - start)
 
-    draw()
-    return columns | timing_columns("draw_ms", Timing(tuple(repeated(draw, REPEATS, SECONDS))))
+    return columns | time_on_gpu(draw, shown.wait, empty_ms, REPEATS, SECONDS).columns("draw")
 
 
-def _work(state: str, parts: list[SolvedChunk]) -> dict[str, Any]:
-    """Iterations, and what they make of bytes and operations a vertex."""
-    numbers = statistics([part.solution for part in parts])
+def _timed(state: str, solve: PreparedSolve, empty_ms: float) -> dict[str, Any]:
+    """Times, iterations, and what these make of bytes and operations a vertex."""
+    columns = time_on_gpu(solve.run, solve.solution.wait, empty_ms, REPEATS, SECONDS).columns(state)
+    numbers = statistics([solve.solution])
     mean = numbers["iterations"]["mean"]
-    return {
+    return columns | {
         f"{state}_iterations": mean,
         f"{state}_unsolved": numbers["unconverged"],
         f"{state}_bytes": SOLVE_BYTES + FETCHES * FETCH_BYTES * mean,

@@ -5,11 +5,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from curvrefl.curvrefl_addon import cli
-from curvrefl.curvrefl_addon.report.benchmark import Limits
+from curvrefl.curvrefl_addon.report import benchmark
+from curvrefl.curvrefl_addon.report.benchmark import Limits, measure_benchmark
 from curvrefl.curvrefl_addon.report.benchmark_solves import FETCH_BYTES, FETCHES, SOLVE_BYTES
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -32,6 +34,9 @@ def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.Captu
         assert row["cold_bytes"] == SOLVE_BYTES + FETCHES * FETCH_BYTES * row["cold_iterations"]
         assert row["cold_solves_per_second"] == pytest.approx(1e3 * row["solved"] / row["cold_ms"])
         assert row["cold_of_bandwidth"] > 0.0 and row["cold_of_flops"] > 0.0
+        assert row["cold_at_once"] >= 1
+        assert 0.0 < row["cold_submit_ms"] <= row["cold_ms_q3"] * row["cold_at_once"]
+        assert row["empty_wait_ms"] > 0.0
     newton, secant = report["solves"]
     # A frame later the search begins where it ended.
     assert newton["warm_iterations"] < newton["cold_iterations"]
@@ -47,6 +52,21 @@ def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.Captu
             assert row[f"{state}_entered"] > 0.0
     text = capfd.readouterr().out
     assert (output / "benchmark.txt").read_text().strip() in text
+
+
+def test_a_run_that_is_stopped_leaves_its_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(benchmark, "measure_solves", lambda *_: iter([{"method": "m", "vertices": 5, "left_out": "x"}]))
+
+    def one_and_stopped(*_: object) -> Iterator[dict[str, object]]:
+        yield {"triangles": 7, "left_out": "y"}
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(benchmark, "measure_rays", one_and_stopped)
+    with pytest.raises(KeyboardInterrupt):
+        measure_benchmark(2000, 2000, Limits(), tmp_path, lambda _line: None)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["benchmark.json", "benchmark.txt"]
+    report = json.loads((tmp_path / "benchmark.json").read_text())
+    assert (len(report["solves"]), len(report["rays"])) == (1, 1)
 
 
 def test_shares_of_limits() -> None:

@@ -177,7 +177,7 @@ def test_a_wider_frustum_finds_what_a_mirror_shows_past_the_border() -> None:
         renderer = Renderer(room.arrays(), Settings(method="bisector_screen", frustum=frustum, samples=1))
         mirror = renderer.mirrors[0]
         materials = renderer._materials
-        reflector = mirror._reflector(view, renderer.settings, renderer.geometry.of_instance(mirror.index), materials)
+        reflector = mirror.reflector(view, renderer.settings, renderer.geometry.of_instance(mirror.index), materials)
         records = record_texture(np.column_stack([vertices, np.ones(len(vertices))]).astype(np.float32))
         points, code, _, _ = solve_vertices("bisector_screen", view, reflector, records, len(vertices)).read()
         off = np.linalg.norm(view.project(points.astype(float)) - view.project(truth), axis=1)

@@ -9,9 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid
+from curvrefl.curvrefl_addon.renderer import ray_scene
 from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
 from curvrefl.curvrefl_addon.renderer.gpu_objects import read_texture
+from curvrefl.curvrefl_addon.renderer.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.mesh_inside import holds_point, is_closed
+from curvrefl.curvrefl_addon.renderer.ray_scene import RayScene
 from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, WorldArrays
 from scenes.exactness import judge
 from scenes.mirror_halls import MIRRORS, hall
@@ -25,7 +28,10 @@ EYES = ((0.0, -5.0, 1.5), (3.0, 2.5, 4.0))
 
 @pytest.mark.parametrize("mirror", MIRRORS)
 @pytest.mark.parametrize("best", [False, True], ids=["quick", "best"])
-def test_every_pixel_shows_what_its_ray_meets_first(mirror: str, best: bool) -> None:
+def test_every_pixel_shows_what_its_ray_meets_first(mirror: str, best: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not best:
+        # Or these small meshes would get the best tree at once.
+        monkeypatch.setattr(ray_scene, "FEW", 0)
     pixels = wrong = ties = 0
     for seed, eye in enumerate(EYES):
         scene = hall(mirror, seed)
@@ -122,8 +128,10 @@ def same(one: Frame, other: Frame) -> bool:
     )
 
 
-def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer() -> None:
+def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
     """Things move, deform, go and come back; fitted and improved trees show the same as those just built."""
+    # Or these small meshes would get the best tree at once.
+    monkeypatch.setattr(ray_scene, "FEW", 0)
     view = look_at(np.array(EYES[0]), np.zeros(3), 120, 90, 0.6)
     scene = hall("vase", 0, clutter=8)
     renderer = Renderer(scene, Settings(method="exact", samples=1))
@@ -151,6 +159,21 @@ def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer() -> None:
     assert renderer.ray_counters["hierarchies improved"] >= 1
     assert same(renderer.render(view), first)
     renderer.free()
+
+
+def test_a_tree_that_comes_apart_slowly_is_built_anew() -> None:
+    """A step by itself leaves a tree that is nearly as good as the one before."""
+    scene = hall("sphere", 0, clutter=1)
+    ball = scene.meshes[1]
+    shuffled = ball.positions[np.random.default_rng(0).permutation(len(ball.positions))]
+    rays = RayScene(MeshFactsCache())
+    rays.follow(scene, {0: 1})
+    built = rays.counters["hierarchies built"]
+    for share in np.linspace(0.0, 1.0, 60, dtype=np.float32)[1:]:
+        bent = replace(ball, positions=(1.0 - share) * ball.positions + share * shuffled)
+        rays.follow(replace(scene, meshes=(scene.meshes[0], bent, *scene.meshes[2:])), {0: 1})
+    assert 1 <= rays.counters["hierarchies built"] - built < 20
+    assert rays.counters["hierarchies fitted"] > 30
 
 
 def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from curvrefl.curvrefl_addon import output
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.output import checked_file, checked_folder, folder_to_publish
+from curvrefl.curvrefl_addon.output import checked_file, checked_folder, folder_to_publish, write_whole
 
 
 def test_files_arrive_at_the_end_the_report_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,3 +64,13 @@ def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch:
         checked_folder(tmp_path / "x")
     with pytest.raises(InputError, match="Permission denied"):
         checked_file(tmp_path / "x.png", (".png",))
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    file = tmp_path / "numbers.txt"
+    write_whole(file, "one\n")
+    write_whole(file, "two\n")
+    with pytest.raises(UnicodeEncodeError):
+        write_whole(file, "three \udc00\n")
+    assert file.read_text() == "two\n"
+    assert list(tmp_path.iterdir()) == [file]
