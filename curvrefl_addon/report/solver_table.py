@@ -272,7 +272,13 @@ def write_csv(rows: Iterable[Row], path: Path) -> None:
 
 def readable(rows: Sequence[Row], refusals: Sequence[Refusal]) -> str:
     """The same as text, a block per reflector and regime."""
-    lines = []
+    lines = [
+        f"Errors in pixels of a picture of {WIDTH} x {HEIGHT}, of vertices that both the method and the oracle call "
+        "reflected.",
+        f"Off by more than {OFF} px: of those that have a reflection. Wrong side: of all, shown though hidden or "
+        "called hidden though shown.",
+        "Lookups are judged by the geometry that they take for granted. Times are of the solve, maps drawn before.",
+    ]
     block = None
     for row in rows:
         if (row.reflector, row.regime) != block:
@@ -290,4 +296,4 @@ def readable(rows: Sequence[Row], refusals: Sequence[Refusal]) -> str:
             f"{row.iterations_max:5d} {time:>16}"
         )
     lines += [f"\n{refusal.method} on the {refusal.reflector}: {refusal.reason}" for refusal in refusals]
-    return "\n".join(lines).lstrip("\n") + "\n"
+    return "\n".join(lines) + "\n"
