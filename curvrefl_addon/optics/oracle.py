@@ -25,8 +25,8 @@ from .radial_surfaces import Float64Array, RadialSurface, unit
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
 """Kinds of stationary points of the path length"""
 
-BLOCK = 1024
-"""Vertices that are bracketed at a time"""
+BLOCK = 128
+"""Vertices that are bracketed at a time: their errors at all nodes should stay in a processor's cache"""
 MOST_BRACKETS = 12
 """Nodes of the grid from which one vertex's searches start"""
 FACING = -0.15
@@ -124,7 +124,7 @@ class Oracle:
         Everything relative to the star centre. A vertex that is not finite has none.
         """
         eyes = np.broadcast_to(eye, (len(vertices), 4))
-        rows, u = self._starts(eyes, vertices)
+        rows, u = self._starts(eye if eye.ndim == 1 else eyes, vertices)
         u, converged = self._polish(eyes[rows], vertices[rows], u)
         rows, u = _without_copies(rows[converged], u[converged])
         for _ in range(ROUNDS_BESIDE):
@@ -154,22 +154,34 @@ class Oracle:
         )
 
     def _starts(self, eyes: Float64Array, vertices: Float64Array) -> tuple[NDArray[np.int64], Float64Array]:
-        """Directions (m, 3) to search from, and the vertex of each (m,)."""
+        """Directions (m, 3) to search from, and the vertex of each (m,), for an eye (4,) or eyes (n, 4)."""
         finite = np.flatnonzero(np.isfinite(vertices).all(axis=1))
+        nodes = np.arange(len(self._nodes))
+        if eyes.ndim == 1:
+            # Nodes that turn away from the only eye bracket nothing.
+            towards = towards_eye(eyes, self._at.position)
+            nodes = nodes[self.side * _dot(self._at.normal, towards) > FACING]
+        at = SurfaceSample(
+            self._at.position[nodes], self._at.normal[nodes], self._at.radius[nodes], self._at.gradient[nodes]
+        )
+        # All others have one row, the last.
+        row_of_node = np.full(len(self._nodes), len(nodes))
+        row_of_node[nodes] = np.arange(len(nodes))
+        neighbours = row_of_node[self._neighbours[nodes]].T
         rows, directions = [], []
         for first in range(0, len(finite), BLOCK):
             block = finite[first : first + BLOCK]
-            error = self._node_errors(eyes[block], vertices[block])
-            smallest = np.ones(error.shape, bool)
-            for neighbour in self._neighbours.T:
-                smallest &= error <= error[:, neighbour]
-            smallest &= error < LARGEST_ERROR
-            found, node = np.nonzero(smallest)
+            error = self._errors(at, eyes[None] if eyes.ndim == 1 else eyes[block], vertices[block])
+            smallest = error[:-1] < LARGEST_ERROR
+            for neighbour in neighbours:
+                smallest &= error[:-1] <= error[neighbour]
+            found, node = np.nonzero(smallest.T)
             rank = np.arange(len(found)) - np.searchsorted(found, found)
             few = rank < MOST_BRACKETS
             rows.append(block[found[few]])
-            directions.append(self._nodes[node[few]])
-        for start in self._between(eyes[finite], vertices[finite]):
+            directions.append(self._nodes[nodes[node[few]]])
+        all_eyes = np.broadcast_to(eyes, (len(vertices), 4))
+        for start in self._between(all_eyes[finite], vertices[finite]):
             rows.append(finite)
             directions.append(start)
         return np.concatenate([np.zeros(0, np.int64), *rows]), np.concatenate([np.zeros((0, 3)), *directions])
@@ -205,27 +217,31 @@ class Oracle:
         starts = np.concatenate([np.zeros((0, 3)), *(unit(u[near] + offset * direction) for offset in offsets)])
         return np.tile(rows[near], len(offsets)), starts
 
-    def _node_errors(self, eyes: Float64Array, vertices: Float64Array) -> Float64Array:
-        """(n, nodes) (1 - B . N) / 2; 1 where the node cannot reflect. Products of matrices: this is the inner loop."""
-        at = self._at
+    def _errors(self, at: SurfaceSample, eyes: Float64Array, vertices: Float64Array) -> Float64Array:
+        """(k + 1, n) (1 - B . N) / 2 at k points of the surface, for vertices (n, 3) and eyes (n, 4) or (1, 4).
+
+        1 where the point cannot reflect, and in the last row. Products of matrices: this is the inner loop.
+        """
         normal = self.side * at.normal
-        along_normal = np.einsum("ij,ij->i", normal, at.position)
-        squared = np.einsum("ij,ij->i", at.position, at.position)
+        along_normal = _dot(normal, at.position)[:, None]
+        squared = _dot(at.position, at.position)[:, None]
 
         def towards(points: Float64Array, w: Float64Array) -> tuple[Float64Array, Float64Array]:
-            """Distance (or 1) and cosine to the normal, (n, nodes)."""
-            distance = (points**2).sum(axis=1)[:, None] - 2.0 * (w[:, None] * points) @ at.position.T
-            distance = np.where(w[:, None] > 0.0, np.sqrt(np.maximum(distance + squared, 1e-30)), 1.0)
-            return distance, (points @ normal.T - w[:, None] * along_normal) / distance
+            """Distance (or 1) and cosine to the normal, (k, points)."""
+            distance = (points**2).sum(axis=1) - 2.0 * at.position @ (w[:, None] * points).T
+            distance = np.where(w > 0.0, np.sqrt(np.maximum(distance + squared, 1e-30)), 1.0)
+            return distance, (normal @ points.T - w * along_normal) / distance
 
         to_vertex, vertex_cosine = towards(vertices, np.ones(len(vertices)))
         to_eye, eye_cosine = towards(eyes[:, :3], eyes[:, 3])
         # (E - P w) . (V - P)
-        between = np.einsum("ij,ij->i", eyes[:, :3], vertices)[:, None] - eyes[:, :3] @ at.position.T
-        between += eyes[:, 3:] * (squared - vertices @ at.position.T)
+        between = (eyes[:, :3] * vertices).sum(axis=1) - at.position @ eyes[:, :3].T
+        between = between + eyes[:, 3] * (squared - at.position @ vertices.T)
         bisector = np.sqrt(np.maximum(2.0 + 2.0 * between / (to_vertex * to_eye), 1e-12))
-        error = 0.5 - 0.5 * (vertex_cosine + eye_cosine) / bisector
-        return np.where((vertex_cosine > FACING) & (eye_cosine > FACING), error, 1.0)
+        error = np.ones((len(at.position) + 1, len(vertices)))
+        some = (vertex_cosine > FACING) & (eye_cosine > FACING)
+        error[:-1][some] = (0.5 - 0.5 * (vertex_cosine + eye_cosine) / bisector)[some]
+        return error
 
     def _polish(
         self, eyes: Float64Array, vertices: Float64Array, start: Float64Array

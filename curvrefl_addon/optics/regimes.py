@@ -8,9 +8,11 @@ the oracle.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .descent import tangent_frame
 from .fermat import sample, towards_eye
@@ -32,6 +34,8 @@ REGIMES = (
     "axis, corner, pole",
 )
 MOST_TRIES = 40
+BLOCK = 512
+"""Candidates that are looked at together"""
 MESH_VERTICES = 120
 """Of a small mesh, see `mesh_cases`"""
 MESH_SIZE = 0.25
@@ -87,13 +91,13 @@ def make_cases(study: Study, regime: str, count: int, seed: int = 0) -> Cases:
         elif regime == "silhouette":
             kept &= cosine < 0.02
         vertex = point + distance[:, None] * ray
-        vertex, point = _shown(study, oracle, eye, vertex[kept], point[kept])
+        vertex, point = _shown(study, oracle, eye, vertex[kept], point[kept], count - found)
         vertices.append(vertex)
         points.append(point)
         found += len(vertex)
         if found >= count:
             break
-    return Cases(eye, np.concatenate(vertices)[:count], np.concatenate(points)[:count])
+    return Cases(eye, np.concatenate(vertices), np.concatenate(points))
 
 
 def mesh_cases(cases: Cases, meshes: int) -> Cases:
@@ -129,17 +133,35 @@ def _special(random: np.random.Generator, count: int) -> Float64Array:
     return chosen[random.integers(len(chosen), size=4 * count)]
 
 
+def _first(count: int, total: int, holds: Callable[[NDArray[np.int64]], NDArray[np.bool_]]) -> NDArray[np.int64]:
+    """The first `count` of the rows 0 to `total` of which `holds` is true; it is asked of few rows at a time."""
+    chosen = np.zeros(0, np.int64)
+    for start in range(0, total, BLOCK):
+        rows = np.arange(start, min(start + BLOCK, total))
+        chosen = np.concatenate([chosen, rows[holds(rows)]])
+        if len(chosen) >= count:
+            break
+    return chosen[:count]
+
+
 def _shown(
-    study: Study, oracle: Oracle, eye: Float64Array, vertex: Float64Array, point: Float64Array
+    study: Study, oracle: Oracle, eye: Float64Array, vertex: Float64Array, point: Float64Array, count: int
 ) -> tuple[Float64Array, Float64Array]:
-    """Those vertices and points (n, 3) that are on the mirror, with free ways to eye and vertex."""
-    covered = study.cover(unit(point))
-    vertex, point = vertex[covered], point[covered]
+    """The first `count` vertices and points for which `_is_shown` is true."""
+    chosen = _first(count, len(vertex), lambda here: _is_shown(study, oracle, eye, vertex[here], point[here]))
+    return vertex[chosen], point[chosen]
+
+
+def _is_shown(
+    study: Study, oracle: Oracle, eye: Float64Array, vertex: Float64Array, point: Float64Array
+) -> NDArray[np.bool_]:
+    """(n,) whether points (n, 3) are on the mirror, with free ways to the eye and the vertices (n, 3)."""
+    shown = study.cover(unit(point))
     for is_eye in (False, True):
-        end = np.tile(eye, (len(point), 1)) if is_eye else np.column_stack([vertex, np.ones(len(vertex))])
-        free = oracle.is_free(point, end)
-        vertex, point = vertex[free], point[free]
-    return vertex, point
+        rows = np.flatnonzero(shown)
+        end = np.tile(eye, (len(rows), 1)) if is_eye else np.column_stack([vertex[rows], np.ones(len(rows))])
+        shown[rows] = oracle.is_free(point[rows], end)
+    return shown
 
 
 def _hidden(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
@@ -149,9 +171,10 @@ def _hidden(study: Study, eye: Float64Array, count: int, random: np.random.Gener
     vertices = u * (study.surface.radius(u)[0] * np.exp(random.uniform(0.01, 1.5, len(u))))[:, None]
     if study.side > 0.0:
         vertices = vertices[pierce(study.surface, eye, vertices)[0]]
-    vertices = vertices[: 2 * count]
-    none = study.oracle().reflection_points(eye, vertices).counts(len(vertices)) == 0
-    vertices = vertices[none][:count]
+    oracle = study.oracle()
+    vertices = vertices[
+        _first(count, len(vertices), lambda here: oracle.reflection_points(eye, vertices[here]).counts(len(here)) == 0)
+    ]
     return Cases(eye, vertices, np.full(vertices.shape, np.nan))
 
 
@@ -163,11 +186,17 @@ def _several(study: Study, eye: Float64Array, count: int, random: np.random.Gene
     u = unit(random.normal(size=(8 * count, 3)))
     point, ray, cosine = _rays(study, eye, u)
     vertex = point + np.exp(random.uniform(np.log(0.3), np.log(10.0), len(u)))[:, None] * ray
-    kept = cosine > 1e-3
+    vertex, point = vertex[cosine > 1e-3], point[cosine > 1e-3]
     oracle = study.oracle()
-    vertex, point = _shown(study, oracle, eye, vertex[kept], point[kept])
-    several = oracle.reflection_points(eye, vertex).counts(len(vertex)) > 1
-    return Cases(eye, vertex[several][:count], point[several][:count])
+
+    def has_several(here: NDArray[np.int64]) -> NDArray[np.bool_]:
+        several = _is_shown(study, oracle, eye, vertex[here], point[here])
+        rows = here[several]
+        several[several] = oracle.reflection_points(eye, vertex[rows]).counts(len(rows)) > 1
+        return several
+
+    chosen = _first(count, len(vertex), has_several)
+    return Cases(eye, vertex[chosen], point[chosen])
 
 
 def _caustic(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
@@ -194,5 +223,4 @@ def _caustic(study: Study, eye: Float64Array, count: int, random: np.random.Gene
     )
     vertex = point + (focal * random.uniform(0.95, 1.05, len(u)))[:, None] * ray
     kept = (cosine > 1e-2) & (middle**2 >= 4.0 * first * last) & (focal > 1e-2) & (focal < 20.0)
-    vertex, point = _shown(study, study.oracle(), eye, vertex[kept], point[kept])
-    return Cases(eye, vertex[:count], point[:count])
+    return Cases(eye, *_shown(study, study.oracle(), eye, vertex[kept], point[kept], count))

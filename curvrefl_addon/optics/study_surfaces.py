@@ -17,6 +17,8 @@ from .radial_surfaces import Bumpy, Ellipsoid, Float64Array, RadialSurface, tang
 
 Z = np.array([0.0, 0.0, 1.0])
 NEWTON_STEPS = 12
+SETTLED = 1e-15
+"""Share of a radius that a Newton step no longer changes"""
 
 
 @dataclass(frozen=True)
@@ -71,12 +73,13 @@ class TorusSection:
     def radius(self, u: Float64Array) -> tuple[Float64Array, Float64Array]:
         """The first exit from the tube, by bracketing and Newton; 1 / r^n = 1 / tube^n + 1 / ball^n."""
         far = 2.0 * self.ball
-        low, high = np.zeros(len(u)), np.full(len(u), far)
-        for t in np.linspace(0.0, far, 17)[1:]:
-            inside = self._height(t * u)[0] <= 0.0
-            unfound = high == far
-            high = np.where(unfound & ~inside, t, high)
-            low = np.where(unfound & inside, t, low)
+        marks = np.linspace(0.0, far, 17)[1:, None]
+        across = np.hypot(marks * u[:, 0] + self.ring, marks * u[:, 1]) - self.ring
+        outside = across**2 + (marks * u[:, 2]) ** 2 > self.tube**2
+        leaves = outside.any(axis=0)
+        high = np.where(leaves, marks[outside.argmax(axis=0), 0], far)
+        # Along the tube the ball ends it long before.
+        low = np.where(leaves, high - marks[0, 0], far)
         exit_radius = 0.5 * (low + high)
         for _ in range(NEWTON_STEPS):
             height, slope = self._height(exit_radius[:, None] * u)
@@ -84,7 +87,11 @@ class TorusSection:
             along = np.einsum("ij,ij->i", slope, u)
             newton = exit_radius - height / np.where(along > 1e-9, along, 1e-9)
             # Past the bracket Newton is wrong: halve it.
-            exit_radius = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+            newton = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+            settled = (np.abs(newton - exit_radius) <= SETTLED * exit_radius).all()
+            exit_radius = newton
+            if settled:
+                break
         _, slope = self._height(exit_radius[:, None] * u)
         along = np.einsum("ij,ij->i", slope, u)
         # F(r u) = 0: dr (slope . u) + r slope . du = 0.

@@ -177,12 +177,15 @@ class Renderer:
             self._lighting.free()
             self._lighting = Lighting(self.scene, self.geometry, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
-        self._cubes = None
+            self._cubes = None
+        if settings.environment_resolution != before.environment_resolution:
+            self._cubes = None
         self.revision += 1
 
     def _use(self, settings: Settings) -> None:
         """Work by these from now on. Raises InputError for what a mirror cannot do; then nothing has changed."""
         before, self._used = self._used, settings
+        mirrors = self.mirrors
         try:
             same_maps = settings.map_resolution == before.map_resolution
             if METHODS[settings.method].needs_map:
@@ -192,6 +195,8 @@ class Renderer:
         except InputError:
             self._used = before
             raise
+        if any(one is not other for one, other in zip(mirrors, self.mirrors, strict=True)):
+            self._cubes = None
 
     def _choose(self, view: View, sub_frames: int) -> None:
         """Let `auto` choose what is done in a view whose solve so many sub-frames share."""

@@ -170,12 +170,14 @@ def _islands(groups: NDArray[np.int64], areas: Float64Array) -> int:
     """Number of connected parts of triangles (n, 3) that have more than a sliver of the map's area."""
     label = np.arange(int(groups.max()) + 1)
     while True:
-        lowest = label[groups].min(axis=1)
-        before = label.copy()
-        np.minimum.at(label, groups.ravel(), np.repeat(lowest, 3))
-        label = label[label]
-        if np.array_equal(label, before):
+        # Labels are roots here: of the roots that a triangle joins, the lowest becomes that of the others.
+        roots = label[groups]
+        lowest = roots.min(axis=1)
+        if (roots == lowest[:, None]).all():
             break
+        np.minimum.at(label, roots.ravel(), np.repeat(lowest, 3))
+        while not np.array_equal(parent := label[label], label):
+            label = parent
     shares = np.bincount(label[groups[:, 0]], weights=areas, minlength=len(label))
     return int((shares > MOST_OVERLAP * areas.sum()).sum())
 

@@ -85,7 +85,8 @@ class StudyReflector:
         self.study = study
         self._map_resolution = map_resolution
         self._instance = InstanceArrays("study", 1, 0, np.eye(4), (0,))
-        self._screen_maps = ScreenMaps()
+        self._screens: dict[tuple[int, int], tuple[bytes, ScreenMaps, dict[str, Any]]] = {}
+        """By size: the view that was drawn last, and its targets"""
 
     def solve(
         self,
@@ -144,7 +145,7 @@ class StudyReflector:
             plane = facing_plane(self._planes, view.eye)
         if "screen" in maps:
             wide = widened(view, settings.frustum, settings.search_resolution)
-            textures |= self._screen_maps.draw(self._surface, self._materials, wide)
+            textures |= self._screen(wide)
             to_search, start = map_to_texels(wide, np.eye(4)), (0.5 * wide.width, 0.5 * wide.height)
         return Reflector(
             np.eye(4),
@@ -156,6 +157,15 @@ class StudyReflector:
             start,
             self.study.is_convex,
         )
+
+    def _screen(self, view: View) -> dict[str, Any]:
+        """The targets of a widened view, drawn anew for another one only: the shape does not change."""
+        size, drawn = (view.width, view.height), view.world_to_clip.tobytes()
+        before, maps, textures = self._screens.get(size, (b"", ScreenMaps(), {}))
+        if before != drawn:
+            textures = maps.draw(self._surface, self._materials, view)
+            self._screens[size] = (drawn, maps, textures)
+        return textures
 
     @cached_property
     def _radial(self) -> Any:

@@ -10,7 +10,7 @@ from typing import Any
 
 from .table import decibels, headline, milliseconds, number, percent, rows
 
-_STYLE = """
+STYLE = """
 :root { color-scheme: light dark; --ink: #1c1e21; --dim: #63686f; --paper: #fbfbf9; --card: #fff; --line: #dfe0dc;
         --best: #d9efdf; }
 @media (prefers-color-scheme: dark) {
@@ -50,7 +50,7 @@ def report_page(report: dict[str, Any], mismatch: dict[str, float | None] | None
         "<!doctype html>",
         '<html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>Curvrefl: {escape(title)}</title><style>{_STYLE}</style></head><body>",
+        f"<title>Curvrefl: {escape(title)}</title><style>{STYLE}</style></head><body>",
         f"<h1>{escape(title)}</h1>",
         f"<p>{escape(headline(report))}. Blender {escape(report['blender'])} on {escape(report['gpu'])}.</p>",
         *(f'<p class="warning">{escape(warning)}</p>' for warning in report.get("warnings", ())),

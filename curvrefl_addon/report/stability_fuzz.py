@@ -4,16 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..optics import status
-from ..optics.catalogue import METHODS
+from ..optics.catalogue import METHODS, Method
 from ..optics.radial_surfaces import Float64Array, unit
 from ..optics.study_surfaces import STUDIES
 from ..renderer.frame import Settings
+from ..renderer.solve import VertexSolution
 from ..renderer.study_reflector import StudyReflector
 from .solver_table import study_view
 
@@ -55,33 +57,42 @@ class Fuzz:
     invalid: int
 
 
-def fuzz(triples: int, reflectors: Sequence[str] = tuple(STUDIES), seed: int = 0) -> list[Fuzz]:
-    """About `triples` random eyes, vertices and reflectors for every method that solves vertices."""
-    results = []
+def fuzz(
+    triples: int,
+    reflectors: Sequence[str] = tuple(STUDIES),
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> list[Fuzz]:
+    """At least `triples` random eyes, vertices and reflectors, the same for every method that solves vertices."""
+    methods = [name for name, entry in METHODS.items() if entry.solves_vertices]
+    counts = {method: np.zeros(8, np.int64) for method in methods}
     batches = max(-(-triples // BATCH), 1)
-    for method, entry in METHODS.items():
-        if not entry.solves_vertices:
-            continue
-        random = np.random.default_rng(seed)
-        bad = wild = uncoded = total = 0
-        counts = np.zeros(4, np.int64)
-        known: dict[str, StudyReflector] = {}
-        for number in range(batches):
-            name = reflectors[number % len(reflectors)]
-            reflector = known.setdefault(name, StudyReflector(STUDIES[name]))
-            eye, vertices = _random(random, STUDIES[name].surface.bound)
-            solution = reflector.solve(method, study_view(eye), Settings(method=method), vertices)
-            points, code, _, seeming = solution.read()
-            finite = (np.abs(vertices) < LARGEST_COORDINATE).all(axis=1)
-            bad += int((~np.isfinite(points).all(axis=1) | ~np.isfinite(seeming).all(axis=1)).sum())
-            far = np.linalg.norm(points, axis=1) > WILD * STUDIES[name].surface.bound
-            # On a plane in place of the reflector points may be anywhere.
-            wild += 0 if "plane" in entry.maps else int((far & (code == status.REFLECTED)).sum())
-            uncoded += int(((code == status.INVALID) == finite).sum())
-            counts += np.bincount(code, minlength=4)
-            total += len(vertices)
-        results.append(Fuzz(method, total, bad, wild, uncoded, *(int(count) for count in counts)))
-    return results
+    for first, name in enumerate(reflectors):
+        numbers = range(first, batches, len(reflectors))
+        if not numbers:
+            break
+        progress(f"Fuzzing the {name}: {len(numbers) * BATCH} eyes and vertices for each of {len(methods)} methods")
+        reflector = StudyReflector(STUDIES[name])
+        for number in numbers:
+            eye, vertices = _random(np.random.default_rng([seed, number]), STUDIES[name].surface.bound)
+            view = study_view(eye)
+            for method in methods:
+                solution = reflector.solve(method, view, Settings(method=method), vertices)
+                counts[method] += _counts(solution, vertices, STUDIES[name].surface.bound, METHODS[method])
+    return [Fuzz(method, *(int(number) for number in counts[method])) for method in methods]
+
+
+def _counts(solution: VertexSolution, vertices: Float64Array, bound: float, method: Method) -> NDArray[np.int64]:
+    """(8,) of one batch, in the order of `Fuzz`."""
+    points, code, _, seeming = solution.read()
+    finite = (np.abs(vertices) < LARGEST_COORDINATE).all(axis=1)
+    broken = ~np.isfinite(points).all(axis=1) | ~np.isfinite(seeming).all(axis=1)
+    far = np.linalg.norm(points, axis=1) > WILD * bound
+    # On a plane in place of the reflector points may be anywhere.
+    wild = far & (code == status.REFLECTED) & ("plane" not in method.maps)
+    uncoded = (code == status.INVALID) == finite
+    kinds = np.bincount(code, minlength=4)
+    return np.array([len(vertices), broken.sum(), wild.sum(), uncoded.sum(), *kinds], np.int64)
 
 
 def _random(random: np.random.Generator, bound: float) -> tuple[Float64Array, Float64Array]:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,7 +48,9 @@ class Motion:
     """The last frame, solved again, has the same reflection points and picture to the last bit"""
 
 
-def measure_motion(reflectors: Sequence[str], count: int) -> list[Motion]:
+def measure_motion(
+    reflectors: Sequence[str], count: int, progress: Callable[[str], None] = lambda _: None
+) -> list[Motion]:
     """All methods that solve vertices, on a path of the eye around the reflector and one of the vertices."""
     found = []
     for name in reflectors:
@@ -57,45 +59,60 @@ def measure_motion(reflectors: Sequence[str], count: int) -> list[Motion]:
         cases = mesh_cases(make_cases(study, "near", meshes), meshes)
         reflector, oracle = StudyReflector(study), study.oracle()
         for path in ("eye", "objects"):
+            progress(f"Following a slow path of the {path} at the {name}: {FRAMES} frames")
             eyes, vertices = _path(path, cases.eye, cases.vertices)
-            views = [study_view(eye) for eye in eyes]
             truth = _true_pixels(oracle, eyes, vertices)
             for method, entry in METHODS.items():
-                if not entry.solves_vertices:
-                    continue
-                settings = Settings(method=method)
-                pixels, reflected, iterations = [], [], []
-                previous: VertexSolution | None = None
-                for view, here in zip(views, vertices, strict=True):
-                    previous = reflector.solver(method, settings, here, MESH_VERTICES)(view, previous)
-                    points, code, steps, _ = previous.read()
-                    pixels.append(view.project(points.astype(np.float64)))
-                    reflected.append(code == status.REFLECTED)
-                    iterations.append(float(steps[code == status.REFLECTED].mean()) if reflected[-1].any() else 0.0)
-                again = reflector.solver(method, settings, vertices[-1], MESH_VERTICES)(views[-1], previous)
-                assert previous is not None
-                # All but the number of steps: fewer are needed where nothing has moved.
-                same = all(np.array_equal(previous.read()[k], again.read()[k]) for k in (0, 1, 3))
-                kept = np.all(reflected, axis=0) & np.isfinite(truth).all(axis=(0, 2))
-                error = np.array(pixels)[:, kept] - truth[:, kept]
-                # Another image of the same vertex is no error of the motion, unless the method jumps to it.
-                jitter = np.linalg.norm(np.diff(error, 2, axis=0), axis=2)
-                pop = np.linalg.norm(np.diff(error, axis=0), axis=2)
-                found.append(
-                    Motion(
-                        name,
-                        path,
-                        method,
-                        int(kept.sum()),
-                        float(np.median(jitter)) if jitter.size else float("nan"),
-                        float(np.percentile(jitter, 99)) if jitter.size else float("nan"),
-                        float(pop.max(initial=0.0)),
-                        iterations[0],
-                        float(np.mean(iterations[1:])),
-                        same,
-                    )
-                )
+                if entry.solves_vertices:
+                    found.append(_follow(reflector, name, path, method, eyes, vertices, truth))
     return found
+
+
+def _follow(
+    reflector: StudyReflector,
+    name: str,
+    path: str,
+    method: str,
+    eyes: Sequence[Float64Array],
+    vertices: Sequence[Float64Array],
+    truth: Float64Array,
+) -> Motion:
+    """One method on one path; `truth` as of `_true_pixels`."""
+    settings = Settings(method=method)
+    pixels, reflected, iterations = [], [], []
+    solution: VertexSolution | None = None
+    for frame, (eye, here) in enumerate(zip(eyes, vertices, strict=True)):
+        view = study_view(eye)
+        if frame == 0 or here is not vertices[frame - 1]:
+            solve = reflector.solver(method, settings, here, MESH_VERTICES)
+        solution = solve(view, solution)
+        points, code, steps, seeming = solution.read()
+        pixels.append(view.project(points.astype(np.float64)))
+        reflected.append(code == status.REFLECTED)
+        iterations.append(float(steps[reflected[-1]].mean()) if reflected[-1].any() else 0.0)
+    again_points, again_code, _, again_seeming = reflector.solver(method, settings, here, MESH_VERTICES)(
+        view, solution
+    ).read()
+    # All but the number of steps: fewer are needed where nothing has moved.
+    pairs = ((points, again_points), (code, again_code), (seeming, again_seeming))
+    same = all(np.array_equal(one, other) for one, other in pairs)
+    kept = np.all(reflected, axis=0) & np.isfinite(truth).all(axis=(0, 2))
+    error = np.array(pixels)[:, kept] - truth[:, kept]
+    # Another image of the same vertex is no error of the motion, unless the method jumps to it.
+    jitter = np.linalg.norm(np.diff(error, 2, axis=0), axis=2)
+    pop = np.linalg.norm(np.diff(error, axis=0), axis=2)
+    return Motion(
+        name,
+        path,
+        method,
+        int(kept.sum()),
+        float(np.median(jitter)) if jitter.size else float("nan"),
+        float(np.percentile(jitter, 99)) if jitter.size else float("nan"),
+        float(pop.max(initial=0.0)),
+        iterations[0],
+        float(np.mean(iterations[1:])),
+        same,
+    )
 
 
 def _path(kind: str, eye: Float64Array, vertices: Float64Array) -> tuple[list[Float64Array], list[Float64Array]]:
@@ -110,11 +127,14 @@ def _path(kind: str, eye: Float64Array, vertices: Float64Array) -> tuple[list[Fl
 
 
 def _true_pixels(oracle: Oracle, eyes: Sequence[Float64Array], vertices: Sequence[Float64Array]) -> Float64Array:
-    """(frames, n, 2); NaN where a vertex has no reflection or several, between which nothing says which is meant."""
-    frames = []
-    for eye, here in zip(eyes, vertices, strict=True):
-        points = oracle.reflection_points(eye, here)
-        first = points.first(len(here))
-        first[points.counts(len(here)) != 1] = np.nan
-        frames.append(study_view(eye).project(first))
-    return np.array(frames)
+    """(frames, n, 2); NaN from the frame on in which a vertex has no reflection, or several, between which nothing says
+    which is meant: it is followed no farther.
+    """
+    followed = np.arange(len(vertices[0]))
+    pixels = np.full((len(eyes), len(followed), 2), np.nan)
+    for frame, (eye, here) in enumerate(zip(eyes, vertices, strict=True)):
+        points = oracle.reflection_points(eye, here[followed])
+        single = points.counts(len(followed)) == 1
+        first, followed = points.first(len(followed))[single], followed[single]
+        pixels[frame, followed] = study_view(eye).project(first)
+    return pixels

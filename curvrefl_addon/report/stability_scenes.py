@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,8 +34,8 @@ def trials() -> list[Trial]:
     return [
         _trial(
             "contact",
-            "Objects that touch the mirror: environment maps show them far away, and searches with few steps lose the "
-            "vertices nearest to it; use Secant Search.",
+            "Environment maps show what touches the mirror as if it were far away, Secant Search in UV and Bisector "
+            "Field on Grids lose vertices next to it; use Automatic, Exact, Newton or Secant Search.",
             "sphere",
             (2.6, -3.2, 1.6),
             [
@@ -47,42 +47,54 @@ def trials() -> list[Trial]:
         ),
         _trial(
             "long triangles",
-            "A floor of two triangles and a bar of twelve (Roger & Holzschuch 2006, figure 12): edges between vertices "
-            "are straight, so all vertex methods need them split; a fine Pixel Tolerance does that.",
+            "A floor of two triangles and bars of twelve (Roger & Holzschuch 2006, figure 12): edges between vertices "
+            "are drawn straight, so all methods that solve vertices split them first, and Bisector Field on Grids, "
+            "which solves few of the new ones, still loses the floor; use Automatic or Exact, or a finer Pixel "
+            "Tolerance.",
             "sphere",
             (2.6, -3.2, 1.6),
             [_plain_floor(-1.0), _box((0.0, -1.9, -0.5), (2.5, 0.06, 0.06)), _box((-1.9, 0.2, 0.2), (0.06, 0.06, 1.2))],
         ),
         _trial(
             "thin layers",
-            "Plates a hundredth apart (Roger & Holzschuch 2006, figure 13): interpolated distances would fight for "
-            "depth, so distance is measured again at every pixel; only coarse searches still mix the layers.",
+            "Six plates a hundredth apart, each smaller than the one below (Roger & Holzschuch 2006, figure 13): "
+            "distances interpolated between vertices would let lower ones show through, so distance is measured again "
+            "at every pixel, and only searches that end between texels or cells mix them; use Automatic or Exact.",
             "sphere",
             (2.6, -3.2, 1.6),
-            [_floor(-1.0), *(_box((0.9, -1.4, -0.55 + 0.03 * k), (0.5, 0.5, 0.01)) for k in range(6))],
+            [
+                _floor(-1.0),
+                *(_box((0.85, -1.35, -0.6 + 0.016 * k), (0.5 - 0.07 * k, 0.5 - 0.07 * k, 0.003)) for k in range(6)),
+            ],
         ),
         _trial(
             "hollow mirror",
-            "Objects before and past the focus of a bowl: past it images are upside down and a vertex has up to three; "
-            "methods that solve vertices show one of them or tear where neighbours found different ones, and Secant "
-            "Search refuses an open mirror; use Bisector Field for things clear of the focus.",
+            "Things before and past the focus of a bowl: past it images stand on their heads, a point has up to three, "
+            "and the bowl is seen in itself; methods that solve vertices find one image of each and tear where "
+            "neighbours found different ones, Secant Search and Newton refuse open mirrors, and environment maps see "
+            "no focus at all; use Automatic or Exact.",
             "bowl",
             (0.4, -0.9, 3.4),
-            [_box((-0.25, 0.1, -0.45), 0.12), _box((0.35, 0.25, 0.9), 0.2), _box((-0.5, -0.4, 1.6), 0.25)],
+            [_box((-0.25, 0.1, -0.45), 0.12), _box((0.75, 0.55, 0.9), 0.16), _box((-1.0, -0.3, 1.1), 0.2)],
         ),
         _trial(
             "several images",
-            "A mirror that bends both ways shows things two or three times: vertex methods find one image of each "
-            "vertex, Newton one more in each region of the mirror, and triangles between different images are left "
-            "out; use an environment map for far things.",
+            "A mirror that bends both ways shows the box and the post beside it two or three times: methods that solve "
+            "vertices find one image of each, Newton one more in each region of the mirror, and triangles between "
+            "different images are left out; use Automatic or Exact.",
             "strongly bumpy",
             (2.6, -3.2, 1.6),
-            [_floor(-1.3), _box((2.2, -1.2, 0.4), 0.45), _box((-0.9, -2.6, 0.3), 0.45), _box((0.8, -2.4, -0.8), 0.3)],
+            [
+                _floor(-1.3),
+                _box((-2.0, -2.0, 1.4), 0.4),
+                _box((-1.7, -1.2, 0.4), (0.12, 0.12, 1.7)),
+                _box((0.8, -2.4, -0.8), 0.3),
+            ],
         ),
         _trial(
             "pole of a UV map",
-            "The mirror's pole looks at the eye: parameters crowd there, and Secant Search in UV tears the picture; "
-            "use a method on the star-shaped map.",
+            "The mirror's pole looks at the eye: parameters crowd there, and Secant Search in UV tears what it shows; "
+            "use Automatic, Exact, or another search, none of which needs a UV map.",
             "sphere",
             (0.4, -0.6, 4.0),
             [
@@ -98,7 +110,7 @@ def trials() -> list[Trial]:
 def _trial(
     name: str, sentence: str, reflector: str, eye: tuple[float, float, float], things: Sequence[MeshArrays]
 ) -> Trial:
-    mirror = study_mesh(STUDIES[reflector], 256, 128)
+    mirror = replace(study_mesh(STUDIES[reflector], 256, 128), name="mirror")
     meshes = [mirror, *things]
     materials = [
         MaterialArrays("mirror", (0.95, 0.95, 0.95), metallic=1.0, roughness=0.0),

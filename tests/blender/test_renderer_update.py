@@ -151,3 +151,19 @@ def test_settings_change_without_a_new_start() -> None:
     with pytest.raises(InputError, match="samples"):
         renderer.configure(Settings(samples=0))
     assert renderer.settings is other
+
+
+def test_environments_outlast_a_change_of_method() -> None:
+    scene = room()
+    renderer = Renderer(scene, replace(SETTINGS, method="environment_cube"))
+    renderer.render(VIEW)
+    (cube,) = renderer.environment_cubes()
+    for method in ("secant_star", "exact", "environment_sphere"):
+        renderer.configure(replace(SETTINGS, method=method))
+        renderer.render(VIEW)
+    assert renderer.environment_cubes() == [cube]
+    expected = Renderer(scene, replace(SETTINGS, method="environment_sphere")).render(VIEW).color()
+    assert np.abs(renderer.render(VIEW).color() - expected).mean() < 1e-4 * expected[..., :3].mean()
+    for other in (replace(SETTINGS, environment_resolution=64), replace(SETTINGS, map_resolution=64)):
+        renderer.configure(replace(other, method="environment_sphere"))
+        assert renderer.environment_cubes() != [cube]

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.secant_uv import SampledMap
 from curvrefl.curvrefl_addon.renderer.gpu_objects import record_texture
-from curvrefl.curvrefl_addon.renderer.parametric_map import ParametricMap, bake_parametric
+from curvrefl.curvrefl_addon.renderer.parametric_map import MOST_OVERLAP, ParametricMap, _islands, bake_parametric
 from curvrefl.curvrefl_addon.renderer.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
 from curvrefl.curvrefl_addon.scene.meshes import MeshNeeds, read_mesh
@@ -334,3 +334,18 @@ def test_same_input_same_bits() -> None:
     first, second = (solve(baked, view, vertices, np.eye(4)).read() for _ in range(2))
     for one, other in zip(first, second, strict=True):
         assert np.array_equal(one, other)
+
+
+def test_islands_are_counted_as_by_flooding() -> None:
+    random = np.random.default_rng(0)
+    for _ in range(50):
+        points = int(random.integers(3, 120))
+        groups = random.integers(points, size=(int(random.integers(1, 60)), 3))
+        parts: list[set[int]] = []
+        for triangle in groups.tolist():
+            joined = [part for part in parts if part & set(triangle)]
+            parts = [part for part in parts if not part & set(triangle)] + [set(triangle).union(*joined)]
+        assert _islands(groups, np.ones(len(groups))) == sum(
+            sum(bool(part & set(triangle)) for triangle in groups.tolist()) > MOST_OVERLAP * len(groups)
+            for part in parts
+        )

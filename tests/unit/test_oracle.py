@@ -9,7 +9,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics import sphere
 from curvrefl.curvrefl_addon.optics.oracle import MAXIMUM, MINIMUM, SADDLE, Oracle
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.optics.regimes import REGIMES, make_cases
+from curvrefl.curvrefl_addon.optics.regimes import BLOCK, REGIMES, _first, make_cases
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
 
 
@@ -95,3 +95,28 @@ def test_gradients_are_those_of_the_radius(name: str) -> None:
     )
     # The torus is cut off where a ray leaves its tube twice: a step of a thousandth there.
     assert np.percentile(np.abs(change - np.einsum("ij,ij->i", gradient, direction)), 90) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "saddle", "bowl"])
+def test_one_eye_is_as_the_same_eye_for_each_vertex(name: str) -> None:
+    study = STUDIES[name]
+    cases = make_cases(study, "near", 150)
+    oracle = study.oracle()
+    one = oracle.reflection_points(cases.eye, cases.vertices)
+    each = oracle.reflection_points(np.tile(cases.eye, (len(cases.vertices), 1)), cases.vertices)
+    assert np.array_equal(one.vertex, each.vertex)
+    assert np.array_equal(one.visible, each.visible)
+    assert np.abs(one.point - each.point).max() < 1e-9
+
+
+def test_the_first_that_hold_are_chosen() -> None:
+    asked: list[int] = []
+
+    def holds(rows: np.ndarray) -> np.ndarray:
+        asked.extend(rows.tolist())
+        return rows % 3 == 0
+
+    assert _first(5, 10_000, holds).tolist() == [0, 3, 6, 9, 12]
+    assert len(asked) == BLOCK
+    assert _first(5, 7, holds).tolist() == [0, 3, 6]
+    assert _first(5, 0, holds).tolist() == []
