@@ -26,8 +26,8 @@ from curvrefl.curvrefl_addon.optics.catalogue import METHODS  # noqa: E402
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
-COLUMNS = ("exact", "newton", "secant_star", "secant_uv", "bisector_cube", "bisector_grid", "bisector_screen", "planar")
-COLUMNS += ("environment_cube", "environment_parallax")
+SOLVING = ("exact", "newton", "secant_star", "secant_uv", "bisector_cube", "bisector_grid", "bisector_screen", "planar")
+COLUMNS = (*SOLVING, "environment_cube", "environment_parallax")
 """Automatic shows what Exact or Newton does, and the other lookups what Environment Cube does"""
 CUT = 340
 """Pixels in the middle of a picture that hold the mirror"""

@@ -130,7 +130,8 @@ class Seen:
         """(n,) pixels, of those that show an object."""
         shown = self.objects > 0
         points, is_reflected = judge.points(
-            self.surfaces["reflected_position"][shown][:, :3], self.surfaces["seen_position"][shown][:, :3]
+            self.surfaces["reflected_position"][shown][:, :3].astype(np.float64),
+            self.surfaces["seen_position"][shown][:, :3].astype(np.float64),
         )
         row, column = np.nonzero(shown)
         off = self.view.project(points) - np.column_stack([column + 0.5, row + 0.5])
