@@ -12,7 +12,7 @@ from typing import Any
 
 from ..output import write_whole
 from .benchmark_rays import measure_rays
-from .benchmark_solves import measure_solves
+from .benchmark_solves import STATES, measure_solves
 from .table import NO_NUMBER, aligned, number
 
 VERTEX_COUNTS = (10_000, 100_000, 1_000_000, 10_000_000)
@@ -47,7 +47,7 @@ def measure_benchmark(
     report: dict[str, Any] = {"device": _device(), "limits": asdict(limits), "solves": [], "rays": []}
     solves = measure_solves(_up_to(VERTEX_COUNTS, vertices), say)
     rays = measure_rays(_up_to(TRIANGLE_COUNTS, triangles), say)
-    for name, rows, states in (("solves", solves, ("cold", "warm")), ("rays", rays, ("quick", "best"))):
+    for name, rows, states in (("solves", solves, STATES), ("rays", rays, ("quick", "best"))):
         for row in rows:
             for state in states:
                 rate = row.get(f"{state}_{name}_per_second")
@@ -66,7 +66,7 @@ def format_benchmark(report: dict[str, Any]) -> str:
     lines = [f"{device['renderer']} ({device['vendor']}), {device['version']}, {device['backend']}", ""]
     table: list[tuple[str, ...]] = [_SOLVE_TITLES]
     for row in report["solves"]:
-        for state in ("cold", "warm"):
+        for state in STATES:
             if row["left_out"] or row[f"{state}_ms"] is None:
                 continue
             table.append((*_solve_cells(row, state), *_share_cells(row, state)))

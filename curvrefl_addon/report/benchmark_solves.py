@@ -26,6 +26,8 @@ from .gpu_timing import empty_wait, time_on_gpu
 from .repeats import timing_columns
 
 METHODS_MEASURED = ("newton", "secant_star")
+STATES = ("cold", "warm", "still")
+"""Without a last frame; the eye has moved a bit since; nothing has, so that what is reflected keeps its records"""
 SIZE, MIRROR_PIXELS = (640, 480), 300
 REPEATS, SECONDS = 15, 3.0
 SHELL, SHELL_BUMPS = 2.5, 0.55
@@ -100,20 +102,19 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     empty_ms = empty_wait(cold.solution.wait)
     columns: dict[str, Any] = {"solved": mesh.positions.shape[0], "triangles": len(mesh.triangles)}
     columns |= {"empty_wait_ms": empty_ms} | _timed("cold", cold, empty_ms)
-    last, turn = cold, 0.0
     if "previous" in method.maps:
-        last, turn = prepared(TURN, cold.solution), TURN
-        columns |= _timed("warm", last, empty_ms)
+        columns |= _timed("warm", prepared(TURN, cold.solution), empty_ms)
+        columns |= _timed("still", prepared(0.0, cold.solution), empty_ms, searches=False)
     else:
-        columns |= timing_columns("warm_ms", None)
-    for state in ("cold", "warm"):
+        columns |= timing_columns("warm_ms", None) | timing_columns("still_ms", None)
+    for state in STATES:
         time = columns[f"{state}_ms"]
         columns[f"{state}_solves_per_second"] = None if time is None else 1e3 * columns["solved"] / time
-    view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)
+    view = view_of_mirror(*SIZE, MIRROR_PIXELS)
     uniforms = view_block(view)
     seen, shown = SurfaceBuffer(*SIZE), SurfaceBuffer(*SIZE)
     draw_primary(seen, [own], materials, uniforms)
-    parts = [SolvedChunk(chunk, chunk.batches(np.ones(1, bool)), last.solution)]
+    parts = [SolvedChunk(chunk, chunk.batches(np.ones(1, bool)), cold.solution)]
     window = mirror.window(view)
 
     def draw() -> None:
@@ -123,11 +124,12 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     return columns | time_on_gpu(draw, shown.wait, empty_ms, REPEATS, SECONDS).columns("draw")
 
 
-def _timed(state: str, solve: PreparedSolve, empty_ms: float) -> dict[str, Any]:
-    """Times, iterations, and what these make of bytes and operations a vertex."""
+def _timed(state: str, solve: PreparedSolve, empty_ms: float, searches: bool = True) -> dict[str, Any]:
+    """Times, iterations, and what these make of bytes and operations a vertex; the records have those of the last
+    search, which may not have been now."""
     columns = time_on_gpu(solve.run, solve.solution.wait, empty_ms, REPEATS, SECONDS).columns(state)
     numbers = statistics([solve.solution])
-    mean = numbers["iterations"]["mean"]
+    mean = numbers["iterations"]["mean"] if searches else 0.0
     return columns | {
         f"{state}_iterations": mean,
         f"{state}_unsolved": numbers["unconverged"],

@@ -40,7 +40,9 @@ def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.Captu
     newton, secant = report["solves"]
     # A frame later the search begins where it ended.
     assert newton["warm_iterations"] < newton["cold_iterations"]
-    assert secant["warm_ms"] is None
+    assert secant["warm_ms"] is None and secant["still_ms"] is None
+    # What has not moved is not searched for.
+    assert newton["still_ms"] is not None and newton["still_iterations"] == 0.0
     assert [row["triangles"] for row in report["rays"]] == [1000, 3000]
     for row in report["rays"]:
         assert not row["left_out"]
