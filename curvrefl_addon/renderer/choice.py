@@ -26,6 +26,8 @@ PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.45, 0.026
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
 PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7
 """Cost of a mirror pixel onto which solved triangles are drawn, of a solved vertex, of a triangle drawn"""
+PIXEL_SPLIT = 0.25
+"""What splitting edges by solved midpoints adds, per mirror pixel: a larger mirror has more to split"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
 CLEARLY = 1.0
@@ -80,11 +82,12 @@ def choose(
     mirrors: Sequence[Mirror],
     scenery: Scenery,
     bumpy: Sequence[str] = (),
-    sub_frames: int = 1,
+    is_still: bool = False,
 ) -> Choice:
     """For `settings` whose method is `auto`; the maps of mirrors are not needed.
 
-    `bumpy`: names of mirrors with bumps, which no map has. `sub_frames` share one solve.
+    `bumpy`: names of mirrors with bumps, which no map has. The sub-frames of a still share one solve and
+    what splitting edges by solved midpoints costs; a view that moves has one sub-frame each, without that.
     """
     unseen = np.ones(len(scenery.radii), bool)
     for mirror in mirrors:
@@ -108,8 +111,9 @@ def choose(
     largest = max((mirror.radius_pixels(view) for mirror in mirrors), default=1.0)
     added = SPLIT_TRIANGLES / split_angle(largest, STRICTER * settings.pixel_tolerance) ** 2
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
+    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (PIXEL_SPLIT * pixels if is_still else 0.0)
     by_points = pixels * PIXEL_DRAWN + TRIANGLE_DRAWN * (triangles + added)
-    by_points += VERTEX_SOLVED * (vertices + 0.5 * added) / sub_frames
+    by_points += once / (settings.samples if is_still else 1)
     share = by_points / max(by_rays, 1e-30)
     cost = f"{vertices:,} vertices to solve cost about {share:.1f} times what {pixels:,.0f} rays do"
     if not mirrors or share > CLEARLY:

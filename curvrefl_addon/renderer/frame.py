@@ -198,20 +198,20 @@ class Renderer:
         if any(one is not other for one, other in zip(mirrors, self.mirrors, strict=True)):
             self._cubes = None
 
-    def _choose(self, view: View, sub_frames: int) -> None:
-        """Let `auto` choose what is done in a view whose solve so many sub-frames share."""
+    def _choose(self, view: View, is_still: bool) -> None:
+        """Let `auto` choose what is done in a view."""
         if not METHODS[self.settings.method].chooses:
             self._choice = None
             return
         if self._scenery is None:
             self._scenery = self._read_scenery()
-        self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), sub_frames)
+        self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), is_still)
         if self._choice.settings == self._used:
             return
         self._use(self._choice.settings)
         if METHODS[self._used.method].needs_map and any(mirror.refusal is not None for mirror in self.mirrors):
             # Baking has shown that there is no map: the other way is chosen now.
-            self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), sub_frames)
+            self._choice = choose(self.settings, view, self.mirrors, self._scenery, self._bumpy_mirrors(), is_still)
             self._use(self._choice.settings)
 
     def _read_scenery(self) -> Scenery:
@@ -330,8 +330,8 @@ class Renderer:
         last one's points. What is only worth its time where the view rests is done `at_rest`: edges are split where
         their solved midpoints leave the chord.
         """
-        # (A view that moves has one sub-frame each; at rest nothing else is chosen.)
-        self._choose(view, 1 if follow else self.settings.samples)
+        # (At rest nothing else is chosen than while the view moves.)
+        self._choose(view, is_still=not follow)
         if not solve:
             return Reflection(view, (), (), self.warnings)
         used = self._used
