@@ -38,10 +38,13 @@ CONTACT = 0.005
 CONVEX = ("sphere", "ellipsoid", "convex bumps")
 
 
+type Place = tuple[float, float, float]
+
+
 def room(surface: RadialSurface) -> SceneArrays:
     """A mirror over a floor whose top is two triangles, a box and a ring that all but touch it, and a far box."""
 
-    def placed(number: int, mesh: int, size: tuple[float, float, float], place: tuple[float, float, float]):  # type: ignore[no-untyped-def]
+    def placed(number: int, mesh: int, size: Place, place: Place) -> InstanceArrays:
         matrix = np.diag([*size, 1.0])
         matrix[:3, 3] = place
         return InstanceArrays(f"thing {number}", number, mesh, matrix, (number % 2,))

@@ -146,7 +146,7 @@ def test_more_of_what_is_seen_is_drawn(name: str, monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.parametrize("name", ["strongly bumpy", "kettle", "saddle"])
 def test_edges_split_at_folds_show_more(name: str) -> None:
-    """A triangle whose vertices are in different images is not drawn; of its parts only the few between them are not."""
+    """A triangle whose vertices show different images is not drawn; of its parts only those between them are not."""
     trial = crowded_trial(name)
     view = replace(trial.view, width=200, height=150)
     renderer = Renderer(trial.scene, Settings(method="newton", samples=1))
