@@ -11,7 +11,7 @@ twice.
 
 Whether an edge is halved depends on its ends and its midpoint alone, and they are the same for all triangles that have
 the edge: no crack opens. Edges across the horizon, with an end that the mirror hides, are left as they are: the hidden
-end is placed to go on smoothly, and cut they showed more wrong pixels (`docs/figures.md`).
+end is placed to go on smoothly, and cut they showed more wrong pixels (`docs/methods.md`).
 """
 
 from __future__ import annotations
