@@ -111,6 +111,7 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
     passes: list[tuple[Any, str, str, Callable[..., Any], Callable[..., Any]]] = [
         (SceneGeometry, "refine", "split", SceneGeometry.refine, _nothing),
         (Mirror, "solve", "solve", solve, _nothing),
+        (Mirror, "with_curved_edges", "edges", Mirror.with_curved_edges, _nothing),
         (frame_module, "draw_primary", "primary", frame_module.draw_primary, _of_buffer),
         (SurfaceBuffer, "clear", "clear", SurfaceBuffer.clear, _of_buffer),
         (BackFaces, "draw", "back faces", BackFaces.draw, _of_buffer),

@@ -11,7 +11,7 @@ twice.
 
 Whether an edge is halved depends on its ends and its midpoint alone, and they are the same for all triangles that have
 the edge: no crack opens. Edges across the horizon, with an end that the mirror hides, are left as they are: the hidden
-end is placed to go on smoothly, and cut they showed more wrong pixels (`docs/figures.md`).
+end is placed to go on smoothly, and cut they showed more wrong pixels (`docs/methods.md`).
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ class _Vertices:
     positions: Float32Array
     points: Float32Array
     virtual: Float32Array
-    pixels: Float32Array
-    """(n, 2) where they are seen; NaN where they are not"""
+    pixels: NDArray[np.complex64]
+    """(n,) x + iy where they are seen; NaN where they are not"""
 
     @classmethod
     def read(cls, positions: Any, solution: VertexSolution, view: View) -> _Vertices:
@@ -59,8 +59,8 @@ class _Vertices:
         points = read_records(solution.reflection_points, solution.count)
         virtual = read_records(solution.virtual_positions, solution.count)
         seen = np.flatnonzero(np.rint(points[:, 3]).astype(np.int32) & 3 == status.REFLECTED)
-        pixels = np.full((solution.count, 2), np.nan, np.float32)
-        pixels[seen] = view.project(virtual[seen, :3].astype(np.float64))
+        pixels = np.full(solution.count, np.nan, np.complex64)
+        pixels[seen] = _project(view, virtual[seen, :3])
         return cls(read_records(positions, solution.count), points, virtual, pixels)
 
     def joined(self, other: _Vertices) -> _Vertices:
@@ -72,7 +72,7 @@ class _Vertices:
         return _Vertices(*(array[rows] for array in self._arrays))
 
     @property
-    def _arrays(self) -> tuple[Float32Array, ...]:
+    def _arrays(self) -> tuple[Any, ...]:
         return self.positions, self.points, self.virtual, self.pixels
 
 
@@ -116,15 +116,21 @@ class _Cutting:
 
     def _may_leave(self, places: Int32Array) -> NDArray[np.bool_]:
         """(n, 3) whether edges of triangles of positions (n, 3) are seen at both ends, long, and near the picture."""
-        start = self.vertices.pixels[places]
-        end = start[:, [1, 2, 0]]
-        along = end - start
-        # Comparisons with NaN are false.
-        found = np.einsum("ijk,ijk->ij", along, along) > (SHORTEST * self._tolerance) ** 2
-        start, end = start[found], end[found]
-        reach = np.linalg.norm(end - start, axis=1)[:, None]
-        low, high = np.minimum(start, end) - reach, np.maximum(start, end) + reach
-        found[found] = ((high > 0.0) & (low < np.array([self._view.width, self._view.height]))).all(axis=1)
+        seen = self.vertices.pixels
+        corners = [seen[places[:, k]] for k in range(3)]
+        found = np.empty(places.shape, bool)
+        for k in range(3):
+            along = corners[(k + 1) % 3] - corners[k]
+            # Comparisons with NaN are false.
+            found[:, k] = along.real**2 + along.imag**2 > (SHORTEST * self._tolerance) ** 2
+        rows, edges = np.nonzero(found)
+        start, end = seen[places[rows, edges]], seen[places[rows, (edges + 1) % 3]]
+        reach = np.abs(end - start)
+        for a, b, size in (
+            (start.real, end.real, self._view.width),
+            (start.imag, end.imag, self._view.height),
+        ):
+            found[rows, edges] &= (np.maximum(a, b) + reach > 0.0) & (np.minimum(a, b) - reach < size)
         return found
 
     def _middles(self, pairs: Int32Array) -> _Vertices:
@@ -141,9 +147,9 @@ class _Cutting:
 
     def _leaves(self, pairs: Int32Array, middles: _Vertices) -> NDArray[np.bool_]:
         """(n,) whether midpoints are drawn more than the tolerance from where they are seen."""
-        drawn = self._view.project(self.vertices.virtual[pairs, :3].astype(np.float64).mean(axis=1))
+        drawn = _project(self._view, self.vertices.virtual[pairs, :3].astype(np.float64).mean(axis=1))
         # Not of those that are not seen: their place is NaN.
-        return np.asarray(np.linalg.norm(middles.pixels - drawn, axis=1) > self._tolerance)
+        return np.asarray(np.abs(middles.pixels - drawn) > self._tolerance)
 
     def _middle_corners(self, corners: Int32Array, middle_place: Int32Array) -> Int32Array:
         """New corners half way on the edges of triangles (n, 3), -1 where `middle_place` has no position for one."""
@@ -192,6 +198,11 @@ def with_curved_edges(part: SolvedChunk, view: View, tolerance: float, solve: So
         part.image,
     )
     return replace(part, batches=by_material(chunk.triangles[whole], material[whole]), whole=whole), pieces
+
+
+def _project(view: View, points: NDArray[np.floating]) -> NDArray[np.complex128]:
+    """(n,) x + iy in pixels of points (n, 3)."""
+    return np.asarray(view.project(points.astype(np.float64)).view(np.complex128)[:, 0])
 
 
 def _pieces(cutting: _Cutting, triangles: Int32Array, material: Int32Array, image: int) -> SolvedChunk:

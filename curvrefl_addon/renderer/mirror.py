@@ -161,7 +161,11 @@ class Mirror:
         if view.is_orthographic:
             return view.focal_pixels
         nearest = float(np.linalg.norm(view.eye[:3] - self.center)) - self.bound
-        return view.focal_pixels / nearest if nearest > 0.0 else np.inf
+        if nearest <= 0.0:
+            return np.inf
+        # In the picture's corners a radian covers more pixels than in its middle.
+        corner = 0.25 * (view.width**2 + view.height**2) / view.focal_pixels**2
+        return (1.0 + corner) * view.focal_pixels / nearest
 
     @property
     def inner_ball(self) -> tuple[Float64Array, float]:

