@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 
 from .diagnostic_colors import DiagnosticColors
+from .renderer.settings import Settings
 from .scene.arrays import MaterialArrays
 from .scene.blend_file import SURFACE_TYPES
-
-if TYPE_CHECKING:
-    from .renderer.frame import Settings
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
@@ -85,8 +83,6 @@ def newer_settings(scene: bpy.types.Scene) -> str:
 
 def settings_of(chosen: Any, samples: int | None = None) -> Settings:
     """How to render by `Scene.curvrefl`; `samples` in place of its own."""
-    from .renderer.frame import Settings
-
     return Settings(
         # (what a newer extension has saved reads as nothing here)
         method=chosen.method or Settings().method,

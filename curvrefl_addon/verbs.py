@@ -56,7 +56,8 @@ def render(options: argparse.Namespace) -> int:
     view = _view(options, scene)
     arrays = _read_scene(scene, reflectors)
 
-    from .renderer.frame import Renderer, Settings
+    from .renderer.frame import Renderer
+    from .renderer.settings import Settings
     from .report.images import save_exr, save_png
 
     renderer = Renderer(

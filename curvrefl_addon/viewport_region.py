@@ -16,8 +16,9 @@ import numpy as np
 from ..gpu_shaders.loader import load
 from .diagnostic_colors import MODES, DiagnosticOptions
 from .optics.catalogue import METHODS
-from .renderer.frame import Diagnostic, Reflection, Renderer
+from .renderer.frame import Renderer
 from .renderer.gpu_objects import drawing_state, full_screen_triangle
+from .renderer.reflection import Diagnostic, Reflection
 from .renderer.solve import statistics
 from .scene.view import View
 

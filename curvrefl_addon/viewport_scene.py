@@ -13,8 +13,9 @@ import bpy
 from .errors import InputError
 from .optics.catalogue import METHODS
 from .options import marked_mirrors, newer_settings, overrides_of
-from .renderer.frame import Renderer, Settings
+from .renderer.frame import Renderer
 from .renderer.scene_geometry import estimated_bytes
+from .renderer.settings import Settings
 from .scene.arrays import SceneArrays
 from .scene.changes import Changes
 from .scene.extract import SceneReader

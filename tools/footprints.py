@@ -33,7 +33,7 @@ import gpu  # noqa: E402
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.chunk import Chunk  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import (  # noqa: E402
     dispatch,
     drawing_state,
@@ -45,6 +45,7 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (  # noqa: E402
 )
 from curvrefl.curvrefl_addon.renderer.materials import Materials  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import (  # noqa: E402
     SurfaceBuffer,

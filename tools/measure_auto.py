@@ -31,8 +31,9 @@ import bpy
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.renderer import choice as choices  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.blend_file import (  # noqa: E402
     find_camera,

@@ -43,9 +43,11 @@ bootstrap.load_package()
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.curved_edges import _Cutting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Reflection, Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import read_records, record_texture, require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.solve import Reflector, VertexSolution, solve_vertices  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.split import number_pairs  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, Float64Array, SceneArrays  # noqa: E402

@@ -36,12 +36,13 @@ bootstrap.load_package()
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import frame as frame_module  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting import Lighting  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.pixel_classes import PixelClasses  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.shade import ShadePass  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import BackFaces, SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402

@@ -34,9 +34,10 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.materials import Materials  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer, draw_primary, draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.view_block import view_block  # noqa: E402
 from curvrefl.curvrefl_addon.report.benchmark_scenes import (  # noqa: E402

@@ -28,7 +28,7 @@ from curvrefl.curvrefl_addon.optics.fermat import sample, towards_eye  # noqa: E
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, Float64Array, RadialSurface, unit  # noqa: E402
 from curvrefl.curvrefl_addon.optics.screen import Screen  # noqa: E402
 from curvrefl.curvrefl_addon.optics.study_surfaces import Study  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector  # noqa: E402
 from curvrefl.curvrefl_addon.report.solver_table import OFF, study_view  # noqa: E402
 

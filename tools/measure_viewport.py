@@ -30,7 +30,8 @@ bootstrap.load_package()
 
 import gpu  # noqa: E402
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402

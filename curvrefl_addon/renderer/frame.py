@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from time import perf_counter
 from typing import Any
@@ -13,7 +13,6 @@ from typing import Any
 import gpu
 import numpy as np
 
-from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
@@ -25,89 +24,24 @@ from .environment import Environment
 from .environment_cube import EnvironmentCube
 from .environment_hits import environment_hits
 from .environment_vertex import VertexLookups
-from .exact import Bounce, PathBuffer
+from .exact import Bounce
 from .gpu_objects import cube_texture, read_texture, require_gpu
 from .lighting import Lighting
 from .materials import Materials
 from .mirror import Mirror
 from .pixel_filter import offsets
 from .ray_scene import RayScene
+from .reflection import Diagnostic, Reflection
 from .scene_geometry import Difference, SceneGeometry
 from .settings import Settings, check_settings
 from .shade import ShadePass
-from .solve import Pieces, SolvedChunk, VertexSolution, statistics
-from .surfaces import BackFaces, SurfaceBuffer, Window, draw_primary, draw_reflected
+from .solve import statistics
+from .surfaces import SurfaceBuffer, Window, draw_primary, draw_reflected
+from .targets import Targets
 from .view_block import view_block
 
 MOST_TARGETS = 3
 """Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
-
-
-@dataclass
-class _Targets:
-    """Everything that has the size of the picture."""
-
-    width: int
-    height: int
-    seen: SurfaceBuffer = field(init=False)
-    reflected: SurfaceBuffer = field(init=False)
-    back_faces: BackFaces = field(init=False)
-    vertex_lookups: VertexLookups | None = None
-    """Made where a method needs them, as the next"""
-    paths: list[PathBuffer] = field(default_factory=list)
-
-    def path(self, bounce: int) -> PathBuffer:
-        """Where rays get to after the mirror `bounce`, 0 for the first; two buffers take turns."""
-        while len(self.paths) <= min(bounce, 1):
-            self.paths.append(PathBuffer(self.width, self.height))
-        return self.paths[bounce % 2]
-
-    def __post_init__(self) -> None:
-        self.seen = SurfaceBuffer(self.width, self.height)
-        self.reflected = SurfaceBuffer(self.width, self.height)
-        self.back_faces = BackFaces(self.width, self.height)
-
-
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
-    """A view that shows how the picture comes about in place of the picture."""
-
-    mode: str
-    """A name of `diagnostic_colors.MODES`"""
-    options: DiagnosticOptions = field(default_factory=DiagnosticOptions)
-    colors: DiagnosticColors = field(default_factory=DiagnosticColors)
-
-    @property
-    def needs_solve(self) -> bool:
-        """Whether it shows what the mirrors show, not their surface alone."""
-        return self.mode in SOLVED_MODES
-
-
-@dataclass(frozen=True)
-class Reflection:
-    """What the mirrors show in one view, before it is drawn."""
-
-    view: View
-    parts: tuple[tuple[SolvedChunk, ...], ...]
-    """Per mirror, where vertices are solved, its scenery with the reflection points"""
-    environments: tuple[Environment, ...] | None
-    """Per mirror the environment that stands for what it reflects; None where vertices are solved"""
-    warnings: tuple[str, ...]
-    """One sentence each"""
-    follows_rays: bool = False
-    """Mirror pixels follow their rays: there is nothing to solve before"""
-    is_final: bool = True
-    """Nothing is left that `reflect` would do for a view at rest alone"""
-
-    @property
-    def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks: of every vertex its first image. Midpoints of split edges are not in it."""
-        return tuple(
-            part.solution
-            for parts in self.parts
-            for part in parts
-            if part.image == 0 and not isinstance(part.chunk, Pieces)
-        )
 
 
 class Renderer:
@@ -132,7 +66,7 @@ class Renderer:
         self._warnings: tuple[int, tuple[str, ...]] | None = None
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
-        self._targets: dict[tuple[int, int], _Targets] = {}
+        self._targets: dict[tuple[int, int], Targets] = {}
         self._choice: Choice | None = None
         self._scenery: Scenery | None = None
         """Of this scene, for choosing"""
@@ -454,7 +388,7 @@ class Renderer:
         """Pixels that hold all mirrors."""
         return union([mirror.window(view) for mirror in self.mirrors])
 
-    def _bounces(self, targets: _Targets, view: View, uniforms: Any, most: int) -> Iterator[Bounce]:
+    def _bounces(self, targets: Targets, view: View, uniforms: Any, most: int) -> Iterator[Bounce]:
         """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
 
         Each is drawn when it is asked for, into buffers that the next but one uses again.
@@ -472,7 +406,7 @@ class Renderer:
         self,
         canvas: Any,
         reflection: Reflection,
-        targets: _Targets,
+        targets: Targets,
         view: View,
         uniforms: Any,
         weight: float,
@@ -499,7 +433,7 @@ class Renderer:
         )
 
     def _shown(
-        self, targets: _Targets, reflection: Reflection, uniforms: Any, of_positions: bool
+        self, targets: Targets, reflection: Reflection, uniforms: Any, of_positions: bool
     ) -> SurfaceBuffer | tuple[Environment, ...]:
         """What stands for the reflected scene in the view of `uniforms`: light, or with `of_positions` geometry."""
         environments = reflection.environments
@@ -533,17 +467,15 @@ class Renderer:
             ]
         return self._cubes
 
-    def _targets_for(self, view: View) -> _Targets:
+    def _targets_for(self, view: View) -> Targets:
         size = (view.width, view.height)
         if size not in self._targets:
             while len(self._targets) >= MOST_TARGETS:
                 del self._targets[next(iter(self._targets))]
-            self._targets[size] = _Targets(*size)
+            self._targets[size] = Targets(*size)
         return self._targets[size]
 
-    def _draw_surfaces(
-        self, targets: _Targets, view: View, reflection: Reflection, window: Window | None = None
-    ) -> Any:
+    def _draw_surfaces(self, targets: Targets, view: View, reflection: Reflection, window: Window | None = None) -> Any:
         """Geometry passes of one sub-frame, in `window` alone if given; returns the view's uniform block."""
         uniforms = view_block(view)
         draw_primary(

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -30,11 +30,9 @@ from .reflector_bake import Limits, bake_instance, polar
 from .reflector_map import ReflectorMap
 from .scene_geometry import CORNERS, Sight
 from .screen_maps import ScreenMaps, map_to_texels, widened
+from .settings import Settings
 from .solve import Reflector, RegionTextures, SolvedChunk, VertexSolution, solve_region, solve_vertices
 from .split import split_angle
-
-if TYPE_CHECKING:
-    from .frame import Settings
 
 SAME_STRETCH = 1e-6
 """Relative: a matrix whose stretch differs less only moves and turns"""

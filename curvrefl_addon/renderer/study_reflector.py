@@ -18,13 +18,13 @@ from ..optics.study_surfaces import Study
 from ..scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from ..scene.view import View
 from .chunk import Batches, Chunk, Placed
-from .frame import Settings
 from .gpu_objects import cube_texture, record_texture, require_gpu
 from .grid_solve import ChunkGrid
 from .materials import Materials
 from .mirror_plane import Plane, facing_plane, flat_parts
 from .parametric_map import bake_parametric
 from .screen_maps import ScreenMaps, map_to_texels, widened
+from .settings import Settings
 from .solve import Reflector, VertexSolution, solve_vertices
 
 COLUMNS, ROWS = 512, 256

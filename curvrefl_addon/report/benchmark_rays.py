@@ -12,9 +12,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..renderer.exact import PathBuffer
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
 from ..renderer.gpu_objects import read_texture
 from ..renderer.materials import Materials
+from ..renderer.settings import Settings
 from ..renderer.surfaces import SurfaceBuffer, draw_primary
 from ..renderer.view_block import view_block
 from .benchmark_scenes import hall, view_of_mirror

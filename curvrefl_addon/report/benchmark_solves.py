@@ -14,9 +14,10 @@ from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..optics.radial_surfaces import Bumpy
 from ..renderer.chunk import Chunk, Placed
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
 from ..renderer.gpu_objects import TEXTURE_WIDTH
 from ..renderer.materials import Materials
+from ..renderer.settings import Settings
 from ..renderer.solve import PreparedSolve, SolvedChunk, VertexSolution, prepare_solve, statistics
 from ..renderer.surfaces import SurfaceBuffer, draw_primary, draw_reflected
 from ..renderer.view_block import view_block

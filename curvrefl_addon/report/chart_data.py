@@ -15,7 +15,8 @@ import bpy
 
 from ..errors import InputError
 from ..optics.catalogue import METHODS, Method
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
+from ..renderer.settings import Settings
 from ..scene.arrays import SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
 from ..scene.extract import extract_scene

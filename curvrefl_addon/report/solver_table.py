@@ -25,7 +25,7 @@ from ..optics.radial_surfaces import Float64Array, unit
 from ..optics.regimes import MESH_VERTICES, REGIMES, Cases, make_cases, mesh_cases
 from ..optics.screen import Screen
 from ..optics.study_surfaces import STUDIES
-from ..renderer.frame import Settings
+from ..renderer.settings import Settings
 from ..renderer.study_reflector import StudyReflector
 from ..scene.view import View
 

@@ -14,7 +14,7 @@ from ..optics import status
 from ..optics.catalogue import METHODS, Method
 from ..optics.radial_surfaces import Float64Array, unit
 from ..optics.study_surfaces import STUDIES
-from ..renderer.frame import Settings
+from ..renderer.settings import Settings
 from ..renderer.solve import VertexSolution
 from ..renderer.study_reflector import StudyReflector
 from .solver_table import study_view

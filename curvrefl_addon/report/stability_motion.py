@@ -15,7 +15,7 @@ from ..optics.oracle import Oracle
 from ..optics.radial_surfaces import Float64Array
 from ..optics.regimes import MESH_VERTICES, make_cases, mesh_cases
 from ..optics.study_surfaces import STUDIES
-from ..renderer.frame import Settings
+from ..renderer.settings import Settings
 from ..renderer.solve import VertexSolution
 from ..renderer.study_reflector import StudyReflector
 from .solver_table import study_view

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..optics.catalogue import METHODS
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
+from ..renderer.settings import Settings
 from ..scene.arrays import Float32Array
 from .display import display_transform
 from .images import save_png

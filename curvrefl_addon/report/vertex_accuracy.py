@@ -18,12 +18,13 @@ from ..optics import status
 from ..optics.cube_map import CubeMapSurface, nearest_texel
 from ..optics.oracle import Oracle, ReflectionPoints
 from ..optics.screen import Screen
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
 from ..renderer.gpu_objects import read_records
 from ..renderer.materials import Materials
 from ..renderer.mirror import OPEN_LIMITS, Mirror
 from ..renderer.reflector_bake import bake_instance
 from ..renderer.reflector_map import ReflectorMap
+from ..renderer.settings import Settings
 from ..renderer.solve import SolvedChunk
 from ..scene.arrays import Float64Array, SceneArrays
 from ..scene.view import View

@@ -13,9 +13,10 @@ import numpy as np
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..renderer.chunk import Chunk, Placed
-from ..renderer.frame import Renderer, Settings
+from ..renderer.frame import Renderer
 from ..renderer.materials import Materials
 from ..renderer.mirror import Mirror
+from ..renderer.settings import Settings
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ..scene.view import View
 from .repeats import Timing, repeated

@@ -15,7 +15,8 @@ from curvrefl.curvrefl_addon.renderer import choice as choices
 from curvrefl.curvrefl_addon.renderer import frame as frame_module
 from curvrefl.curvrefl_addon.renderer import scene_geometry
 from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes import mirror_halls

@@ -14,8 +14,9 @@ from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
 from curvrefl.curvrefl_addon.renderer.bounding_grid import bounding_grid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_room import Room

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import cli, registration
-from curvrefl.curvrefl_addon.renderer.frame import Settings
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.chart import open_scene_steps
 from curvrefl.curvrefl_addon.report.chart_data import read_scene
 from curvrefl.curvrefl_addon.report.compare import Comparison

@@ -15,8 +15,10 @@ from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
 from curvrefl.curvrefl_addon.renderer.chunk import unpack_color
 from curvrefl.curvrefl_addon.renderer.curved_edges import SHORTEST
-from curvrefl.curvrefl_addon.renderer.frame import Reflection, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import read_records, record_texture
+from curvrefl.curvrefl_addon.renderer.reflection import Reflection
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import Pieces, Reflector, SolvedChunk, VertexSolution, solve_vertices
 from curvrefl.curvrefl_addon.renderer.split import number_pairs
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays

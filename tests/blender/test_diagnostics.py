@@ -25,7 +25,7 @@ from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.diagnostic_legend import draw_layout, layout
 from curvrefl.curvrefl_addon.renderer.diagnostics import DiagnosticPass
 from curvrefl.curvrefl_addon.renderer.environment import Environment
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     cube_texture,
     indexed_batch,
@@ -33,6 +33,7 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (
     record_texture,
     texture_2d,
 )
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk, VertexSolution, statistics
 from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.view_block import view_block

@@ -18,8 +18,9 @@ from curvrefl.curvrefl_addon.optics.environment import (
     sphere_map_places,
 )
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import read_cube, read_texture
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_room import MIRROR, Room, radial_mesh

@@ -14,8 +14,9 @@ from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_direct
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import MOST_STRAGGLERS_AT_ONCE, Reflector, VertexSolution, solve_vertices
 from curvrefl.curvrefl_addon.report.stability_scenes import trials
 from curvrefl.curvrefl_addon.scene.view import View

@@ -15,9 +15,10 @@ from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
 from curvrefl.curvrefl_addon.optics.regimes import make_cases
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import (
     Reflector,
     RegionTextures,

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings, union
+from curvrefl.curvrefl_addon.renderer.frame import Renderer, union
 from curvrefl.curvrefl_addon.renderer.gpu_objects import read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.lighting import FEATURES
 from curvrefl.curvrefl_addon.renderer.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, SceneArrays, WorldArrays
 from scenes.mirror_room import Room
 from scenes.views import look_at

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, SceneArrays, WorldArrays
 from scenes.mirror_room import Room, radial_mesh
 from scenes.views import look_at

@@ -16,8 +16,9 @@ from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.optics.regimes import make_cases
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
 from curvrefl.curvrefl_addon.renderer import study_reflector
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.screen_maps import ScreenMaps
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector
 from curvrefl.curvrefl_addon.report import stability, stability_motion, stability_pictures
 from curvrefl.curvrefl_addon.report.solver_table import solver_table, study_view

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.renderer.chunk import Chunk
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, Settings
+from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.mirror import Mirror
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.viewport_environment import Environment, environment_of
 from curvrefl.curvrefl_addon.viewport_scene import MOST_RENDERERS, Look, ViewportScene
 from scenes.views import look_at

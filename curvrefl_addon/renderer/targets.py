@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render targets of one size of picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .environment_vertex import VertexLookups
+from .exact import PathBuffer
+from .surfaces import BackFaces, SurfaceBuffer
+
+
+@dataclass
+class Targets:
+    """Everything that has the size of the picture."""
+
+    width: int
+    height: int
+    seen: SurfaceBuffer = field(init=False)
+    reflected: SurfaceBuffer = field(init=False)
+    back_faces: BackFaces = field(init=False)
+    vertex_lookups: VertexLookups | None = None
+    """Made where a method needs them, as the next"""
+    paths: list[PathBuffer] = field(default_factory=list)
+
+    def path(self, bounce: int) -> PathBuffer:
+        """Where rays get to after the mirror `bounce`, 0 for the first; two buffers take turns."""
+        while len(self.paths) <= min(bounce, 1):
+            self.paths.append(PathBuffer(self.width, self.height))
+        return self.paths[bounce % 2]
+
+    def __post_init__(self) -> None:
+        self.seen = SurfaceBuffer(self.width, self.height)
+        self.reflected = SurfaceBuffer(self.width, self.height)
+        self.back_faces = BackFaces(self.width, self.height)
