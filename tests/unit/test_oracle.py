@@ -120,3 +120,13 @@ def test_the_first_that_hold_are_chosen() -> None:
     assert len(asked) == BLOCK
     assert _first(5, 7, holds).tolist() == [0, 3, 6]
     assert _first(5, 0, holds).tolist() == []
+
+
+@pytest.mark.parametrize(("name", "regime"), [("torus section", "caustic"), ("bowl", "eye close"), ("saddle", "far")])
+def test_a_finer_grid_finds_no_more(name: str, regime: str) -> None:
+    study = STUDIES[name]
+    cases = make_cases(study, regime, 150)
+    found = study.oracle().reflection_points(cases.eye, cases.vertices)
+    finer = Oracle(study.surface, 96, study.side, study.cover if study.rim < 1.0 else None)
+    expected = finer.reflection_points(cases.eye, cases.vertices)
+    assert found.visible.sum() >= 0.99 * expected.visible.sum()
