@@ -136,6 +136,8 @@ class Oracle:
             if len(u) == known:
                 break
         kept = self._is_reflection(eyes[rows], vertices[rows], sample(self.surface, u))
+        if self.cover is not None:
+            kept &= self.cover(u)
         rows, u = rows[kept], u[kept]
         at = sample(self.surface, u)
         here_eyes, here = eyes[rows], vertices[rows]

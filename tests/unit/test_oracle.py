@@ -64,6 +64,18 @@ def test_a_hollow_mirror_shows_up_to_three_images_of_all_kinds() -> None:
     assert set(found.signature) == {MINIMUM, SADDLE, MAXIMUM}
 
 
+def test_an_open_mirror_reflects_nowhere_but_on_itself() -> None:
+    study = STUDIES["bowl"]
+    random = np.random.default_rng(0)
+    vertices = unit(random.normal(size=(500, 3))) * random.uniform(0.1, 3.0, (500, 1))
+    eye = np.array([*study.eye, 1.0])
+    found = study.oracle().reflection_points(eye, vertices)
+    assert len(found.u) > 500
+    assert study.cover(found.u).all()
+    closed = Oracle(study.surface, 64, study.side).reflection_points(eye, vertices)
+    assert not study.cover(closed.u).all()
+
+
 def test_what_is_not_finite_has_no_reflection() -> None:
     vertices = np.array([[np.nan, 0.0, 2.0], [0.0, np.inf, 0.0], [0.0, 0.0, 2.0]])
     found = Oracle(Ellipsoid()).reflection_points(np.array([3.0, 0.0, 1.0, 1.0]), vertices)
