@@ -6,6 +6,8 @@
 // solver.counts.w is 0 without a last frame, 1 with one, 2 where it had the same view; solver.start.w is 1 on a closed
 // convex mirror
 #define SAME_VIEW 2
+// Tolerances that a Newton step from a point at rest may be long; between texels that meet with a kink it is not zero
+#define MOST_AT_REST 2.0
 
 // The last frame's reflection point, in world space and as a direction, or on a convex mirror where the way to a hidden
 // vertex entered it; whether there is one.
@@ -16,6 +18,18 @@ bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
   u = safe_unit(point);
   int status = int(before.w + 0.5) % 4;
   return (status == REFLECTED || (convex && status == HIDDEN)) && u != vec3(0.0);
+}
+
+// Whether a point still reflects the vertex, as far as a Newton step tells. The length alone may agree by chance where a
+// vertex has moved about its reflection point.
+bool still_reflects(vec4 eye, vec3 vertex, vec3 u)
+{
+  SurfaceSample at = sample_surface(u);
+  vec3 first, second;
+  tangent_frame(u, first, second);
+  vec3 derivative = second_derivative(eye, vertex, u, at, first, second);
+  vec3 step = newton_step(derivative, path_gradient(eye, vertex, u, at), first, second);
+  return length(in_pixels(eye, solver.screen.x, at.position, at.radius * step)) < MOST_AT_REST * solver.screen.y;
 }
 
 void main()
@@ -37,7 +51,8 @@ void main()
     warm = last_point(before, convex, world_point, u);
     vec4 seemed = fetch_record(previous_virtual, index);
     // To the last bit: what a vertex that has not moved showed in the same view stays as it is.
-    if (warm && solver.counts.w == SAME_VIEW && seemed.w == length_to(vertex, world_point)) {
+    if (warm && solver.counts.w == SAME_VIEW && seemed.w == length_to(vertex, world_point) &&
+        still_reflects(eye, vertex, u)) {
       imageStore(reflection_points, texel_of_record(index), before);
       imageStore(virtual_positions, texel_of_record(index), seemed);
       return;

@@ -31,8 +31,8 @@ COLUMNS = (*SOLVING, "environment_cube", "environment_parallax")
 """Automatic shows what Exact or Newton does, and the other lookups what Environment Cube does"""
 CUT = 340
 """Pixels in the middle of a picture that hold the mirror"""
-INCHES = 1.15
-QUALITY = 82
+INCHES = 1.05
+QUALITY = 72
 
 
 def draw_all(report: dict[str, Any], folder: Path, output: Path) -> None:

@@ -27,7 +27,7 @@ MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
 
 BLOCK = 128
 """Vertices that are bracketed at a time: their errors at all nodes should stay in a processor's cache"""
-MOST_BRACKETS = 12
+MOST_BRACKETS = 32
 """Nodes of the grid from which one vertex's searches start"""
 FACING = -0.15
 """Cosine: nodes whose normal turns farther from eye or vertex bracket nothing"""
@@ -136,6 +136,8 @@ class Oracle:
             if len(u) == known:
                 break
         kept = self._is_reflection(eyes[rows], vertices[rows], sample(self.surface, u))
+        if self.cover is not None:
+            kept &= self.cover(u)
         rows, u = rows[kept], u[kept]
         at = sample(self.surface, u)
         here_eyes, here = eyes[rows], vertices[rows]

@@ -59,7 +59,8 @@ def trials() -> list[Trial]:
             "thin layers",
             "Six plates a hundredth apart, each smaller than the one below (Roger & Holzschuch 2006, figure 13): "
             "distances interpolated between vertices would let lower ones show through, so distance is measured again "
-            "at every pixel, and only searches that end between texels or cells mix them; use Automatic or Exact.",
+            "at every pixel; only Secant Search in UV and Bisector Field on Grids still tear them; use Automatic or "
+            "Exact.",
             "sphere",
             (2.6, -3.2, 1.6),
             [

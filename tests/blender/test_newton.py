@@ -12,12 +12,15 @@ import pytest
 from curvrefl.curvrefl_addon.optics import newton, status
 from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.regimes import make_cases
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
 from curvrefl.curvrefl_addon.renderer.frame import Renderer
 from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.solve import MOST_STRAGGLERS_AT_ONCE, Reflector, VertexSolution, solve_vertices
+from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector
+from curvrefl.curvrefl_addon.report.solver_table import study_view
 from curvrefl.curvrefl_addon.report.stability_scenes import trials
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.views import look_at
@@ -247,3 +250,24 @@ def test_a_hollow_mirror_and_one_that_bends_both_ways_end_with_a_code() -> None:
         _, code, _, _ = placed.solve(placed.view(placed.turn.T @ np.array(study.eye))).read()
         assert (code == status.REFLECTED).mean() > 0.2
         assert (code == status.UNSOLVED).mean() < 0.02
+
+
+def test_a_vertex_that_moves_about_its_reflection_point_is_solved_again() -> None:
+    study = STUDIES["bumpy"]
+    cases = make_cases(study, "near", 2000)
+    reflector, view, settings = StudyReflector(study), study_view(cases.eye), Settings(method="newton")
+    before = reflector.solve("newton", view, settings, cases.vertices)
+    points, code, _, _ = before.read()
+    # As far from it as before, half a degree on: for many of them the length is the same to the last bit.
+    leg = cases.vertices - points
+    across = unit(np.cross(leg, np.random.default_rng(0).normal(size=leg.shape)))
+    angle = np.radians(0.5)
+    length = np.linalg.norm(leg, axis=1, keepdims=True)
+    moved = points + np.cos(angle) * leg + np.sin(angle) * length * across
+    warm, warm_code, _, _ = reflector.solve("newton", view, settings, moved, before).read()
+    cold, cold_code, _, _ = reflector.solve("newton", view, settings, moved).read()
+    both = (code == status.REFLECTED) & (warm_code == status.REFLECTED) & (cold_code == status.REFLECTED)
+    assert both.mean() > 0.9
+    off = np.linalg.norm(view.project(warm) - view.project(cold), axis=1)[both]
+    # A few change to another image.
+    assert (off > 0.1).mean() < 0.005

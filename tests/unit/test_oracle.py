@@ -64,6 +64,18 @@ def test_a_hollow_mirror_shows_up_to_three_images_of_all_kinds() -> None:
     assert set(found.signature) == {MINIMUM, SADDLE, MAXIMUM}
 
 
+def test_an_open_mirror_reflects_nowhere_but_on_itself() -> None:
+    study = STUDIES["bowl"]
+    random = np.random.default_rng(0)
+    vertices = unit(random.normal(size=(500, 3))) * random.uniform(0.1, 3.0, (500, 1))
+    eye = np.array([*study.eye, 1.0])
+    found = study.oracle().reflection_points(eye, vertices)
+    assert len(found.u) > 500
+    assert study.cover(found.u).all()
+    closed = Oracle(study.surface, 64, study.side).reflection_points(eye, vertices)
+    assert not study.cover(closed.u).all()
+
+
 def test_what_is_not_finite_has_no_reflection() -> None:
     vertices = np.array([[np.nan, 0.0, 2.0], [0.0, np.inf, 0.0], [0.0, 0.0, 2.0]])
     found = Oracle(Ellipsoid()).reflection_points(np.array([3.0, 0.0, 1.0, 1.0]), vertices)
@@ -120,3 +132,13 @@ def test_the_first_that_hold_are_chosen() -> None:
     assert len(asked) == BLOCK
     assert _first(5, 7, holds).tolist() == [0, 3, 6]
     assert _first(5, 0, holds).tolist() == []
+
+
+@pytest.mark.parametrize(("name", "regime"), [("torus section", "caustic"), ("bowl", "eye close"), ("saddle", "far")])
+def test_a_finer_grid_finds_no_more(name: str, regime: str) -> None:
+    study = STUDIES[name]
+    cases = make_cases(study, regime, 150)
+    found = study.oracle().reflection_points(cases.eye, cases.vertices)
+    finer = Oracle(study.surface, 96, study.side, study.cover if study.rim < 1.0 else None)
+    expected = finer.reflection_points(cases.eye, cases.vertices)
+    assert found.visible.sum() >= 0.99 * expected.visible.sum()
