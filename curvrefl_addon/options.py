@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from .diagnostic_colors import DiagnosticColors
-from .renderer.settings import Settings
 from .scene.arrays import MaterialArrays
 from .scene.blend_file import SURFACE_TYPES
+
+if TYPE_CHECKING:
+    from .renderer.settings import Settings
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
@@ -83,6 +85,9 @@ def newer_settings(scene: bpy.types.Scene) -> str:
 
 def settings_of(chosen: Any, samples: int | None = None) -> Settings:
     """How to render by `Scene.curvrefl`; `samples` in place of its own."""
+    # (Enabling the extension imports nothing of the renderer.)
+    from .renderer.settings import Settings
+
     return Settings(
         # (what a newer extension has saved reads as nothing here)
         method=chosen.method or Settings().method,
