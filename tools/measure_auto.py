@@ -50,14 +50,14 @@ SHARE = re.compile(r"cost about ([\d.]+) times")
 
 def solving_settings(arrays: SceneArrays, settings: Settings, view: View) -> Settings:
     """Those that `auto` would solve vertices with."""
-    before, choices.CLEARLY = choices.CLEARLY, 1e9
+    before, choices.MOST_SHARE = choices.MOST_SHARE, 1e9
     try:
         renderer = Renderer(arrays, settings)
         renderer.render(view)
         chosen = renderer.choice
         renderer.free()
     finally:
-        choices.CLEARLY = before
+        choices.MOST_SHARE = before
     assert chosen is not None
     return chosen.settings
 

@@ -16,7 +16,7 @@ class Method:
     assumes: str
     """Of the reflector and the scene"""
     sweep: tuple[str, tuple[float, ...]]
-    """The field of `renderer.frame.Settings` that trades speed for accuracy, and values of it to chart"""
+    """The field of `renderer.settings.Settings` that trades speed for accuracy, and values of it to chart"""
     maps: tuple[str, ...] = ()
     """What of the reflector its shader `gpu_shaders/<name>.comp.glsl` reads (see `renderer.solve`); none for
     a method that looks up an environment (`gpu_shaders/<name>.glsl`)"""

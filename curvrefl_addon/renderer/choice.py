@@ -30,8 +30,9 @@ PIXEL_SPLIT = 0.25
 """What splitting edges by solved midpoints adds, per mirror pixel: a larger mirror has more to split"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
-CLEARLY = 1.0
-"""Points are solved where they cost less than this share of rays (figures: `tools/measure_auto.py`)"""
+MOST_SHARE = 1.0
+"""Points are solved where they cost less than this share of rays: the costs are of all that differs between the two
+(figures: `tools/measure_auto.py`)"""
 STRICTER = 0.7
 """Share of the error asked for to which edges are split: an edge is half of what a triangle's inside may be off"""
 MAPS = ((60.0, 64), (250.0, 128), (600.0, 256))
@@ -94,6 +95,8 @@ def choose(
         unseen &= in_shadow(mirror, view, scenery.centers, scenery.radii)
     hidden, shown = int(unseen.sum()), int((~unseen).sum())
     rays = replace(settings, method=RAYS)
+    if settings.shadow_rays:
+        return Choice(rays, "Shadows by rays are asked for: rays are followed.", hidden, shown)
     if bumpy:
         return Choice(rays, f'"{bumpy[0]}" has bumps: rays are followed.', hidden, shown)
     several = next((mirror for mirror in mirrors if not mirror.facts.never_sees_itself), None)
@@ -115,8 +118,8 @@ def choose(
     by_points = pixels * PIXEL_DRAWN + TRIANGLE_DRAWN * (triangles + added)
     by_points += once / (settings.samples if is_still else 1)
     share = by_points / max(by_rays, 1e-30)
-    cost = f"{vertices:,} vertices to solve cost about {share:.1f} times what {pixels:,.0f} rays do"
-    if not mirrors or share > CLEARLY:
+    cost = f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
+    if not mirrors or share > MOST_SHARE:
         return Choice(rays, f"{cost}: rays are followed.", hidden, shown)
     resolution = next((texels for radius, texels in MAPS if largest <= radius), FINEST_MAP)
     points = replace(

@@ -59,6 +59,9 @@ class _Vertices:
         points = read_records(solution.reflection_points, solution.count)
         virtual = read_records(solution.virtual_positions, solution.count)
         seen = np.flatnonzero(np.rint(points[:, 3]).astype(np.int32) & 3 == status.REFLECTED)
+        # Not what lies behind the eye's plane, next to a large mirror: it would be projected through infinity.
+        row = view.world_to_clip[3]
+        seen = seen[virtual[seen, :3] @ row[:3] + row[3] > 0.0]
         pixels = np.full(solution.count, np.nan, np.complex64)
         pixels[seen] = _project(view, virtual[seen, :3])
         return cls(read_records(positions, solution.count), points, virtual, pixels)
@@ -138,7 +141,8 @@ class _Cutting:
         if len(pairs) == 0:
             return self.vertices.of(np.zeros(0, np.int64))
         middles = self.vertices.positions[pairs].mean(axis=1)
-        # From between the ends' points, as if reflected there: near, and the same image where there are several.
+        # From between the ends' points, as if reflected there: near, and the same image where there are several. (For
+        # methods that start from the last frame's points; others search afresh.)
         between = self.vertices.points[pairs].mean(axis=1)
         between[:, 3] = status.REFLECTED
         positions, start = record_texture(middles), record_texture(between)

@@ -129,6 +129,7 @@ class Renderer:
         except InputError:
             self._used = before
             raise
+        # (Another method leaves the cubes as they are: whoever compares methods comes back to them.)
         if any(one is not other for one, other in zip(mirrors, self.mirrors, strict=True)):
             self._cubes = None
 
@@ -264,7 +265,8 @@ class Renderer:
         last one's points. What is only worth its time where the view rests is done `at_rest`: edges are split where
         their solved midpoints leave the chord.
         """
-        # (At rest nothing else is chosen than while the view moves.)
+        # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
+        # the full resolution may be drawn another way all the same.)
         self._choose(view, is_still=not follow)
         if not solve:
             return Reflection(view, (), (), self.warnings)

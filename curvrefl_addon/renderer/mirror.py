@@ -156,14 +156,16 @@ class Mirror:
         larger than it would be at the mirror itself."""
         if not self.facts.never_sees_itself:
             return np.inf
+        clip = view.view_to_clip
+        scale = max(view.focal_pixels, 0.5 * view.width * float(clip[0, 0]))
         if view.is_orthographic:
-            return view.focal_pixels
+            return scale
         nearest = float(np.linalg.norm(view.eye[:3] - self.center)) - self.bound
         if nearest <= 0.0:
             return np.inf
-        # In the picture's corners a radian covers more pixels than in its middle.
-        corner = 0.25 * (view.width**2 + view.height**2) / view.focal_pixels**2
-        return (1.0 + corner) * view.focal_pixels / nearest
+        # In the picture's corners, the farthest one of a shifted lens, a radian covers more pixels than straight ahead.
+        x, y = ((1.0 + abs(float(clip[axis, 2]))) / float(clip[axis, axis]) for axis in range(2))
+        return (1.0 + x**2 + y**2) * scale / nearest
 
     @property
     def inner_ball(self) -> tuple[Float64Array, float]:

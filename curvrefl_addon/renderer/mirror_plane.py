@@ -34,7 +34,7 @@ def flat_parts(mesh: MeshArrays, instance: InstanceArrays, world_to_map: Float64
     offsets = np.einsum("ij,ij->i", normals, corners.mean(axis=1))
     size = max(float(np.abs(positions).max()), 1e-300)
     keys = np.rint(np.column_stack([normals, offsets / size]) * DIRECTIONS).astype(np.int64)
-    # One number per row: offsets are no farther from the origin than the farthest corner.
+    # One number per row: offsets are less than twice the largest coordinate, so each key is within 2 DIRECTIONS of 0.
     span = 4 * DIRECTIONS
     _, part = np.unique((keys + span // 2) @ span ** np.arange(3, -1, -1), return_inverse=True)
     total = np.bincount(part, areas)

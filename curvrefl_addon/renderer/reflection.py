@@ -45,7 +45,7 @@ class Reflection:
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
-        """Of all mirrors and chunks: of every vertex its first image. Midpoints of split edges are not in it."""
+        """Of all mirrors and chunks that they may show: every vertex its first image. No midpoints of split edges."""
         return tuple(
             part.solution
             for parts in self.parts

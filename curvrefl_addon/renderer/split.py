@@ -92,10 +92,10 @@ def split_mesh(
         middle, pairs = number_pairs(start[long_edge], end[long_edge], len(corner_vertex))
         first, second = corner_vertex[pairs[:, 0]], corner_vertex[pairs[:, 1]]
         vertex_middle, vertex_pairs = number_pairs(first, second, len(vertex_layers[0]))
-        vertex_layers = [with_middles(layer, vertex_pairs) for layer in vertex_layers]
+        vertex_layers = [_with_middles(layer, vertex_pairs) for layer in vertex_layers]
         # Halves of interpolated attributes are kept as they are: normals not renormalised, so that the fragment's
         # interpolation is the unsplit triangle's.
-        corner_layers = [with_middles(layer, pairs) for layer in corner_layers]
+        corner_layers = [_with_middles(layer, pairs) for layer in corner_layers]
         corner_vertex = np.concatenate([corner_vertex, vertex_middle])
         middles = np.full(corners.shape, -1, np.int32)
         middles[long_edge] = middle
@@ -120,7 +120,7 @@ def split_mesh(
     return result, parents
 
 
-def with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
+def _with_middles(layer: Float32Array, pairs: Int32Array) -> Float32Array:
     """The layer (n, k) with the means of the rows `pairs` (m, 2) added."""
     return np.concatenate([layer, np.float32(0.5) * (layer[pairs[:, 0]] + layer[pairs[:, 1]])])
 

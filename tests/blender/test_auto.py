@@ -58,7 +58,7 @@ def pixel_errors(surface: RadialSurface, frame: Frame) -> np.ndarray:
 @pytest.mark.parametrize("tolerance", [0.5, 2.0])
 def test_the_error_asked_for_holds(name: str, way: str, tolerance: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whichever way is chosen: the choice is pushed to both sides."""
-    monkeypatch.setattr(choices, "CLEARLY", 0.0 if way == RAYS else 1e9)
+    monkeypatch.setattr(choices, "MOST_SHARE", 0.0 if way == RAYS else 1e9)
     frame = rendered(fine_hall(name, monkeypatch), look_at(EYE, np.zeros(3), 480, 360, 0.6), pixel_tolerance=tolerance)
     assert frame.choice is not None and frame.choice["method"] == way
     assert np.percentile(pixel_errors(SURFACES[name], frame), 99) < tolerance
@@ -86,6 +86,15 @@ def test_mirrors_that_show_a_point_several_times_follow_rays(name: str) -> None:
 def test_several_mirrors_follow_rays() -> None:
     frame = rendered(hall("sphere", 0, mirrors=2), look_at(EYE, np.zeros(3), 160, 120, 0.8))
     assert frame.choice is not None and "in each other" in str(frame.choice["why"])
+
+
+def test_shadows_by_rays_follow_rays(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a mirror whose few vertices would be solved else: points have shadows out of depth maps alone."""
+    monkeypatch.setattr(choices, "MOST_SHARE", 1e9)
+    view = look_at(EYE, np.zeros(3), 160, 120, 0.6)
+    frame = rendered(hall("sphere", 0), view, shadow_rays=True)
+    assert frame.choice is not None and frame.choice["method"] == RAYS
+    assert "Shadows by rays" in str(frame.choice["why"])
 
 
 def test_what_lies_in_the_mirrors_shadow_is_not_reflected() -> None:
