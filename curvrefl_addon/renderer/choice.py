@@ -34,7 +34,8 @@ MOST_SHARE = 1.0
 """Points are solved where they cost less than this share of rays: the costs are of all that differs between the two
 (figures: `tools/measure_auto.py`)"""
 STRICTER = 0.7
-"""Share of the error asked for to which edges are split: an edge is half of what a triangle's inside may be off"""
+"""Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
+may be off. In stills solved midpoints see to it."""
 MAPS = ((60.0, 64), (250.0, 128), (600.0, 256))
 """Up to this radius in pixels, the texels of the mirror's map whose own error stays under a tenth of a pixel"""
 FINEST_MAP = 512
@@ -112,7 +113,8 @@ def choose(
     pixels = sum(mirror_pixels(mirror, view) for mirror in mirrors)
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
     largest = max((mirror.radius_pixels(view) for mirror in mirrors), default=1.0)
-    added = SPLIT_TRIANGLES / split_angle(largest, STRICTER * settings.pixel_tolerance) ** 2
+    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER)
+    added = SPLIT_TRIANGLES / split_angle(largest, tolerance) ** 2
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
     once = VERTEX_SOLVED * (vertices + 0.5 * added) + (PIXEL_SPLIT * pixels if is_still else 0.0)
     by_points = pixels * PIXEL_DRAWN + TRIANGLE_DRAWN * (triangles + added)
@@ -126,7 +128,7 @@ def choose(
         settings,
         method=VERTICES,
         map_resolution=max(resolution, 8),
-        pixel_tolerance=max(STRICTER * settings.pixel_tolerance, 0.01),
+        pixel_tolerance=max(tolerance, 0.01),
     )
     return Choice(points, f"{cost}: reflection points are solved.", hidden, shown)
 
