@@ -20,7 +20,7 @@ float score(vec4 eye, vec3 vertex, ivec2 texel, bool inverse, out Bisector b)
   if (position.w == 0.0) {
     return NOWHERE;
   }
-  vec3 point = (solver.world_to_map * vec4(position.xyz, 1.0)).xyz;
+  vec3 point = in_map(position.xyz);
   vec3 normal = safe_unit(mat3(solver.world_to_map) * texelFetch(screen_normal, texel, 0).xyz);
   // A concave part shows its inner side: what faces the eye reflects.
   normal *= dot(normal, towards_eye(eye, point)) < 0.0 ? -1.0 : 1.0;

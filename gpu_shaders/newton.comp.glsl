@@ -14,8 +14,7 @@
 bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
 {
   world_point = before.xyz;
-  vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
-  u = safe_unit(point);
+  u = safe_unit(in_map(world_point));
   int status = int(before.w + 0.5) % 4;
   return (status == REFLECTED || (convex && status == HIDDEN)) && u != vec3(0.0);
 }

@@ -76,7 +76,7 @@ void main()
     SurfaceSample at = sample_surface(u);
     if (is_reflection_side(eye, vertex, at, 1.0) && is_way_free(at.position, vertex - at.position) &&
         is_way_free(at.position, eye.xyz - eye.w * at.position)) {
-      store_reflected_at(index, iterations, vertex, (solver.map_to_world * vec4(at.position, 1.0)).xyz);
+      store_reflected_at(index, iterations, vertex, in_world(at.position));
       return;
     }
   }

@@ -54,36 +54,29 @@ bool is_straight(vec4 eye, vec3 vertex, vec3 point, float longest)
   return length(towards_eye(eye, point) + safe_unit(vertex - point)) < longest;
 }
 
-vec3 in_world(vec3 point)
-{
-  return (solver.map_to_world * vec4(point, 1.0)).xyz;
-}
-
 float length_to(vec3 vertex, vec3 world_point)
 {
-  return length(vertex - (solver.world_to_map * vec4(world_point, 1.0)).xyz);
+  return length(vertex - in_map(world_point));
 }
 
 // `world_point` has been rounded as it is stored: a point that stays where it is keeps the bits of all that is stored.
-void store_reflected_at(int index, int iterations, vec3 vertex, vec3 world_point)
+void store_at(int index, int status, int iterations, vec3 vertex, vec3 world_point, vec3 virtual_position)
 {
-  vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
-  float length_to_vertex = length_to(vertex, world_point);
-  vec3 virtual_position = point - length_to_vertex * towards_eye(solver.eye, point);
   ivec2 texel = texel_of_record(index);
-  imageStore(reflection_points, texel, vec4(world_point, float(REFLECTED + 4 * iterations)));
-  imageStore(
-      virtual_positions, texel, vec4((solver.map_to_world * vec4(virtual_position, 1.0)).xyz, length_to_vertex));
+  imageStore(reflection_points, texel, vec4(world_point, float(status + 4 * iterations)));
+  imageStore(virtual_positions, texel, vec4(in_world(virtual_position), length_to(vertex, world_point)));
 }
 
-// The same of a vertex that the mirror hides (see `store_hidden`).
+void store_reflected_at(int index, int iterations, vec3 vertex, vec3 world_point)
+{
+  vec3 point = in_map(world_point);
+  vec3 virtual_position = point - length_to(vertex, world_point) * towards_eye(solver.eye, point);
+  store_at(index, REFLECTED, iterations, vertex, world_point, virtual_position);
+}
+
+// Of a vertex that the mirror hides (see `store_hidden`).
 void store_hidden_at(int index, int iterations, vec3 vertex, vec3 world_point, vec3 normal)
 {
-  vec3 point = (solver.world_to_map * vec4(world_point, 1.0)).xyz;
-  vec3 offset = vertex - point;
-  vec3 mirrored = vertex - 2.0 * dot(normal, offset) * normal;
-  ivec2 texel = texel_of_record(index);
-  imageStore(reflection_points, texel, vec4(world_point, float(HIDDEN + 4 * iterations)));
-  imageStore(virtual_positions, texel,
-             vec4(in_world(mirrored), length_to(vertex, world_point)));
+  vec3 mirrored = vertex - 2.0 * dot(normal, vertex - in_map(world_point)) * normal;
+  store_at(index, HIDDEN, iterations, vertex, world_point, mirrored);
 }

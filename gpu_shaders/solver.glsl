@@ -7,9 +7,19 @@
 #include "records.glsl"
 #include "vectors.glsl"
 
+vec3 in_map(vec3 world_point)
+{
+  return (solver.world_to_map * vec4(world_point, 1.0)).xyz;
+}
+
+vec3 in_world(vec3 point)
+{
+  return (solver.map_to_world * vec4(point, 1.0)).xyz;
+}
+
 vec3 vertex_in_map(int index)
 {
-  return (solver.world_to_map * vec4(fetch_record(positions, index).xyz, 1.0)).xyz;
+  return in_map(fetch_record(positions, index).xyz);
 }
 
 // Everything is stored in world space. reflection_points: P and status + 4 iterations.
@@ -17,10 +27,8 @@ vec3 vertex_in_map(int index)
 void store(int index, int status, int iterations, vec3 point, vec3 virtual_position, float length_to_vertex)
 {
   ivec2 texel = texel_of_record(index);
-  vec3 world_point = (solver.map_to_world * vec4(point, 1.0)).xyz;
-  vec3 world_virtual = (solver.map_to_world * vec4(virtual_position, 1.0)).xyz;
-  imageStore(reflection_points, texel, vec4(world_point, float(status + 4 * iterations)));
-  imageStore(virtual_positions, texel, vec4(world_virtual, length_to_vertex));
+  imageStore(reflection_points, texel, vec4(in_world(point), float(status + 4 * iterations)));
+  imageStore(virtual_positions, texel, vec4(in_world(virtual_position), length_to_vertex));
 }
 
 void store_invalid(int index)

@@ -63,11 +63,14 @@ class Chunk:
         triangle_counts = [len(mesh.triangles) for mesh in meshes]
         self.position_count = int(self._position_starts[-1])
         self.triangle_count = sum(triangle_counts)
-        self._triangles = _joined([mesh.triangles for mesh in meshes], self._corner_starts)
+        self.triangles: Int32Array = _joined([mesh.triangles for mesh in meshes], self._corner_starts)
+        """(triangles, 3) index into corners; not to be changed, as the next two"""
         self._triangle_instance = np.repeat(np.arange(len(meshes), dtype=np.int32), triangle_counts)
-        self._triangle_material = np.concatenate([_materials(item) for item in placed])
-        self._corner_position = _joined([mesh.corner_vertex for mesh in meshes], self._position_starts)
-        self._is_count = len(meshes) == 1 and is_count(self._corner_position)
+        self.triangle_material: Int32Array = np.concatenate([_materials(item) for item in placed])
+        """(triangles,) material index"""
+        self.corner_position = _joined([mesh.corner_vertex for mesh in meshes], self._position_starts)
+        """(corners,) index into positions"""
+        self._is_count = len(meshes) == 1 and is_count(self.corner_position)
         self._batches: dict[tuple[bytes, bool], Batches] = {}
         self._caster_batches: dict[frozenset[tuple[int, int]], Any] = {}
         self.revision = 0
@@ -76,7 +79,7 @@ class Chunk:
         corner_count = int(self._corner_starts[-1])
         sources = np.zeros((padded_count(self.position_count), 4), np.float32)
         corners = np.zeros((padded_count(2 * corner_count) // 2, 2, 4), np.float32)
-        corners[:corner_count, 0, 3] = self._corner_position
+        corners[:corner_count, 0, 3] = self.corner_position
         corners[:, 1, 2] = 0xFFFFFF
         for index, mesh in enumerate(meshes):
             here = slice(self._position_starts[index], self._position_starts[index + 1])
@@ -125,30 +128,15 @@ class Chunk:
         holdouts = bool((held & keep).any())
         key = (keep.tobytes(), holdouts)
         if key not in self._batches:
-            material = self._triangle_material
+            material = self.triangle_material
             if holdouts:
                 material = np.where(held[self._triangle_instance], HOLDOUT, material)
-            triangles = self._triangles
+            triangles = self.triangles
             if not keep.all():
                 chosen = keep[self._triangle_instance]
                 triangles, material = triangles[chosen], material[chosen]
             self._batches[key] = by_material(triangles, material)
         return self._batches[key]
-
-    @property
-    def triangles(self) -> Int32Array:
-        """(triangles, 3) index into corners; not to be changed, as the next two"""
-        return self._triangles
-
-    @property
-    def corner_position(self) -> Int32Array:
-        """(corners,) index into positions"""
-        return self._corner_position
-
-    @property
-    def triangle_material(self) -> Int32Array:
-        """(triangles,) material index"""
-        return self._triangle_material
 
     def casters(self, idle: frozenset[tuple[int, int]]) -> Any:
         """GPUBatch, indices into positions, of the triangles that cast shadows; None where there are none.
@@ -168,8 +156,8 @@ class Chunk:
                 pieces = self.placed[index].pieces
                 start = int(np.searchsorted(self._triangle_instance, index))
                 chosen[start : start + len(pieces)] &= pieces != piece
-            triangles = self._triangles if chosen.all() else self._triangles[chosen]
-            batch = indexed_batch(self._corner_position[triangles]) if len(triangles) else None
+            triangles = self.triangles if chosen.all() else self.triangles[chosen]
+            batch = indexed_batch(self.corner_position[triangles]) if len(triangles) else None
             self._caster_batches[idle] = batch
         return self._caster_batches[idle]
 

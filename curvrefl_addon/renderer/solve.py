@@ -189,8 +189,7 @@ def solve_vertices(
     the same positions in the frame before, for methods that start from it. It is the result too where nothing has
     changed: `at_rest` says so of positions and maps. `first_rung` leaves starts of the clean-up pass out.
     """
-    block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
-    block["start"] = (*reflector.start, first_rung, reflector.is_convex)
+    block = _vertices_block(method, view, reflector, count, steps, tolerance, first_rung)
     if at_rest and previous is not None and previous.inputs == _inputs(method, block):
         return previous
     solve = PreparedSolve(method, reflector, block, positions, count, previous)
@@ -208,8 +207,7 @@ def prepare_solve(
     previous: VertexSolution | None = None,
 ) -> PreparedSolve:
     """As `solve_vertices`, but nothing has been run yet."""
-    block = _solver_block(view, reflector, count, METHODS[method].steps, tolerance)
-    block["start"] = (*reflector.start, 0, reflector.is_convex)
+    block = _vertices_block(method, view, reflector, count, tolerance=tolerance)
     return PreparedSolve(method, reflector, block, positions, count, previous)
 
 
@@ -308,6 +306,21 @@ class RegionTextures:
 def _inputs(method: str, block: np.ndarray) -> bytes:
     """See `VertexSolution`."""
     return method.encode() + block.tobytes()
+
+
+def _vertices_block(
+    method: str,
+    view: View,
+    reflector: Reflector,
+    count: int,
+    steps: int = 0,
+    tolerance: float = 0.05,
+    first_rung: int = 0,
+) -> np.ndarray:
+    """Of a solve by a method's own shader, without a last frame; see `solve_vertices`."""
+    block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
+    block["start"] = (*reflector.start, first_rung, reflector.is_convex)
+    return block
 
 
 def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:

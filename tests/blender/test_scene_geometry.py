@@ -71,10 +71,10 @@ def world_triangles(geometry: SceneGeometry) -> dict[int, np.ndarray]:
     found: dict[int, list[np.ndarray]] = {}
     for chunk in geometry.chunks:
         positions = read_records(chunk.positions, chunk.position_count)
-        corners = read_records(chunk.corners, 2 * len(chunk._corner_position))[::2]
+        corners = read_records(chunk.corners, 2 * len(chunk.corner_position))[::2]
         places = positions[np.rint(corners[:, 3]).astype(int)]
-        both = np.concatenate([places[:, :3], corners[:, :3]], axis=1)[chunk._triangles]
-        ids = np.rint(places[chunk._triangles][:, 0, 3]).astype(int)
+        both = np.concatenate([places[:, :3], corners[:, :3]], axis=1)[chunk.triangles]
+        ids = np.rint(places[chunk.triangles][:, 0, 3]).astype(int)
         for number in np.unique(ids):
             found.setdefault(int(number), []).append(both[ids == number])
     return {number: np.concatenate(parts) for number, parts in found.items()}
