@@ -17,6 +17,9 @@
 #define INSTANCE_RECORDS 6
 #define TRIANGLE_RECORDS 4
 #define REGION_UNIT 16
+// What the walk is at: no node, so that it takes the next of its stack; at its end.
+#define NOWHERE -1
+#define OVER 99
 // What sees an instance, and how a mirror sees itself.
 #define SEEN_IN_MIRRORS 1
 #define CASTS_SHADOWS 2
@@ -97,36 +100,57 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
   int instance = -1;
   float nearest = 0.0;
   float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
+  // Where the walk is: link and count as in a node's record, or one of the two below.
   int link = 0;
   int count = 0;
-  while (true) {
-    if (count == 0) {
-      int node = nodes + NODE_RECORDS * link;
-      vec4 low_1 = fetch_record(rays, node);
-      vec4 high_1 = fetch_record(rays, node + 1);
-      vec4 low_2 = fetch_record(rays, node + 2);
-      vec4 high_2 = fetch_record(rays, node + 3);
-      hit.visited += 1.0;
-      float enter_1 = entry(ray, low_1.xyz, high_1.xyz, hit.range);
-      float enter_2 = entry(ray, low_2.xyz, high_2.xyz, hit.range);
-      bool swapped = enter_2 < enter_1;
-      float later = max(enter_1, enter_2);
-      if (later < 3e38) {
-        stack[top] = swapped ? packed_child(low_1.w, high_1.w) : packed_child(low_2.w, high_2.w);
-        entries[top] = later;
-        top++;
+  // (Loops inside loops, as a group of pixels runs all branches of a loop's body: it is most often among inner nodes.)
+  do {
+    do {
+      if (link == NOWHERE) {
+        // On with the nearest subtree that was put off.
+        if (top == outside) {
+          outside = -1;
+          ray = world;
+          nodes = rays_top.x;
+        }
+        if (top == 0) {
+          count = OVER;
+        }
+        else {
+          top--;
+          if (entries[top] < hit.range) {
+            link = stack[top] >> 4;
+            count = (stack[top] & 15) - 1;
+          }
+        }
       }
-      if (min(enter_1, enter_2) < 3e38) {
-        link = int(swapped ? low_2.w : low_1.w);
-        count = int(swapped ? high_2.w : high_1.w);
-        continue;
+      if (count == 0 && link != NOWHERE) {
+        int node = nodes + NODE_RECORDS * link;
+        vec4 low_1 = fetch_record(rays, node);
+        vec4 high_1 = fetch_record(rays, node + 1);
+        vec4 low_2 = fetch_record(rays, node + 2);
+        vec4 high_2 = fetch_record(rays, node + 3);
+        hit.visited += 1.0;
+        float enter_1 = entry(ray, low_1.xyz, high_1.xyz, hit.range);
+        float enter_2 = entry(ray, low_2.xyz, high_2.xyz, hit.range);
+        bool swapped = enter_2 < enter_1;
+        float later = max(enter_1, enter_2);
+        if (later < 3e38) {
+          stack[top] = swapped ? packed_child(low_1.w, high_1.w) : packed_child(low_2.w, high_2.w);
+          entries[top] = later;
+          top++;
+        }
+        bool enters = min(enter_1, enter_2) < 3e38;
+        link = enters ? int(swapped ? low_2.w : low_1.w) : NOWHERE;
+        count = enters ? int(swapped ? high_2.w : high_1.w) : 0;
       }
-    }
-    else if (count < 0) {
+    } while (count == 0);
+    if (count < 0) {
       int record = rays_top.y + INSTANCE_RECORDS * link;
       vec4 about = fetch_record(rays, record + 3);
       int flags = int(about.z);
       bool is_own = about.y > 0.5 && abs(about.y - abs(own)) < 0.5;
+      link = NOWHERE;
       if ((flags & seen_by) != 0 && !(is_own && (flags & NEVER_SEES_ITSELF) != 0)) {
 #ifdef WITH_COUNTS
         hit.entered += 1.0;
@@ -146,16 +170,15 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         triangles = REGION_UNIT * int(regions.y);
         outside = top;
         link = 0;
-        count = 0;
-        continue;
       }
+      count = 0;
     }
-    else {
+    else if (count != OVER) {
 #ifdef WITH_COUNTS
       hit.tested += float(count);
 #endif
-      for (int i = 0; i < count; i++) {
-        int triangle = triangles + TRIANGLE_RECORDS * (link + i);
+      do {
+        int triangle = triangles + TRIANGLE_RECORDS * link;
         vec3 a = fetch_record(rays, triangle).xyz;
         vec3 ab = fetch_record(rays, triangle + 1).xyz;
         vec3 ac = fetch_record(rays, triangle + 2).xyz;
@@ -175,27 +198,12 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
           hit.triangle = triangle;
           hit.place = place;
         }
-      }
-      if (any_hit && hit.instance >= 0) {
-        return hit;
-      }
+        link++;
+        count--;
+      } while (count > 0);
+      link = NOWHERE;
+      count = any_hit && hit.instance >= 0 ? OVER : 0;
     }
-    // On with the nearest subtree that was put off.
-    bool found = false;
-    while (!found) {
-      if (top == outside) {
-        outside = -1;
-        ray = world;
-        nodes = rays_top.x;
-      }
-      if (top == 0) {
-        return hit;
-      }
-      top--;
-      link = stack[top] >> 4;
-      count = (stack[top] & 15) - 1;
-      found = entries[top] < hit.range;
-    }
-  }
+  } while (count != OVER);
   return hit;
 }
