@@ -3,6 +3,10 @@
 // Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror shows.
 // A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND, SHADES_SURFACE,
 // SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined.
+#if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
+#define QUADS
+#endif
+#include "quad.glsl"
 #include "lighting.glsl"
 #include "shade_surfaces.glsl"
 #include "mirror_tint.glsl"
@@ -19,6 +23,7 @@ void main()
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
 #ifdef SHADES_SURFACE
+  world_is_shared = quad_is_one_surface(position.xyz, normal.xyz, vec2(position.w, normal.w));
   vec3 radiance = shade_surface(surface_of(position, normal, base.rgb), -direction);
 #else
 #ifdef ENVIRONMENT
@@ -28,6 +33,7 @@ void main()
   }
 #endif
   vec3 tint = mirror_tint(int(normal.w + 0.5), base.rgb, max(-dot(normal.xyz, direction), 0.0));
+  float seen_mirror = base.w;
   origin = position.xyz;
   direction = reflect(direction, normal.xyz);
 #ifdef ENVIRONMENT
@@ -47,6 +53,7 @@ void main()
   // What is seen in that one comes in passes of its own.
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else
+  world_is_shared = quad_is_one_surface(shown.position, shown.normal, vec2(position.w + seen_mirror * 1024.0, normal.w));
   vec3 radiance = shade_surface(shown, -direction);
 #endif
 #ifdef LIGHTING_NEAR_LAMPS

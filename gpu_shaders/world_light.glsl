@@ -81,6 +81,10 @@ vec3 lobe_middle(vec3 to_viewer, vec3 normal, float cos_normal)
 
 // Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
 // point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
+#ifdef QUADS
+bool world_is_shared = false;
+#endif
+
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
@@ -94,7 +98,14 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     float lobe_lost = 0.0;
     vec4 p = vec4(s.position, 1.0);
     int count = int(lighting_data[0].y);
+#ifdef QUADS
+    // The four pixels of a quad take a quarter of the directions each.
+    int i = world_is_shared ? quad_lane() : 0;
+    int stride = world_is_shared ? 4 : 1;
+#else
     int i = 0;
+    int stride = 1;
+#endif
     do {
       int record = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + DIRECTION_RECORDS * i;
       vec4 light = lighting_data[record];
@@ -106,8 +117,13 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
       float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
       lost += weight * (cos_light * dark);
       lobe_lost += lighting_data[record + 1].w * lobe_window(dot(middle, light.xyz)) * dark;
-      i++;
+      i += stride;
     } while (i < count);
+#ifdef QUADS
+    vec4 all = quad_sum(vec4(lost, lobe_lost));
+    lost = world_is_shared ? all.xyz : lost;
+    lobe_lost = world_is_shared ? all.w : lobe_lost;
+#endif
     vec3 seen = world_map(place, 0).rgb - world_map(place, 1).rgb * lost;
     vec4 lobe = world_lobe(middle, shape.y);
     sum = lobes.diffuse * seen / LIGHTING_PI +
