@@ -16,6 +16,7 @@ import numpy as np
 from ..gpu_shaders.loader import load
 from .diagnostic_colors import MODES, DiagnosticOptions
 from .optics.catalogue import METHODS
+from .renderer.canvas import Canvas
 from .renderer.frame import Renderer
 from .renderer.gpu_objects import drawing_state, full_screen_triangle
 from .renderer.reflection import Diagnostic, Reflection
@@ -42,8 +43,7 @@ class RegionPicture:
         self._state: tuple[int, Diagnostic | None] = (0, None)
         """Revision of the renderer and what is shown, at the last change"""
         self._reflection: Reflection | None = None
-        self._texture: Any = None
-        self._canvas: Any = None
+        self._canvas: Canvas | None = None
         self._divisor = 1
         self._sub_frames = 0
         self._changed_at = 0.0
@@ -87,20 +87,20 @@ class RegionPicture:
             self.renderer.improve()
         self._view, self._state = view, state
         if not self.is_complete:
-            assert self._reflection is not None
+            assert self._reflection is not None and self._canvas is not None
             start = perf_counter()
             self.renderer.add_sub_frame(
                 self._canvas, self._reflection, self._sub_frames, 1.0, mirrors_only=True, diagnostic=diagnostic
             )
             if is_timed:
-                with self._canvas.bind():
-                    self._canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+                self._canvas.wait()
                 self._draw_ms = 1e3 * (perf_counter() - start)
             self._sub_frames += 1
             counters["sub-frames"] = counters.get("sub-frames", 0) + 1
 
     def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
         """Put the picture over the viewport's own."""
+        assert self._canvas is not None
         shader = _composite_shader()
         with frame_buffer.bind():
             gpu.state.viewport_set(*viewport)
@@ -108,7 +108,7 @@ class RegionPicture:
                 shader.bind()
                 shader.uniform_float("sub_frames", float(max(self._sub_frames, 1)))
                 shader.uniform_float("region", tuple(float(number) for number in viewport))
-                shader.uniform_sampler("picture", self._texture)
+                shader.uniform_sampler("picture", self._canvas.texture)
                 full_screen_triangle().draw(shader)
         # What handlers before and after ours take for granted in this place.
         gpu.state.depth_mask_set(True)
@@ -151,13 +151,11 @@ class RegionPicture:
         at_rest: bool,
     ) -> None:
         small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
-        if self._texture is None or (self._texture.width, self._texture.height) != (small.width, small.height):
-            self._texture = gpu.types.GPUTexture((small.width, small.height), format="RGBA32F")
-            self._texture.filter_mode(True)
-            self._texture.extend_mode("EXTEND")
-            self._canvas = gpu.types.GPUFrameBuffer(color_slots=(self._texture,))
-        with self._canvas.bind():
-            self._canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
+        texture = None if self._canvas is None else self._canvas.texture
+        if self._canvas is None or (texture.width, texture.height) != (small.width, small.height):
+            self._canvas = Canvas.of_size(small.width, small.height, linear=True)
+        else:
+            self._canvas.clear()
         start = perf_counter()
         is_solved = diagnostic is None or diagnostic.needs_solve
         self._reflection = self.renderer.reflect(small, solve=is_solved, at_rest=at_rest)

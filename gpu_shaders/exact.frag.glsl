@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
 // mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask). With
-// WITH_COUNTS the direction is (nodes, triangles, instances that the ray was tested against, 1).
+// KEEPS_WAY the next pass can go on from here. With WITH_COUNTS the direction is (nodes, triangles, instances that the ray was tested against, 1).
 #include "ray_walk.glsl"
 #include "ray_surface.glsl"
 #include "mirror_tint.glsl"
@@ -16,23 +16,26 @@ void main()
   float own = mirror_base.w;
 #ifdef ON_PATH
   vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
-  vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
 #else
   vec3 incoming = normalize(mirror_place.xyz * view.eye.w - view.eye.xyz);
-  vec3 throughput = vec3(1.0);
   own *= eye_side;
 #endif
   vec3 normal = mirror_facing.xyz;
   vec3 direction = reflect(incoming, normal);
-  throughput *= mirror_tint(int(mirror_facing.w + 0.5), mirror_base.rgb, max(-dot(normal, incoming), 0.0));
   Hit hit = walk(mirror_place.xyz, direction, 3e38, SEEN_IN_MIRRORS, own, false);
 
+#ifdef KEEPS_WAY
 #ifdef WITH_COUNTS
   direction_out = vec4(hit.visited, hit.tested, hit.entered, 1.0);
 #else
   direction_out = vec4(direction, hit.visited);
 #endif
-  throughput_out = vec4(throughput, 1.0);
+  vec3 tint = mirror_tint(int(mirror_facing.w + 0.5), mirror_base.rgb, max(-dot(normal, incoming), 0.0));
+#ifdef ON_PATH
+  tint *= texelFetch(path_throughput, pixel, 0).rgb;
+#endif
+  throughput_out = vec4(tint, 1.0);
+#endif
   if (hit.instance < 0) {
     surface_position = vec4(direction, 0.0);
     surface_normal = vec4(0.0);

@@ -5,6 +5,10 @@
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  bool is_mirror = texelFetch(surface_depth, pixel, 0).x < 1.0 && texelFetch(surface_color, pixel, 0).w > 0.5;
+  bool is_mirror = texelFetch(surface_color, pixel, 0).w > 0.5;
+#ifdef ON_PATH
+  // (The rest of a path buffer is old.)
+  is_mirror = is_mirror && texelFetch(surface_depth, pixel, 0).x < 1.0;
+#endif
   gl_FragDepth = is_mirror ? PATH_DEPTH : 1.0;
 }

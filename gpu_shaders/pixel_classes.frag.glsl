@@ -6,23 +6,18 @@
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float shown = BACKGROUND;
-  if (texelFetch(seen_depth, pixel, 0).x < 1.0) {
-    shown = SURFACE;
-    if (texelFetch(seen_color, pixel, 0).w > 0.5) {
-      shown = MIRROR;
+  float kind = texelFetch(seen_color, pixel, 0).w;
+  float shown = kind < -1.5 ? NOTHING : (kind < -0.5 ? SURFACE : BACKGROUND);
+  if (kind > 0.5) {
+    shown = MIRROR;
 #ifdef SHOWS_SURFACES
-      shown = texelFetch(reflected_position, pixel, 0).w > 0.0 ? MIRROR_OF_SURFACE : MIRROR;
+    shown = texelFetch(reflected_position, pixel, 0).w > 0.0 ? MIRROR_OF_SURFACE : MIRROR;
 #ifdef TELLS_MIRRORS
-      if (shown == MIRROR_OF_SURFACE && texelFetch(reflected_color, pixel, 0).w > 0.5) {
-        shown = MIRROR_OF_MIRROR;
-      }
+    if (shown == MIRROR_OF_SURFACE && texelFetch(reflected_color, pixel, 0).w > 0.5) {
+      shown = MIRROR_OF_MIRROR;
+    }
 #endif
 #endif
-    }
-    else if (texelFetch(seen_normal, pixel, 0).w < -0.5) {
-      shown = NOTHING;
-    }
   }
   gl_FragDepth = shown / CLASS_COUNT;
 }

@@ -13,5 +13,7 @@ void main()
 #endif
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
-  surface_color_out = vec4(surface_color(), ids.y);
+  // (See SurfaceBuffer; a hole has a material below 0.)
+  float shows = ids.y > 0.5 ? ids.y : (material < -0.5 ? -2.0 : -1.0);
+  surface_color_out = vec4(surface_color(), shows);
 }

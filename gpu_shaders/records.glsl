@@ -4,7 +4,7 @@
 
 ivec2 texel_of_record(int index)
 {
-  return ivec2(index % 2048, index / 2048);
+  return ivec2(index & 2047, index >> 11);
 }
 
 vec4 fetch_record(sampler2D records, int index)

@@ -17,7 +17,7 @@ void main()
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
 #ifdef SHADES_BACKGROUND
-  vec3 radiance = world_radiance(direction);
+  vec3 radiance = world_radiance(direction) + lamps_seen(origin, direction, 2e30).rgb;
 #else
   vec4 position = texelFetch(seen_position, pixel, 0);
   vec4 normal = texelFetch(seen_normal, pixel, 0);

@@ -3,7 +3,8 @@
 // The world: seen, as diffuse light with the shadows of a few directions, and in glossy lobes.
 // Needs the samplers `lighting_world_image` (FLOAT_2D, equirectangular) and `lighting_world_maps` (FLOAT_2D_ARRAY,
 // octahedral: irradiance, irradiance over that of the directions, one radiance map per roughness level).
-// Records of a direction: itself and its layer of the depth maps; weight; rows to texel x, texel y and depth.
+// Records of a direction: itself and its layer of the depth maps; rows to texel x, texel y and depth; weight (its red,
+// green and blue as alpha), which without an image is that of all, in the header.
 #define WORLD_MAP_SIZE 64.0
 #define WORLD_MAP_LOBES 2
 
@@ -45,10 +46,23 @@ vec4 world_map(vec2 place, int layer)
   return textureLod(lighting_world_maps, vec3(place, float(layer)), 0.0);
 }
 
+// What arrives about the normal at this place of the maps, without shadows.
+vec3 world_irradiance(vec2 place)
+{
+#ifdef LIGHTING_IMAGE
+  return world_map(place, 0).rgb;
+#else
+  return LIGHTING_PI * world_color();
+#endif
+}
+
 // Mean radiance that a lobe of this roughness about `direction` sees, without shadows; alpha: the directions' weights
 // under `lobe_window`.
 vec4 world_lobe(vec3 direction, float roughness)
 {
+#ifndef LIGHTING_IMAGE
+  return vec4(world_color(), world_map(octahedral_place(direction), WORLD_MAP_LOBES).a);
+#else
   // levels 0.2, 0.35, 0.5, 0.65, 0.8, 1.0; below the first the image itself takes over
   float level = roughness < 0.8 ? max((roughness - 0.2) / 0.15, 0.0) : 4.0 + min((roughness - 0.8) / 0.2, 1.0);
   float below = min(floor(level), 4.0);
@@ -62,6 +76,7 @@ vec4 world_lobe(vec3 direction, float roughness)
     radiance.rgb = mix(sharp, radiance.rgb, roughness / 0.2);
   }
   return radiance;
+#endif
 }
 
 // How much a direction's shadow counts for a glossy lobe at this cosine to it.
@@ -109,14 +124,18 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     do {
       int record = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + DIRECTION_RECORDS * i;
       vec4 light = lighting_data[record];
-      vec3 weight = lighting_data[record + 1].rgb;
+#ifdef LIGHTING_IMAGE
+      vec4 weight = lighting_data[record + 4];
+#else
+      vec4 weight = lighting_data[5];
+#endif
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
-      vec3 window = vec3(dot(lighting_data[record + 2], p),
-                         dot(lighting_data[record + 3], p),
-                         dot(lighting_data[record + 4], p) - 2e-6);
+      vec3 window = vec3(dot(lighting_data[record + 1], p),
+                         dot(lighting_data[record + 2], p),
+                         dot(lighting_data[record + 3], p) - 2e-6);
       float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
-      lost += weight * (cos_light * dark);
-      lobe_lost += lighting_data[record + 1].w * lobe_window(dot(middle, light.xyz)) * dark;
+      lost += weight.rgb * (cos_light * dark);
+      lobe_lost += weight.w * lobe_window(dot(middle, light.xyz)) * dark;
       i += stride;
     } while (i < count);
 #ifdef QUADS
@@ -124,7 +143,7 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     lost = world_is_shared ? all.xyz : lost;
     lobe_lost = world_is_shared ? all.w : lobe_lost;
 #endif
-    vec3 seen = world_map(place, 0).rgb - world_map(place, 1).rgb * lost;
+    vec3 seen = world_irradiance(place) - world_map(place, 1).rgb * lost;
     vec4 lobe = world_lobe(middle, shape.y);
     sum = lobes.diffuse * seen / LIGHTING_PI +
           lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));

@@ -65,6 +65,12 @@ def wait(target: Any) -> None:
         target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
 
 
+def wait_for_depth(buffer: Any) -> None:
+    """Return when the GPU has finished with the depth of what has a frame buffer without colors."""
+    with buffer.frame_buffer.bind():
+        buffer.frame_buffer.read_depth(0, 0, 1, 1)
+
+
 class Stopwatch:
     """Milliseconds by the name of a pass, summed over what is called the same in one picture."""
 
@@ -108,7 +114,11 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
             part.solution.wait()
         return parts
 
-    original_solve = Mirror.solve
+    def sort(classes: PixelClasses, *arguments: Any, **named: Any) -> None:
+        original_sort(classes, *arguments, **named)
+        wait_for_depth(classes)
+
+    original_solve, original_sort = Mirror.solve, PixelClasses.sort
     passes: list[tuple[Any, str, str, Callable[..., Any], Callable[..., Any]]] = [
         (SceneGeometry, "refine", "split", SceneGeometry.refine, _nothing),
         (Mirror, "solve", "solve", solve, _nothing),
@@ -119,7 +129,7 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (frame_module, "draw_reflected", "reflected", frame_module.draw_reflected, _of_buffer),
         (PathBuffer, "follow", "walk", PathBuffer.follow, _of_buffer),
         (Lighting, "prepare", "shadows", Lighting.prepare, _nothing),
-        (PixelClasses, "sort", "classes", PixelClasses.sort, _of_buffer),
+        (PixelClasses, "sort", "classes", sort, _nothing),
         (ShadePass, "_add_light", "shade", ShadePass._add_light, _of_second),
         (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
     ]

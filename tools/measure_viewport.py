@@ -30,6 +30,7 @@ bootstrap.load_package()
 
 import gpu  # noqa: E402
 import numpy as np  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.canvas import Canvas  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
@@ -46,8 +47,7 @@ class Session:
         self.changes = Changes(everything=True)
         self.reader = SceneReader()
         self.renderer: Renderer | None = None
-        texture = gpu.types.GPUTexture((WIDTH // 2, HEIGHT // 2), format="RGBA32F")
-        self.canvas = gpu.types.GPUFrameBuffer(color_slots=(texture,))
+        self.canvas = Canvas.of_size(WIDTH // 2, HEIGHT // 2)
         bpy.app.handlers.depsgraph_update_post.append(self._note)
 
     def _note(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:

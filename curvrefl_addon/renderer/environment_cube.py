@@ -19,6 +19,7 @@ import numpy as np
 from ..optics.environment import environment_radius
 from ..scene.arrays import Float32Array
 from ..scene.view import View
+from .canvas import Canvas
 from .chunk import Batches, Chunk
 from .environment import Environment
 from .environment_sphere import SphereMap
@@ -61,13 +62,12 @@ class EnvironmentCube:
         """Scene-linear radiance by world direction"""
         self.color.filter_mode(True)
         for face, view in enumerate(self._views):
-            target = gpu.types.GPUFrameBuffer(color_slots=({"texture": self.color, "layer": face},))
-            with target.bind():
-                target.clear(color=(0.0, 0.0, 0.0, 0.0))
+            canvas = Canvas(self.color, face)
+            canvas.clear()
             for i in range(SUB_FRAMES):
                 uniforms = self._draw_face(self._seen, view.jittered(((i & 1) - 0.5) / 2, ((i >> 1) - 0.5) / 2))
                 lighting.prepare(i * max(lighting.sub_frames // SUB_FRAMES, 1) % lighting.sub_frames)
-                shade.add(target, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
+                shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
 
     def environment(self, method: str, view: View) -> Environment:
         """What a method of the catalogue looks up in a view; for `environment_cube_vertex` the cube itself, out of

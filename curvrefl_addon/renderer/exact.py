@@ -39,13 +39,12 @@ class PathBuffer(SurfaceBuffer):
         """Product of the mirrors' reflectance on the way"""
         for texture in (self.direction, self.throughput):
             texture.filter_mode(False)
-        self._targets = (self.position, self.normal, self.color, self.direction, self.throughput)
-        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=self._targets)
         self._mask = gpu.types.GPUFrameBuffer(depth_slot=self.depth)
         self._uv: Any = None
         """uv of the base color image and its number, -1 for none; made where there are images"""
+        self._frame_buffers: dict[bool, Any] = {}
+        """With direction and throughput, or without"""
         self._color_alone = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(self.color,))
-        self._lit: tuple[Any, Any] = (None, None)
 
     def follow(
         self,
@@ -55,24 +54,27 @@ class PathBuffer(SurfaceBuffer):
         view_uniforms: Any,
         window: Window,
         eye_is_inside: bool,
+        goes_on: bool = True,
         with_counts: bool = False,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
         `window` holds all of their pixels. `depth` is less than 1 where there was a ray to follow, and only there is
-        anything in the other textures. `with_counts`: `direction` gets what each ray was tested against in place of its
-        direction: nodes, triangles, instances, and 1 where there is a ray.
+        anything in the other textures; in `direction` and `throughput` only if it `goes_on` from here, or has come from
+        a PathBuffer. `with_counts`: `direction` gets what each ray was tested against in place of its direction: nodes,
+        triangles, instances, and 1 where there is a ray.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
             self._uv = gpu.types.GPUTexture((self.width, self.height), format="RGBA32F")
             self._uv.filter_mode(False)
-            self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(*self._targets, self._uv))
+            self._frame_buffers = {}
         if window[2] <= 0 or window[3] <= 0:
             return
         self._find_mirrors(mirrors, window)
-        shader = _exact_shader(path is not None, self._uv is not None, with_counts)
-        with drawing_state("EQUAL"), self.frame_buffer.bind(), scissored(window):
+        keeps_way = goes_on or path is not None
+        shader = _exact_shader(path is not None, self._uv is not None, keeps_way, with_counts)
+        with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
             rays.bind(shader)
@@ -89,19 +91,25 @@ class PathBuffer(SurfaceBuffer):
             full_screen_triangle().draw(shader)
         self._look_up_images(materials.images, window)
 
-    def lit(self, light: Any) -> Any:
-        """Frame buffer of the texture `light` whose depth says where rays were followed (see `declare_path`)."""
-        if self._lit[0] is not light:
-            self._lit = (light, gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(light,)))
-        return self._lit[1]
+    def _frame_buffer_for(self, keeps_way: bool) -> Any:
+        if keeps_way not in self._frame_buffers:
+            textures = [self.position, self.normal, self.color]
+            textures += [self._uv] if self._uv is not None else []
+            textures += [self.direction, self.throughput] if keeps_way else []
+            self._frame_buffers[keeps_way] = gpu.types.GPUFrameBuffer(
+                depth_slot=self.depth, color_slots=tuple(textures)
+            )
+        return self._frame_buffers[keeps_way]
 
     def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window) -> None:
-        shader = _mask_shader()
+        on_path = isinstance(mirrors, PathBuffer)
+        shader = _mask_shader(on_path)
         with drawing_state("ALWAYS", depth_write=True), self._mask.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
-            shader.uniform_sampler("surface_depth", mirrors.depth)
             shader.uniform_sampler("surface_color", mirrors.color)
+            if on_path:
+                shader.uniform_sampler("surface_depth", mirrors.depth)
             full_screen_triangle().draw(shader)
 
     def _look_up_images(self, images: list[Any], window: Window) -> None:
@@ -141,12 +149,14 @@ def declare_path(info: Any) -> None:
 
 
 @cache
-def _mask_shader() -> Any:
+def _mask_shader(on_path: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.vertex_in(0, "VEC2", "pos")
     info.define("PATH_DEPTH", str(PATH_DEPTH))
-    info.sampler(0, "DEPTH_2D", "surface_depth")
-    info.sampler(1, "FLOAT_2D", "surface_color")
+    info.sampler(0, "FLOAT_2D", "surface_color")
+    if on_path:
+        info.define("ON_PATH")
+        info.sampler(1, "DEPTH_2D", "surface_depth")
     info.depth_write("ANY")
     info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("path_mask.frag.glsl"))
@@ -154,7 +164,7 @@ def _mask_shader() -> Any:
 
 
 @cache
-def _exact_shader(on_path: bool, with_images: bool, with_counts: bool) -> Any:
+def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     declare_path(info)
     if with_counts:
@@ -171,11 +181,15 @@ def _exact_shader(on_path: bool, with_images: bool, with_counts: bool) -> Any:
     for slot, name in enumerate(names, 1):
         info.sampler(slot, "FLOAT_2D", name)
     declare_surface_outputs(info)
-    info.fragment_out(3, "VEC4", "direction_out")
-    info.fragment_out(4, "VEC4", "throughput_out")
+    slot = 3
     if with_images:
         info.define("WITH_IMAGES")
-        info.fragment_out(5, "VEC4", "uv_out")
+        info.fragment_out(slot, "VEC4", "uv_out")
+        slot += 1
+    if keeps_way:
+        info.define("KEEPS_WAY")
+        info.fragment_out(slot, "VEC4", "direction_out")
+        info.fragment_out(slot + 1, "VEC4", "throughput_out")
     info.fragment_source(load("exact.frag.glsl"))
     return gpu.shader.create_from_info(info)
 

@@ -10,13 +10,13 @@ from functools import cached_property
 from time import perf_counter
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
+from .canvas import Canvas
 from .choice import RAYS, Choice, Scenery, choose, in_shadow
 from .chunk import Batches, Chunk
 from .diagnostics import DiagnosticPass
@@ -235,20 +235,15 @@ class Renderer:
 
     def render(self, view: View) -> Frame:
         """Draw the picture; its times have the GPU's work in them."""
-        color = gpu.types.GPUTexture((view.width, view.height), format="RGBA32F")
-        color.filter_mode(False)
-        canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
+        canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
         reflection = self.reflect(view, follow=False, at_rest=True)
         for part in (part for parts in reflection.parts for part in parts):
             part.solution.wait()
         solved = perf_counter()
-        with canvas.bind():
-            canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
         for index in range(self.settings.samples):
             self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
-        with canvas.bind():
-            canvas.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        canvas.wait()
         done = perf_counter()
         times = {
             "bake": sum(mirror.bake_ms for mirror in self.mirrors) + (self._rays.build_ms if self._rays else 0.0),
@@ -256,7 +251,7 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
-        return Frame(self, reflection, color, times, self._choice)
+        return Frame(self, reflection, canvas.texture, times, self._choice)
 
     def reflect(self, view: View, solve: bool = True, follow: bool = True, at_rest: bool = False) -> Reflection:
         """What all sub-frames of a view share: the vertices' reflection points, or the cubes that stand for them.
@@ -318,14 +313,14 @@ class Renderer:
 
     def add_sub_frame(
         self,
-        canvas: Any,
+        canvas: Canvas,
         reflection: Reflection,
         index: int,
         weight: float,
         mirrors_only: bool = False,
         diagnostic: Diagnostic | None = None,
     ) -> None:
-        """Add sub-frame `index` of `settings.samples` to the frame buffer `canvas`.
+        """Add sub-frame `index` of `settings.samples` to a picture of the view's size.
 
         With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage; so it is
         with a `diagnostic` view.
@@ -390,23 +385,27 @@ class Renderer:
         """Pixels that hold all mirrors."""
         return union([mirror.window(view) for mirror in self.mirrors])
 
-    def _bounces(self, targets: Targets, view: View, uniforms: Any, most: int) -> Iterator[Bounce]:
+    def _bounces(
+        self, targets: Targets, view: View, uniforms: Any, most: int, keeps_ways: bool = False
+    ) -> Iterator[Bounce]:
         """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
 
-        Each is drawn when it is asked for, into buffers that the next but one uses again.
+        Each is drawn when it is asked for, into buffers that the next but one uses again. With `keeps_ways` the buffers
+        tell all they can, also of the last step.
         """
         mirrors = targets.seen
         inside = any(mirror.holds_eye(view) for mirror in self.mirrors)
         window = self._window(view)
         for number in range(most):
             path = targets.path(number)
-            path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside)
-            yield Bounce(mirrors, path, window, number + 1 < most)
+            goes_on = number + 1 < most
+            path.follow(mirrors, self.rays(), self._materials, uniforms, window, inside, goes_on or keeps_ways)
+            yield Bounce(mirrors, path, window, goes_on)
             mirrors = path
 
     def _add_diagnostic(
         self,
-        canvas: Any,
+        canvas: Canvas,
         reflection: Reflection,
         targets: Targets,
         view: View,
@@ -423,7 +422,7 @@ class Renderer:
             shown = self._shown(targets, reflection, uniforms, of_positions=diagnostic.needs_solve)
         methods = (self._used.method,) * len(self.mirrors)
         self._diagnostics.add(
-            canvas,
+            canvas.frame_buffer,
             targets.seen,
             shown,
             uniforms,
@@ -517,7 +516,7 @@ class Renderer:
             "seen_color": read_texture(targets.seen.color),
         }
         if reflection.follows_rays:
-            path = next(self._bounces(targets, reflection.view, uniforms, 1)).path
+            path = next(self._bounces(targets, reflection.view, uniforms, 1, keeps_ways=True)).path
             arrays["reflected_position"] = read_texture(path.position)
             arrays["reflected_color"] = read_texture(path.color)
             arrays["reflected_color"][..., 3] = read_texture(path.direction)[..., 3]

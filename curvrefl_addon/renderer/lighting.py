@@ -294,9 +294,10 @@ class Lighting:
             start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
             records[start] = [*self._world_light.directions[direction], layer]
             weight = self._world_light.weights[draw] * self.sub_frames
-            records[start + 1] = [*weight, weight.sum()]
             view = self._world_maps.views[layer]
-            records[start + 2 : start + 5] = window_rows(view, self._world_maps.resolution)[:3]
+            records[start + 1 : start + 4] = window_rows(view, self._world_maps.resolution)[:3]
+            # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
+            records[[start + 4, 5]] = [*weight, weight.sum()]
             world_layers.append(layer)
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]

@@ -41,12 +41,9 @@ class PixelClasses:
     """Targets of the size of a picture."""
 
     def __init__(self, width: int, height: int) -> None:
-        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
-        self.light = gpu.types.GPUTexture((width, height), format="RGBA32F")
-        """Light of a sub-frame; drawn to by `frame_buffer`, with the classes as depth"""
-        self.light.filter_mode(False)
-        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.light,))
-        self._classes = gpu.types.GPUFrameBuffer(depth_slot=self._depth)
+        self.depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
+        """The classes"""
+        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth)
         self.width, self.height = width, height
 
     def sort(
@@ -56,20 +53,13 @@ class PixelClasses:
         window: Window | None = None,
         tells_mirrors: bool = False,
     ) -> None:
-        """Find the class of every pixel in `window` and clear the light; `reflected` has what mirrors show, if
+        """Find the class of every pixel in `window`; `reflected` has what mirrors show, if
         surfaces. With `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces."""
         shader = _shader(reflected is not None, tells_mirrors)
-        with self.frame_buffer.bind(), scissored(window):
-            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
-        with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(window):
+        with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
-            for name, texture in (
-                ("seen_depth", seen.depth),
-                ("seen_normal", seen.normal),
-                ("seen_color", seen.color),
-            ):
-                shader.uniform_sampler(name, texture)
+            shader.uniform_sampler("seen_color", seen.color)
             if reflected is not None:
                 shader.uniform_sampler("reflected_position", reflected.position)
             if reflected is not None and tells_mirrors:
@@ -92,15 +82,15 @@ def _shader(shows_surfaces: bool, tells_mirrors: bool) -> Any:
     info.define("CLASS_COUNT", f"{CLASS_COUNT}.0")
     for kind in PixelClass:
         info.define(kind.name, f"{kind.value}.0")
-    names = [("DEPTH_2D", "seen_depth"), ("FLOAT_2D", "seen_normal"), ("FLOAT_2D", "seen_color")]
+    names = ["seen_color"]
     if shows_surfaces:
         info.define("SHOWS_SURFACES")
-        names.append(("FLOAT_2D", "reflected_position"))
+        names.append("reflected_position")
     if shows_surfaces and tells_mirrors:
         info.define("TELLS_MIRRORS")
-        names.append(("FLOAT_2D", "reflected_color"))
-    for slot, (kind_of_sampler, name) in enumerate(names):
-        info.sampler(slot, kind_of_sampler, name)
+        names.append("reflected_color")
+    for slot, name in enumerate(names):
+        info.sampler(slot, "FLOAT_2D", name)
     info.vertex_source(load("full_screen.vert.glsl"))
     info.fragment_source(load("pixel_classes.frag.glsl"))
     return gpu.shader.create_from_info(info)

@@ -12,6 +12,7 @@ import gpu
 
 from ...gpu_shaders.loader import load
 from ..scene.arrays import SceneArrays
+from .canvas import Canvas
 from .environment import Environment, declare
 from .exact import Bounce, declare_path
 from .gpu_objects import drawing_state, full_screen_triangle, scissored
@@ -43,7 +44,6 @@ class ShadePass:
 
     def follow(self, scene: SceneArrays) -> None:
         """Know another state of the scene."""
-        self._has_suns = any(light.kind == "SUN" for light in scene.lights)
         self._has_bodies = any(
             light.kind != "SUN" and (light.radius > 0.0 or light.kind == "AREA") for light in scene.lights
         )
@@ -57,7 +57,7 @@ class ShadePass:
 
     def add(
         self,
-        target: Any,
+        canvas: Canvas,
         seen: SurfaceBuffer,
         reflected: SurfaceBuffer | Sequence[Environment] | None,
         view_uniforms: Any,
@@ -66,7 +66,7 @@ class ShadePass:
         later: Iterator[Bounce] | None = None,
         shadows: RayScene | None = None,
     ) -> None:
-        """Add the lit picture of `seen`, times `weight`, to the frame buffer `target`.
+        """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
@@ -78,19 +78,13 @@ class ShadePass:
             return
         classes = self._classes_for(seen)
         classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
-        with drawing_state("EQUAL"), classes.frame_buffer.bind(), scissored(mirrors):
+        target = canvas.with_depth(classes.depth)
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
             self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows)
-            gpu.state.blend_set("ADDITIVE_PREMULT")
             self._add_front(seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
-            self._add_path(classes, bounce, view_uniforms, weight, shadows)
-        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
-            gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            shader = _add_shader()
-            shader.bind()
-            shader.uniform_sampler("light", classes.light)
-            full_screen_triangle().draw(shader)
+            self._add_path(canvas, bounce, view_uniforms, weight, shadows)
 
     def _add_light(
         self,
@@ -135,10 +129,9 @@ class ShadePass:
             return
         kinds: list[PixelClass] = []
         if self._has_bodies:
-            kinds = [kind for kind in PixelClass if not (self._has_base and kind in mirrors)]
-        elif self._has_suns:
-            # Everything hides a sun.
-            kinds = [PixelClass.BACKGROUND]
+            # (The background has shown all lamps.)
+            others = {PixelClass.BACKGROUND, *(mirrors if self._has_base else ())}
+            kinds = [kind for kind in PixelClass if kind not in others]
         for kind in kinds:
             self._draw(_front_shader(False, self._lighting.features), kind, seen, view_uniforms, weight)
 
@@ -149,13 +142,14 @@ class ShadePass:
         return features | {RAY_SHADOWS} if shadows is not None and features & _SHADOWS else features
 
     def _add_path(
-        self, classes: PixelClasses, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayScene | None
+        self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayScene | None
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = self._features(shadows)
         shader = _path_shader(bounce.goes_on, features)
         path = bounce.path
-        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), path.lit(classes.light).bind(), scissored(bounce.window):
+        target = canvas.with_depth(path.depth)
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
             gpu.state.viewport_set(0, 0, path.width, path.height)
             shader.bind()
             if shadows is not None and RAY_SHADOWS in features:
@@ -264,15 +258,4 @@ def _front_shader(has_base: bool, features: Features) -> Any:
         info.define("MIRROR_BASE")
     Lighting.declare(info, 4, features)
     info.fragment_source(load("shade_front.frag.glsl"))
-    return gpu.shader.create_from_info(info)
-
-
-@cache
-def _add_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.sampler(0, "FLOAT_2D", "light")
-    info.vertex_source(load("full_screen.vert.glsl"))
-    info.fragment_source(load("add_light.frag.glsl"))
     return gpu.shader.create_from_info(info)

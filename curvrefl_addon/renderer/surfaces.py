@@ -40,7 +40,8 @@ class SurfaceBuffer:
         self.normal = gpu.types.GPUTexture((width, height), format="RGBA32F")
         """xyz unit shading normal, material index"""
         self.color = gpu.types.GPUTexture((width, height), format="RGBA16F")
-        """Base colour; the mirror's number (primary) or the solver's iterations (reflected)"""
+        """Base colour; the solver's iterations (reflected), or (primary) the mirror's number, -1 of other surfaces, -2
+        of a hole in the picture, 0 where nothing is seen"""
         self.depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
         for texture in (self.position, self.normal, self.color):
             texture.filter_mode(False)

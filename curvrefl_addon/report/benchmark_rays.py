@@ -58,7 +58,7 @@ def _measured(count: int) -> dict[str, Any]:
         }
 
         def walk() -> None:
-            path.follow(seen, rays, materials, uniforms, window, False)
+            path.follow(seen, rays, materials, uniforms, window, False, goes_on=False)
 
         walk()
         columns["empty_wait_ms"] = empty_wait(path.wait)

@@ -22,6 +22,7 @@ from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.canvas import Canvas
 from curvrefl.curvrefl_addon.renderer.diagnostic_legend import draw_layout, layout
 from curvrefl.curvrefl_addon.renderer.diagnostics import DiagnosticPass
 from curvrefl.curvrefl_addon.renderer.environment import Environment
@@ -359,20 +360,15 @@ def room() -> Room:
 
 def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
     """A view through the pixel centres and the shade pass's picture of the mirrors beside it."""
-    import gpu
-
     renderer = Renderer(room().arrays(), Settings(method=method, samples=1, environment_resolution=64))
-    color = gpu.types.GPUTexture((VIEW.width, VIEW.height), format="RGBA32F")
-    canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
-    with canvas.bind():
-        canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
+    canvas = Canvas.of_size(VIEW.width, VIEW.height)
     reflection = renderer.reflect(VIEW)
     renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True)
     targets = renderer._targets_for(VIEW)
     # Without jitter the uniforms of the view are those of the sub-frame.
     shown = renderer._shown(targets, reflection, view_block(VIEW), of_positions=True)
     picture = drawn(VIEW, targets.seen, shown, mode, methods=(method,), parts=reflection.parts)
-    return picture, read_texture(color), renderer
+    return picture, read_texture(canvas.texture), renderer
 
 
 @pytest.mark.parametrize("mode", MODES)

@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The picture that sub-frames are added to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gpu
+
+MOST_DEPTHS = 4
+"""Frame buffers that are kept"""
+
+
+class Canvas:
+    """A color texture, scene-linear and premultiplied, and the frame buffers that draw to it."""
+
+    def __init__(self, texture: Any, face: int | None = None) -> None:
+        """`face`: of a cube map."""
+        self.texture = texture
+        self._slot = texture if face is None else {"texture": texture, "layer": face}
+        self.frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(self._slot,))
+        self._with_depth: list[tuple[Any, Any]] = []
+
+    @classmethod
+    def of_size(cls, width: int, height: int, linear: bool = False) -> Canvas:
+        """An empty picture; `linear`: how its texels are to be looked up."""
+        texture = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        texture.filter_mode(linear)
+        texture.extend_mode("EXTEND")
+        canvas = cls(texture)
+        canvas.clear()
+        return canvas
+
+    def clear(self) -> None:
+        """Nothing anywhere."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
+
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+
+    def with_depth(self, depth: Any) -> Any:
+        """Frame buffer of the picture and a depth texture of its size."""
+        for known, frame_buffer in self._with_depth:
+            if known is depth:
+                return frame_buffer
+        frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(self._slot,))
+        self._with_depth = [*self._with_depth[1 - MOST_DEPTHS :], (depth, frame_buffer)]
+        return frame_buffer
