@@ -22,7 +22,7 @@ from .settings import Settings
 from .split import split_angle
 
 RAYS, VERTICES = "exact", "newton"
-PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.45, 0.026
+PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.27, 0.015
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
 PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7
 """Cost of a mirror pixel onto which solved triangles are drawn, of a solved vertex, of a triangle drawn"""
