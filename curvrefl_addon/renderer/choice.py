@@ -22,10 +22,10 @@ from .settings import Settings
 from .split import split_angle
 
 RAYS, VERTICES = "exact", "newton"
-PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.27, 0.015
+PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.47, 0.005
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
-PIXEL_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.25, 1.5, 0.7
-"""Cost of a mirror pixel onto which solved triangles are drawn, of a solved vertex, of a triangle drawn"""
+LAYER_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.21, 1.5, 0.7
+"""Cost of a mirror pixel for each layer of solved triangles drawn onto it, of a solved vertex, of a triangle drawn"""
 PIXEL_SPLIT = 0.25
 """What splitting edges by solved midpoints adds, per mirror pixel: a larger mirror has more to split"""
 SPLIT_TRIANGLES = 100.0
@@ -117,7 +117,8 @@ def choose(
     added = SPLIT_TRIANGLES / split_angle(largest, tolerance) ** 2
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
     once = VERTEX_SOLVED * (vertices + 0.5 * added) + (PIXEL_SPLIT * pixels if is_still else 0.0)
-    by_points = pixels * PIXEL_DRAWN + TRIANGLE_DRAWN * (triangles + added)
+    layers = sum(layers_around(mirror, scenery.centers[~unseen], scenery.radii[~unseen]) for mirror in mirrors)
+    by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
     by_points += once / (settings.samples if is_still else 1)
     share = by_points / max(by_rays, 1e-30)
     cost = f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
@@ -131,6 +132,13 @@ def choose(
         pixel_tolerance=max(tolerance, 0.01),
     )
     return Choice(points, f"{cost}: reflection points are solved.", hidden, shown)
+
+
+def layers_around(mirror: Mirror, centers: Float64Array, radii: Float64Array) -> float:
+    """About how many surfaces a mirror shows behind each other: what balls (n, 3), (n,) cover of all directions."""
+    distance = np.linalg.norm(centers - mirror.center, axis=1)
+    sine = np.minimum(radii / np.maximum(distance, 1e-30), 1.0)
+    return float(np.where(distance <= radii, 1.0, 0.5 - 0.5 * np.sqrt(1.0 - sine * sine)).sum())
 
 
 def mirror_pixels(mirror: Mirror, view: View) -> float:

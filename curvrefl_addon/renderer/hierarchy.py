@@ -3,13 +3,15 @@
 """Bounding-volume hierarchies over boxes, built level by level. Pure numpy.
 
 All nodes of a level are split at once: the items of a node are neighbours in one array, and what is asked of nodes is a
-reduction over segments of it. Splits follow the surface-area heuristic over a few bins an axis (Wald 2007, "On fast
+reduction over segments of it. Trees over many meshes grow side by side, as numpy asks as much for a short array as for
+a thousand numbers. Splits follow the surface-area heuristic over a few bins an axis (Wald 2007, "On fast
 construction of SAH-based bounding volume hierarchies"). The quick build sorts items along Morton's curve (Lauterbach
 et al. 2009, "Fast BVH construction on GPUs") and asks the heuristic only about clusters of neighbours.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -19,6 +21,8 @@ from numpy.typing import NDArray
 from ..scene.arrays import Float32Array
 
 type IntArray = NDArray[np.int64]
+type Boxes = tuple[Float32Array, Float32Array]
+"""Lowest and highest corners (items, 3)"""
 
 BINS = 8
 LEAF = 4
@@ -71,10 +75,12 @@ class Hierarchy:
 class HierarchyBuild:
     """A build by the heuristic, a level at each `step`, so that it can go on between the frames of a viewport."""
 
-    def __init__(self, low: Float32Array, high: Float32Array, leaf: int = LEAF) -> None:
-        """Boxes (items, 3), at least one."""
+    def __init__(self, low: Float32Array, high: Float32Array, leaf: int = LEAF, counts: IntArray | None = None) -> None:
+        """Boxes (items, 3), at least one; with `counts`, of several trees: the first `counts[0]` are of one, and so on,
+        and the first nodes are the roots."""
         self._low, self._high, self._leaf = low, high, leaf
-        self._growth = _Growth(np.arange(len(low)), np.zeros(1, np.int64), np.array([len(low)]))
+        counts = np.array([len(low)]) if counts is None else counts
+        self._growth = _Growth(np.arange(len(low)), np.cumsum(counts) - counts, counts)
         # Lower ends and negated upper ends, so that everything is a minimum; a row each, which numpy likes best.
         self._boxes = np.ascontiguousarray(np.concatenate([low, -high], axis=1).T)
 
@@ -102,11 +108,52 @@ def build(low: Float32Array, high: Float32Array, leaf: int = LEAF) -> Hierarchy:
     return HierarchyBuild(low, high, leaf).finished()
 
 
+def build_all(boxes: Sequence[Boxes], leaf: int = LEAF) -> list[Hierarchy]:
+    """The best tree over each of these."""
+    low, high, counts = _joined_boxes(boxes)
+    growing = HierarchyBuild(low, high, leaf, counts)
+    return _apart(growing.finished(), counts)
+
+
 def build_quickly(low: Float32Array, high: Float32Array, leaf: int = LEAF) -> Hierarchy:
     """A good tree in a fraction of the time."""
+    return build_all_quickly([(low, high)], leaf)[0]
+
+
+def build_all_quickly(boxes: Sequence[Boxes], leaf: int = LEAF) -> list[Hierarchy]:
+    """A good tree over each of these in a fraction of the time."""
+    low, high, counts = _joined_boxes(boxes)
+    firsts = np.cumsum(counts) - counts
+    orders, starts, clusters = [], [], []
+    for first, (own_low, own_high) in zip(firsts, boxes, strict=True):
+        own_order, own_starts = _clusters(own_low, own_high)
+        orders.append(first + own_order)
+        starts.append(first + own_starts)
+        clusters.append(len(own_starts))
+    order, start = np.concatenate(orders), np.concatenate(starts)
+    sizes = np.diff(np.append(start, len(order)))
+    # (numpy reduces short runs of columns slowly: a row each)
+    low_rows, high_rows = np.ascontiguousarray(low[order].T), np.ascontiguousarray(high[order].T)
+    cluster_low = np.stack([np.minimum.reduceat(row, start) for row in low_rows], axis=1)
+    cluster_high = np.stack([np.maximum.reduceat(row, start) for row in high_rows], axis=1)
+    above = HierarchyBuild(cluster_low, cluster_high, 1, np.array(clusters)).finished()
+    growth = _Growth.below(above, order, start, sizes)
+    while len(nodes := growth.splittable(leaf)):
+        growth.halve(nodes)
+    return _apart(growth.tree(low, high), counts)
+
+
+def _joined_boxes(boxes: Sequence[Boxes]) -> tuple[Float32Array, Float32Array, IntArray]:
+    """All boxes, and how many of them are whose."""
+    counts = np.array([len(low) for low, _ in boxes])
+    return np.concatenate([low for low, _ in boxes]), np.concatenate([high for _, high in boxes]), counts
+
+
+def _clusters(low: Float32Array, high: Float32Array) -> tuple[IntArray, IntArray]:
+    """Items (n,) in the order of their clusters, and where each of these begins."""
     count = len(low)
     if count <= 4 * CLUSTER:
-        return build(low, high, leaf)
+        return np.arange(count), np.arange(count)
     whole = half_area(low.min(axis=0), high.max(axis=0))
     areas = half_area(low, high)
     few = count // CLUSTER
@@ -114,17 +161,38 @@ def build_quickly(low: Float32Array, high: Float32Array, leaf: int = LEAF) -> Hi
     is_large = areas > threshold
     large, small = np.flatnonzero(is_large), np.flatnonzero(~is_large)
     order = np.concatenate([large, small[np.argsort(_morton(low[small] + high[small]))]])
-    starts = np.concatenate([np.arange(len(large)), np.arange(len(large), count, CLUSTER)])
-    sizes = np.diff(np.append(starts, count))
-    # (numpy reduces short runs of columns slowly: a row each)
-    low_rows, high_rows = np.ascontiguousarray(low[order].T), np.ascontiguousarray(high[order].T)
-    cluster_low = np.stack([np.minimum.reduceat(row, starts) for row in low_rows], axis=1)
-    cluster_high = np.stack([np.maximum.reduceat(row, starts) for row in high_rows], axis=1)
-    clusters = build(cluster_low, cluster_high, 1)
-    growth = _Growth.below(clusters, order, starts, sizes)
-    while len(nodes := growth.splittable(leaf)):
-        growth.halve(nodes)
-    return growth.tree(low, high)
+    return order, np.concatenate([np.arange(len(large)), np.arange(len(large), count, CLUSTER)])
+
+
+def _apart(forest: Hierarchy, counts: IntArray) -> list[Hierarchy]:
+    """The trees whose roots are the first nodes of a forest; each is over so many items, in turn."""
+    trees = len(counts)
+    if trees == 1:
+        return [forest]
+    first_item = np.cumsum(counts) - counts
+    root = np.empty(len(forest.link), np.int64)
+    root[:trees] = np.arange(trees)
+    in_level = []
+    for begin, end in zip(forest.levels[:-1], forest.levels[1:], strict=True):
+        inner = begin + np.flatnonzero(forest.count[begin:end] == 0)
+        child = forest.link[inner]
+        root[child] = root[child + 1] = root[inner]
+        in_level.append(np.bincount(root[begin:end], minlength=trees))
+    # Nodes keep their order: children stay neighbours, and come after their parent.
+    nodes = np.argsort(root, kind="stable")
+    sizes = np.bincount(root, minlength=trees)
+    number = np.empty(len(nodes), np.int64)
+    number[nodes] = np.arange(len(nodes)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    is_leaf = forest.count > 0
+    link = np.where(is_leaf, forest.link - first_item[root], number[np.where(is_leaf, 0, forest.link)])
+    ends = np.cumsum(in_level, axis=0)
+    found = []
+    for tree, own in enumerate(np.split(nodes, np.cumsum(sizes)[:-1])):
+        levels = (0, *dict.fromkeys(ends[:, tree].tolist()))
+        items = slice(first_item[tree], first_item[tree] + counts[tree])
+        order = forest.order[items] - first_item[tree]
+        found.append(Hierarchy(order, link[own], forest.count[own], levels, forest.low[own], forest.high[own]))
+    return found
 
 
 def half_area(low: Float32Array, high: Float32Array) -> Float32Array:

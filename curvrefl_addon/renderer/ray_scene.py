@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from .chunk import pack_color
-from .hierarchy import Hierarchy, HierarchyBuild, build, build_quickly
+from .hierarchy import Boxes, Hierarchy, HierarchyBuild, build, build_all, build_all_quickly
 from .mesh_facts import MeshFactsCache
 from .record_regions import UNIT, RecordRegions
 
@@ -67,6 +67,17 @@ class _MeshRays:
     def topology(self) -> tuple[int, int]:
         """See `_topology`."""
         return _topology(self.mesh)
+
+
+@dataclass(frozen=True, slots=True)
+class _MeshTree:
+    """Of a mesh that is to be stored; the names are those of `_MeshRays`."""
+
+    mesh: MeshArrays
+    kept: NDArray[np.int64]
+    hierarchy: Hierarchy
+    cost: float
+    is_best: bool
 
 
 class RayScene:
@@ -192,9 +203,8 @@ class RayScene:
         better = growth.finished()
         chosen.is_best = True
         if better.cost() < chosen.hierarchy.cost():
-            improved = self._store(chosen.mesh, better, chosen.kept, better.cost(), is_best=True)
             self._forget(chosen)
-            self._meshes[id(chosen.mesh)] = improved
+            self._store([_MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
             self.counters["hierarchies improved"] += 1
             self._place(is_same=True)
 
@@ -217,47 +227,55 @@ class RayScene:
             if some_too_far:
                 self._left_out.append(mesh)
             if len(kept):
-                fresh.append((mesh, kept, *self._tree(mesh, kept, _of_same_topology(mesh, gone.values()))))
+                fresh.append((mesh, kept, _of_same_topology(mesh, gone.values())))
+        trees = self._trees(fresh)
         for item in gone.values():
             self._forget(item)
-        for mesh, kept, hierarchy, cost, is_best in fresh:
-            self._meshes[id(mesh)] = self._store(mesh, hierarchy, kept, cost, is_best)
+        self._store(trees)
         if fresh:
             self.build_ms = 1e3 * (perf_counter() - start)
 
-    def _tree(
-        self, mesh: MeshArrays, kept: NDArray[np.int64], before: _MeshRays | None
-    ) -> tuple[Hierarchy, float, bool]:
-        """Of a mesh that has come, or was `before` with its vertices elsewhere; its cost when it was built, and whether
-        to leave it as it is."""
-        boxes = _triangle_boxes(mesh, kept)
-        fitted = None
-        if before is not None and np.array_equal(before.kept, kept):
-            fitted = before.hierarchy.fitted(*boxes)
-            if fitted.cost() < WORSE * before.cost:
-                self.counters["hierarchies fitted"] += 1
-                return fitted, before.cost, before.is_best
-        # A tree that has come apart is built anew; the best one may still be better than one that is built quickly.
-        is_best = len(kept) <= FEW
-        tree = build(*boxes) if is_best else build_quickly(*boxes)
-        self.counters["hierarchies built"] += 1
-        if fitted is not None and fitted.cost() < tree.cost():
-            tree = fitted
-        return tree, tree.cost(), is_best or len(kept) > MOST_IMPROVED
+    def _trees(self, fresh: list[tuple[MeshArrays, NDArray[np.int64], _MeshRays | None]]) -> list[_MeshTree]:
+        """Of meshes that have come, or were another with their vertices elsewhere."""
+        trees: list[_MeshTree] = []
+        to_build: list[tuple[MeshArrays, NDArray[np.int64], Boxes, Hierarchy | None]] = []
+        for mesh, kept, before in fresh:
+            boxes = _triangle_boxes(mesh, kept)
+            fitted = None
+            if before is not None and np.array_equal(before.kept, kept):
+                fitted = before.hierarchy.fitted(*boxes)
+                if fitted.cost() < WORSE * before.cost:
+                    self.counters["hierarchies fitted"] += 1
+                    trees.append(_MeshTree(mesh, kept, fitted, before.cost, before.is_best))
+                    continue
+            to_build.append((mesh, kept, boxes, fitted))
+        for is_best, build_them in ((True, build_all), (False, build_all_quickly)):
+            group = [item for item in to_build if (len(item[1]) <= FEW) == is_best]
+            built = build_them([boxes for _, _, boxes, _ in group]) if group else []
+            for (mesh, kept, _, fitted), tree in zip(group, built, strict=True):
+                # One that has come apart may still be better than one that is built quickly.
+                better = fitted if fitted is not None and fitted.cost() < tree.cost() else tree
+                trees.append(_MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
+        self.counters["hierarchies built"] += len(to_build)
+        return trees
 
-    def _store(
-        self, mesh: MeshArrays, hierarchy: Hierarchy, kept: NDArray[np.int64], cost: float, is_best: bool
-    ) -> _MeshRays:
+    def _store(self, trees: list[_MeshTree]) -> None:
+        """All at once: each would be an upload, and make the texture grow, of its own."""
         parts = [
-            _node_records(hierarchy, hierarchy.link, hierarchy.count),
-            _triangle_records(mesh, kept[hierarchy.order]),
-            _corner_records(mesh),
+            part
+            for tree in trees
+            for part in (
+                _node_records(tree.hierarchy, tree.hierarchy.link, tree.hierarchy.count),
+                _triangle_records(tree.mesh, tree.kept[tree.hierarchy.order]),
+                _corner_records(tree.mesh),
+            )
         ]
-        starts = self.regions.put(parts)
-        sizes = tuple(len(part) for part in parts)
-        return _MeshRays(
-            mesh, hierarchy, kept, (starts[0], starts[1], starts[2]), (sizes[0], sizes[1], sizes[2]), cost, is_best
-        )
+        places = iter(zip(self.regions.put(parts), (len(part) for part in parts), strict=True))
+        for tree in trees:
+            starts, sizes = zip(*(next(places) for _ in range(3)), strict=True)
+            self._meshes[id(tree.mesh)] = _MeshRays(
+                tree.mesh, tree.hierarchy, tree.kept, starts, sizes, tree.cost, tree.is_best
+            )
 
     def _forget(self, item: _MeshRays) -> None:
         del self._meshes[id(item.mesh)]

@@ -45,6 +45,9 @@ class RecordRegions:
             joined[source + len(part) : source + size] = 0.0
             source += size
         joined[source:] = 0.0
+        # (Once for all: a texture that grows is copied.)
+        if sum(sizes) > max((room for _, room in self._free), default=0):
+            self._grow(sum(sizes))
         starts = [self._take(size) for size in sizes]
         if sizes:
             staged = record_texture(joined)

@@ -14,6 +14,8 @@ from curvrefl.curvrefl_addon.renderer.hierarchy import (
     Hierarchy,
     HierarchyBuild,
     build,
+    build_all,
+    build_all_quickly,
     build_quickly,
 )
 
@@ -134,3 +136,17 @@ def test_the_heuristic_pays() -> None:
     best, quick = build(low, high), build_quickly(low, high)
     shuffled = np.random.default_rng(0).permutation(5000)
     assert best.cost() <= quick.cost() < 0.2 * best.fitted(low[shuffled], high[shuffled]).cost()
+
+
+@pytest.mark.parametrize(("one", "many"), [(build, build_all), (build_quickly, build_all_quickly)])
+def test_trees_that_grow_side_by_side_are_those_that_grow_alone(
+    one: Callable[..., Hierarchy], many: Callable[..., list[Hierarchy]]
+) -> None:
+    """Of sizes from one item to thousands, deep ones beside flat ones."""
+    boxes = [case() for case in CASES.values()]
+    for (low, high), together in zip(boxes, many(boxes), strict=True):
+        check(together, low, high)
+        alone = one(low, high)
+        assert together.levels == alone.levels
+        for name in ("order", "link", "count", "low", "high"):
+            np.testing.assert_array_equal(getattr(together, name), getattr(alone, name), err_msg=name)
