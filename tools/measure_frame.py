@@ -186,6 +186,7 @@ def measure(path: Path, reflector: str, arguments: argparse.Namespace) -> None:
         watch = Stopwatch()
         with taken_apart(watch):
             first = renderer.render(view).times_ms["frame"]
+        renderer.settle()
         frames, processor = [], []
         for _ in range(arguments.repeats):
             before = process_time()

@@ -26,11 +26,12 @@ PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.47, 0.005
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
 LAYER_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.21, 1.5, 0.7
 """Cost of a mirror pixel for each layer of solved triangles drawn onto it, of a solved vertex, of a triangle drawn"""
-PIXEL_SPLIT = 0.25
-"""What splitting edges by solved midpoints adds, per mirror pixel: a larger mirror has more to split"""
+EDGES_SPLIT = 115.0
+"""What splitting edges by solved midpoints adds, times the mirror's size in pixels (the root of their number): twice as
+large it bends twice as far from a chord"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
-MOST_SHARE = 1.0
+MOST_SHARE = 1.04
 """Points are solved where they cost less than this share of rays: the costs are of all that differs between the two
 (figures: `tools/measure_auto.py`)"""
 STRICTER = 0.7
@@ -116,7 +117,7 @@ def choose(
     tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER)
     added = SPLIT_TRIANGLES / split_angle(largest, tolerance) ** 2
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
-    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (PIXEL_SPLIT * pixels if is_still else 0.0)
+    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (EDGES_SPLIT * np.sqrt(pixels) if is_still else 0.0)
     layers = sum(layers_around(mirror, scenery.centers[~unseen], scenery.radii[~unseen]) for mirror in mirrors)
     by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
     by_points += once / (settings.samples if is_still else 1)

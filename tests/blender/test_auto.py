@@ -69,7 +69,7 @@ def test_few_vertices_on_a_large_mirror_are_solved_and_many_on_a_small_one_are_n
 ) -> None:
     scene = fine_hall("sphere", monkeypatch)
     few = replace(scene, instances=scene.instances[:2])
-    large = rendered(few, look_at(EYE, np.zeros(3), 480, 360, 0.5), pixel_tolerance=8.0)
+    large = rendered(few, look_at(EYE, np.zeros(3), 960, 720, 0.5), pixel_tolerance=8.0)
     small = rendered(scene, look_at(4.0 * EYE, np.zeros(3), 160, 120, 0.6))
     assert large.choice is not None and large.choice["method"] == VERTICES
     assert small.choice is not None and small.choice["method"] == RAYS
