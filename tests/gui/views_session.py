@@ -60,7 +60,7 @@ def capture(name: str) -> None:
     places = []
     for number, region in enumerate(regions()):
         picture = pictures()[region.as_pointer()]
-        np.save(Path(FOLDER) / f"{name}_{number}.npy", read(picture._texture) / picture._sub_frames)
+        np.save(Path(FOLDER) / f"{name}_{number}.npy", read(picture._canvas.texture) / picture._sub_frames)
         places.append([region.x, region.y, region.width, region.height])
     screenshot(Path(FOLDER) / f"{name}.png")
     viewport = extension("curvrefl_addon.viewport")
