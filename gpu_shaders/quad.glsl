@@ -34,13 +34,15 @@ bool quad_joins(vec3 step, vec3 normal, vec3 turn)
 
 // Whether the four are neighbours on one surface. `ids` are equal on one surface only. Never where a driver gives both
 // rows the same derivative: then they cannot know of each other.
-bool quad_is_one_surface(vec3 position, vec3 normal, vec2 ids)
+bool quad_is_one_surface(vec3 position, vec3 normal, vec3 ids)
 {
   vec2 odd = quad_odd();
   float both = odd.x * odd.y;
   bool tells_apart = abs(dFdx(both)) == odd.y && abs(dFdy(both)) == odd.x;
-  vec4 change = abs(vec4(dFdx(ids), dFdy(ids)));
+  vec3 change = abs(dFdx(ids)) + abs(dFdy(ids));
   bool joins = quad_joins(dFdx(position), normal, dFdx(normal)) && quad_joins(dFdy(position), normal, dFdy(normal));
-  bool agrees = tells_apart && joins && change.x + change.y + change.z + change.w == 0.0;
-  return quad_sum(vec4(agrees ? 1.0 : 0.0)).x == 4.0;
+  bool agrees = tells_apart && joins && change.x + change.y + change.z == 0.0;
+  // (Where rows or columns are not told apart the sum is wrong, too: whoever does not agree stays out of it.)
+  float agreeing = quad_sum(vec4(agrees ? 1.0 : 0.0)).x;
+  return agrees && agreeing == 4.0;
 }

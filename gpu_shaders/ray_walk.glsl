@@ -100,7 +100,7 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
   int instance = -1;
   float nearest = 0.0;
   float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
-  // Where the walk is: link and count as in a node's record, or one of the two below.
+  // Where the walk is: link and count as in a node's record, or NOWHERE, or OVER.
   int link = 0;
   int count = 0;
   // (Loops inside loops, as a group of pixels runs all branches of a loop's body: it is most often among inner nodes.)

@@ -11,6 +11,12 @@
 #include "shade_surfaces.glsl"
 #include "mirror_tint.glsl"
 
+// As shade_surface turns it: neighbours that turn apart share nothing.
+vec3 facing(vec3 normal, vec3 direction)
+{
+  return dot(normal, direction) > 0.0 ? -normal : normal;
+}
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -23,7 +29,7 @@ void main()
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
 #ifdef SHADES_SURFACE
-  world_is_shared = quad_is_one_surface(position.xyz, normal.xyz, vec2(position.w, normal.w));
+  world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
   vec3 radiance = shade_surface(surface_of(position, normal, base.rgb), -direction);
 #else
 #ifdef ENVIRONMENT
@@ -53,7 +59,8 @@ void main()
   // What is seen in that one comes in passes of its own.
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else
-  world_is_shared = quad_is_one_surface(shown.position, shown.normal, vec2(position.w + seen_mirror * 1024.0, normal.w));
+  world_is_shared =
+    quad_is_one_surface(shown.position, facing(shown.normal, direction), vec3(position.w, normal.w, seen_mirror));
   vec3 radiance = shade_surface(shown, -direction);
 #endif
 #ifdef LIGHTING_NEAR_LAMPS

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What adds to the shade pass in some scenes only: with MIRROR_BASE the diffuse base of mirrors that are not metal, and
-// lamps seen directly.
+// lamps seen before surfaces.
 #include "lighting.glsl"
 #include "shade_surfaces.glsl"
 
@@ -11,7 +11,7 @@ void main()
   vec4 position = texelFetch(seen_position, pixel, 0);
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
-  vec3 radiance = lamps_seen(origin, direction, position.w > 0.0 ? distance(position.xyz, origin) : 2e30).rgb;
+  vec3 radiance = lamps_seen(origin, direction, distance(position.xyz, origin)).rgb;
 #ifdef MIRROR_BASE
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);

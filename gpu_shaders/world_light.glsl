@@ -94,12 +94,12 @@ vec3 lobe_middle(vec3 to_viewer, vec3 normal, float cos_normal)
   return normal * cos_normal + across * (sine * inversesqrt(max(dot(across, across), 1e-12)));
 }
 
-// Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
-// point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
 #ifdef QUADS
-bool world_is_shared = false;
+bool world_is_shared = false;  // the pixel's quad lies on one surface (quad.glsl)
 #endif
 
+// Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
+// point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);

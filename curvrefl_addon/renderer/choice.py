@@ -32,8 +32,8 @@ large it bends twice as far from a chord"""
 SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
 MOST_SHARE = 1.04
-"""Points are solved where they cost less than this share of rays: the costs are of all that differs between the two
-(figures: `tools/measure_auto.py`)"""
+"""Points are solved up to this share of what rays cost: the costs are of all that differs between the two, and known to
+a few percent (figures: `tools/measure_auto.py`)"""
 STRICTER = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
 may be off. In stills solved midpoints see to it."""

@@ -72,7 +72,7 @@ class PathBuffer(SurfaceBuffer):
         if window[2] <= 0 or window[3] <= 0:
             return
         self._find_mirrors(mirrors, window)
-        keeps_way = goes_on or path is not None
+        keeps_way = goes_on or with_counts or path is not None
         shader = _exact_shader(path is not None, self._uv is not None, keeps_way, with_counts)
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)

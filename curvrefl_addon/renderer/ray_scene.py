@@ -9,7 +9,7 @@ changes the top level alone. All of it is one record texture (see `ray_walk.glsl
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
@@ -36,6 +36,8 @@ OWN_RANGE = 1e-4
 FEW = 4096
 """A mesh of no more triangles gets the best tree at once: 15 milliseconds at most in place of 8, and rays look at a
 third of the boxes, also while the mesh deforms and nothing can be improved"""
+AT_ONCE = 500_000
+"""Triangles of meshes that are built or uploaded together: more would gain nothing and take memory"""
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
@@ -203,8 +205,13 @@ class RayScene:
         better = growth.finished()
         chosen.is_best = True
         if better.cost() < chosen.hierarchy.cost():
-            self._forget(chosen)
-            self._store([_MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
+            try:
+                # (This puts the better one in the place of the other, whose regions are free only then.)
+                self._store([_MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
+            except InputError:
+                # No room for both: what is there serves as well, only slower.
+                return
+            self._free(chosen)
             self.counters["hierarchies improved"] += 1
             self._place(is_same=True)
 
@@ -231,7 +238,8 @@ class RayScene:
         trees = self._trees(fresh)
         for item in gone.values():
             self._forget(item)
-        self._store(trees)
+        for batch in _batches(trees, [len(tree.kept) for tree in trees]):
+            self._store(batch)
         if fresh:
             self.build_ms = 1e3 * (perf_counter() - start)
 
@@ -251,11 +259,12 @@ class RayScene:
             to_build.append((mesh, kept, boxes, fitted))
         for is_best, build_them in ((True, build_all), (False, build_all_quickly)):
             group = [item for item in to_build if (len(item[1]) <= FEW) == is_best]
-            built = build_them([boxes for _, _, boxes, _ in group]) if group else []
-            for (mesh, kept, _, fitted), tree in zip(group, built, strict=True):
-                # One that has come apart may still be better than one that is built quickly.
-                better = fitted if fitted is not None and fitted.cost() < tree.cost() else tree
-                trees.append(_MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
+            for batch in _batches(group, [len(kept) for _, kept, _, _ in group]):
+                built = build_them([boxes for _, _, boxes, _ in batch])
+                for (mesh, kept, _, fitted), tree in zip(batch, built, strict=True):
+                    # One that has come apart may still be better than one that is built quickly.
+                    better = fitted if fitted is not None and fitted.cost() < tree.cost() else tree
+                    trees.append(_MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
         self.counters["hierarchies built"] += len(to_build)
         return trees
 
@@ -279,6 +288,9 @@ class RayScene:
 
     def _forget(self, item: _MeshRays) -> None:
         del self._meshes[id(item.mesh)]
+        self._free(item)
+
+    def _free(self, item: _MeshRays) -> None:
         for start, size in zip(item.starts, item.sizes, strict=True):
             self.regions.drop(start, size)
 
@@ -340,6 +352,20 @@ class RayScene:
         else:
             self.regions.replace(start, joined)
         self._top_places = (start, start + len(nodes), start + len(nodes) + len(instances), 0)
+
+
+def _batches[Item](items: list[Item], sizes: list[int]) -> Iterator[list[Item]]:
+    """The items in turn, some together whose sizes add up to no more than AT_ONCE, or one that is larger."""
+    batch: list[Item] = []
+    total = 0
+    for item, size in zip(items, sizes, strict=True):
+        if batch and total + size > AT_ONCE:
+            yield batch
+            batch, total = [], 0
+        batch.append(item)
+        total += size
+    if batch:
+        yield batch
 
 
 def _all_but_place(instance: InstanceArrays) -> tuple[object, ...]:

@@ -45,10 +45,12 @@ class RecordRegions:
             joined[source + len(part) : source + size] = 0.0
             source += size
         joined[source:] = 0.0
-        # (Once for all: a texture that grows is copied.)
-        if sum(sizes) > max((room for _, room in self._free), default=0):
-            self._grow(sum(sizes))
-        starts = [self._take(size) for size in sizes]
+        # (Once for all that find no room: a texture that grows is copied.)
+        free = self._free.copy()
+        lacking = sum(size for size in sizes if _take(free, size) is None)
+        if lacking:
+            self._grow(lacking)
+        starts = [start for size in sizes if (start := _take(self._free, size)) is not None]
         if sizes:
             staged = record_texture(joined)
             source = 0
@@ -76,14 +78,6 @@ class RecordRegions:
                 merged.append((begin, size))
         self._free = merged
 
-    def _take(self, size: int) -> int:
-        for index, (start, room) in enumerate(self._free):
-            if room >= size:
-                self._free[index : index + 1] = [(start + size, room - size)] if room > size else []
-                return start
-        self._grow(size)
-        return self._take(size)
-
     def _grow(self, size: int) -> None:
         wanted = int((self._capacity + size) * SPARE)
         rows = -(-wanted // TEXTURE_WIDTH)
@@ -100,6 +94,15 @@ class RecordRegions:
         self._capacity = rows * TEXTURE_WIDTH
         _copy(before, 0, self.texture, 0, held)
         self.drop(held, self._capacity - held)
+
+
+def _take(free: list[tuple[int, int]], size: int) -> int | None:
+    """The first record of so many that are free, which they are no more; None where there is no such room."""
+    for index, (start, room) in enumerate(free):
+        if room >= size:
+            free[index : index + 1] = [(start + size, room - size)] if room > size else []
+            return start
+    return None
 
 
 def _rounded(count: int) -> int:

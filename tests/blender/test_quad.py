@@ -21,7 +21,7 @@ void main()
   vec4 place = texelFetch(places, pixel, 0);
   vec4 facing = texelFetch(facings, pixel, 0);
   vec4 numbers = quad_sum(texelFetch(values, pixel, 0));
-  float joins = quad_is_one_surface(place.xyz, facing.xyz, vec2(place.w, facing.w)) ? 1.0 : 0.0;
+  float joins = quad_is_one_surface(place.xyz, facing.xyz, vec3(place.w, facing.w, 0.0)) ? 1.0 : 0.0;
   color = vec4(numbers.xy, float(quad_lane()), joins);
 }
 """
