@@ -11,8 +11,8 @@ vec2 quad_odd()
 // Which of the four this pixel is.
 int quad_lane()
 {
-  ivec2 odd = ivec2(gl_FragCoord.xy) & 1;
-  return odd.x + 2 * odd.y;
+  vec2 odd = quad_odd();
+  return int(odd.x + 2.0 * odd.y);
 }
 
 // Sum over the four. (A derivative's sign is that of the axis, which some drivers turn upside down.)

@@ -53,8 +53,8 @@ class PixelClasses:
         window: Window | None = None,
         tells_mirrors: bool = False,
     ) -> None:
-        """Find the class of every pixel in `window`; `reflected` has what mirrors show, if
-        surfaces. With `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces."""
+        """Find the class of every pixel in `window`; `reflected` has what mirrors show, if surfaces. With
+        `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces."""
         shader = _shader(reflected is not None, tells_mirrors)
         with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)

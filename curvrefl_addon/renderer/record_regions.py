@@ -50,7 +50,11 @@ class RecordRegions:
         lacking = sum(size for size in sizes if _take(free, size) is None)
         if lacking:
             self._grow(lacking)
-        starts = [start for size in sizes if (start := _take(self._free, size)) is not None]
+        starts = []
+        for size in sizes:
+            start = _take(self._free, size)
+            assert start is not None, "it has grown by what lacked room"
+            starts.append(start)
         if sizes:
             staged = record_texture(joined)
             source = 0

@@ -11,6 +11,7 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.hierarchy import (
     HEURISTIC_LEVELS,
     LEAF,
+    Boxes,
     Hierarchy,
     HierarchyBuild,
     build,
@@ -19,7 +20,6 @@ from curvrefl.curvrefl_addon.renderer.hierarchy import (
     build_quickly,
 )
 
-type Boxes = tuple[np.ndarray, np.ndarray]
 BUILDS = {"best": build, "quick": build_quickly}
 
 
