@@ -43,9 +43,9 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo what `register` did, last first."""
-    if (tracing := sys.modules.get(f"{__package__}.tracing")) is not None:
+    if (tracing := sys.modules.get(f"{__package__}.viewport.tracing")) is not None:
         tracing.clear()
-    if (viewport := sys.modules.get(f"{__package__}.viewport")) is not None:
+    if (viewport := sys.modules.get(f"{__package__}.viewport.handlers")) is not None:
         viewport.unregister()
     for name in reversed(INTERFACE):
         module = sys.modules.get(f"{__package__}.ui.{name}")
@@ -63,6 +63,6 @@ def _module(name: str) -> ModuleType:
 
 
 def _run_command(arguments: list[str]) -> int:
-    from . import cli
+    from .command import cli
 
     return cli.main(arguments)

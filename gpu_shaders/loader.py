@@ -16,7 +16,7 @@ from pathlib import Path
 __all__ = ["load"]
 
 _FOLDER = Path(__file__).resolve().parent
-_INCLUDE = re.compile(r'^#include "([a-z0-9_]+\.glsl)"\s*$', re.MULTILINE)
+_INCLUDE = re.compile(r'^#include "([a-z0-9_]+/[a-z0-9_]+\.glsl)"\s*$', re.MULTILINE)
 
 
 @cache

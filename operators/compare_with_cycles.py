@@ -88,9 +88,9 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.report.chart import chart_open_scene
         from ..curvrefl_addon.report.compare import compare_open_scene
         from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
+        from ..curvrefl_addon.study.charts.chart import chart_open_scene
 
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
@@ -105,8 +105,8 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
-        from ..curvrefl_addon.report.chart import open_scene_steps
         from ..curvrefl_addon.report.compare import compare_steps
+        from ..curvrefl_addon.study.charts.chart import open_scene_steps
 
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
@@ -201,8 +201,8 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
 
     def _show(self, context: bpy.types.Context, result: Any, output: Path) -> None:
         """`result`: of a comparison, or `Charts` with every setting."""
-        from ..curvrefl_addon.report.chart_table import format_chart
         from ..curvrefl_addon.report.table import format_table
+        from ..curvrefl_addon.study.charts.chart_table import format_chart
 
         if self.every_setting:
             warnings = result.warnings

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty, FloatVectorProperty
 
-from ..curvrefl_addon import tracing
 from ..curvrefl_addon.errors import InputError
+from ..curvrefl_addon.viewport import tracing
 
 TEXT_NAME = "Curvrefl trace"
 

@@ -31,10 +31,7 @@ bootstrap.load_package()
 
 import gpu  # noqa: E402
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.chunk import Chunk  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.gpu_objects import (  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (  # noqa: E402
     dispatch,
     drawing_state,
     empty_record_texture,
@@ -43,19 +40,18 @@ from curvrefl.curvrefl_addon.renderer.gpu_objects import (  # noqa: E402
     require_gpu,
     scissored,
 )
-from curvrefl.curvrefl_addon.renderer.materials import Materials  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.geometry.chunk import Chunk  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces import (  # noqa: E402
-    SurfaceBuffer,
-    declare_surface_outputs,
-    draw_primary,
-)
-from curvrefl.curvrefl_addon.renderer.view_block import TYPEDEF, view_block  # noqa: E402
-from curvrefl.curvrefl_addon.report.benchmark_scenes import hall, view_of_mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import SurfaceBuffer, declare_surface_outputs, draw_primary  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.view_block import TYPEDEF, view_block  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Int32Array, MeshArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from curvrefl.curvrefl_addon.study.benchmark.scenes import hall, view_of_mirror  # noqa: E402
 from curvrefl.gpu_shaders.loader import load  # noqa: E402
 
 SHADERS = Path(__file__).resolve().parent / "footprint_shaders"
@@ -289,7 +285,7 @@ def _middles_shader() -> Any:
     info.sampler(1, "FLOAT_2D", "positions")
     info.image(0, "RGBA32F", "FLOAT_2D", "middles", qualifiers={"WRITE"})
     info.local_group_size(GROUP, 1)
-    info.compute_source(_source("edge_middles.comp.glsl", "invocation.glsl", "records.glsl"))
+    info.compute_source(_source("edge_middles.comp.glsl", "common/invocation.glsl", "common/records.glsl"))
     return gpu.shader.create_from_info(info)
 
 
@@ -308,7 +304,9 @@ def _bounds_shader() -> Any:
     info.image(0, "RGBA32F", "FLOAT_2D", "boxes", qualifiers={"WRITE"})
     info.image(1, "R32UI", "UINT_2D_ATOMIC", "counters", qualifiers={"READ", "WRITE"})
     info.local_group_size(GROUP, 1)
-    info.compute_source(_source("footprint_bounds.comp.glsl", "invocation.glsl", "records.glsl", "status.glsl"))
+    info.compute_source(
+        _source("footprint_bounds.comp.glsl", "common/invocation.glsl", "common/records.glsl", "common/status.glsl")
+    )
     return gpu.shader.create_from_info(info)
 
 
@@ -331,8 +329,8 @@ def _draw_shader() -> Any:
     info.vertex_out(interface)
     declare_surface_outputs(info)
     info.depth_write("ANY")
-    info.vertex_source(_source("footprint.vert.glsl", "records.glsl"))
-    info.fragment_source(_source("footprint.frag.glsl", "material_records.glsl", "vertex_color.glsl"))
+    info.vertex_source(_source("footprint.vert.glsl", "common/records.glsl"))
+    info.fragment_source(_source("footprint.frag.glsl", "surfaces/material_records.glsl", "surfaces/vertex_color.glsl"))
     return gpu.shader.create_from_info(info)
 
 

@@ -17,7 +17,7 @@ import bootstrap
 bootstrap.load_package()
 
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.lighting_ggx import TABLE_FILE, integrate_ggx  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.lighting.ggx import TABLE_FILE, integrate_ggx  # noqa: E402
 
 if __name__ == "__main__":
     np.save(TABLE_FILE, integrate_ggx().astype(np.float16))

@@ -31,16 +31,11 @@ import bpy
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.renderer import choice as choices  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import (  # noqa: E402
-    find_camera,
-    find_reflectors,
-    open_blend,
-    view_of_camera,
-)
+from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 

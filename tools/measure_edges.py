@@ -42,21 +42,16 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.curved_edges import _Cutting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.gpu_objects import read_records, record_texture, require_gpu  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_records, record_texture, require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.solve import Reflector, VertexSolution, solve_vertices  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.split import number_pairs  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import _Cutting  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, VertexSolution, solve_vertices  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, Float64Array, SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import (  # noqa: E402
-    find_camera,
-    find_reflectors,
-    open_blend,
-    view_of_camera,
-)
+from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 

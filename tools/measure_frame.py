@@ -34,25 +34,20 @@ import bpy
 bootstrap.load_package()
 
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer import frame as frame_module  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.exact import PathBuffer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.gpu_objects import require_gpu  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.lighting import Lighting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.mirror import Mirror  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.pixel_classes import PixelClasses  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry  # noqa: E402
+from curvrefl.curvrefl_addon.renderer import renderer as frame_module  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.shade import ShadePass  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces import BackFaces, SurfaceBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.shading.shade import ShadePass  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.pixel_classes import PixelClasses  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import BackFaces, SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import (  # noqa: E402
-    find_camera,
-    find_reflectors,
-    open_blend,
-    view_of_camera,
-)
+from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 

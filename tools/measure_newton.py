@@ -5,7 +5,7 @@
 python tools/measure_newton.py [--cases N] [--map TEXELS] [--methods newton,secant_star]
 
 Every case is made from its reflection point, or from the point where the segment to it enters the mirror: on a convex
-mirror there is no other answer, so that no search is needed for the truth. Regimes are those of `optics/regimes.py`.
+mirror there is no other answer, so that no search is needed for the truth. Regimes: `study/solvers/regimes.py`.
 Rows are shapes, regimes and eyes over all others of them. Wrong is what is more than half a pixel off its point,
 whatever it was called. A tie is called hidden though shown, or the other way round, with the point in its place: the
 horizon runs between.
@@ -25,12 +25,12 @@ bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.optics.fermat import sample, towards_eye  # noqa: E402
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, Float64Array, RadialSurface, unit  # noqa: E402
 from curvrefl.curvrefl_addon.optics.screen import Screen  # noqa: E402
-from curvrefl.curvrefl_addon.optics.study_surfaces import Study  # noqa: E402
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, Float64Array, RadialSurface, unit  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector  # noqa: E402
-from curvrefl.curvrefl_addon.report.solver_table import OFF, study_view  # noqa: E402
+from curvrefl.curvrefl_addon.study.solvers.solver_table import OFF, study_view  # noqa: E402
+from curvrefl.curvrefl_addon.study.solvers.study_reflector import StudyReflector  # noqa: E402
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import Study  # noqa: E402
 
 SCALES = (1e-4, 1.0, 1e4)
 EYES = {"usual": (4.1, (2.3, -2.9, 1.8)), "close": (1.03, (0.3, -0.4, 1.1)), "far": (30.0, (-1.7, 0.6, -0.9))}

@@ -25,18 +25,12 @@ bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.optics.fermat import sample  # noqa: E402
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.report.solver_table import solver_table, study_view  # noqa: E402
-from curvrefl.curvrefl_addon.report.vertex_accuracy import VertexTruth  # noqa: E402
-from curvrefl.curvrefl_addon.scene.arrays import (  # noqa: E402
-    InstanceArrays,
-    MaterialArrays,
-    MeshArrays,
-    SceneArrays,
-    WorldArrays,
-)
+from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays  # noqa: E402
+from curvrefl.curvrefl_addon.study.solvers.solver_table import solver_table, study_view  # noqa: E402
+from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth  # noqa: E402
 
 WHOLE = 50.0
 """Pixel tolerance at which these meshes are not split"""

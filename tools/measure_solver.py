@@ -15,10 +15,12 @@ import numpy as np
 
 bootstrap.load_package()
 
-from curvrefl.curvrefl_addon.optics import secant_star, sphere, status  # noqa: E402
+from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.optics.fermat import sample  # noqa: E402
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit  # noqa: E402
 from curvrefl.curvrefl_addon.optics.screen import Screen  # noqa: E402
+from curvrefl.curvrefl_addon.optics.solvers import secant_star  # noqa: E402
+from curvrefl.curvrefl_addon.optics.surfaces import sphere  # noqa: E402
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit  # noqa: E402
 
 SHAPES: dict[str, RadialSurface] = {
     "sphere": Ellipsoid(),

@@ -30,9 +30,9 @@ bootstrap.load_package()
 
 import gpu  # noqa: E402
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.canvas import Canvas  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.frame import Renderer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
@@ -158,7 +158,9 @@ class NoFrameBuffer:
 @contextmanager
 def without_gpu_work() -> Iterator[None]:
     """Chunks made here are not drawn, nothing is dispatched."""
-    from curvrefl.curvrefl_addon.renderer import chunk, pixel_classes, shade
+    from curvrefl.curvrefl_addon.renderer.geometry import chunk
+    from curvrefl.curvrefl_addon.renderer.shading import shade
+    from curvrefl.curvrefl_addon.renderer.surfaces import pixel_classes
 
     with (
         patch.object(chunk, "indexed_batch", lambda _: NoBatch()),

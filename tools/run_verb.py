@@ -13,7 +13,7 @@ import bootstrap
 
 bootstrap.load_package()
 
-from curvrefl.curvrefl_addon import cli  # noqa: E402
+from curvrefl.curvrefl_addon.command import cli  # noqa: E402
 
 arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
 sys.exit(cli.main(arguments))

@@ -18,7 +18,7 @@ class Method:
     sweep: tuple[str, tuple[float, ...]]
     """The field of `renderer.settings.Settings` that trades speed for accuracy, and values of it to chart"""
     maps: tuple[str, ...] = ()
-    """What of the reflector its shader `gpu_shaders/<name>.comp.glsl` reads (see `renderer.solve`); none for
+    """What of the reflector its shader `gpu_shaders/<name>.comp.glsl` reads (see `renderer.vertices.solve`); none for
     a method that looks up an environment (`gpu_shaders/<name>.glsl`)"""
     steps: int = 0
     """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""

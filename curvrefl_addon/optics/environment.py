@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .radial_surfaces import Float64Array
+from .surfaces.radial_surfaces import Float64Array
 
 SINGULAR = 1e-12
 """Directions nearer than this to the one away from the eye, in radians, are on the rim wherever one likes"""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .radial_surfaces import Float64Array, RadialSurface, tangential, unit
+from .surfaces.radial_surfaces import Float64Array, RadialSurface, tangential, unit
 
 
 @dataclass(frozen=True)

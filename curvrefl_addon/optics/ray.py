@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .radial_surfaces import Float64Array
+from .surfaces.radial_surfaces import Float64Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .fermat import towards_eye
-from .radial_surfaces import Float64Array
+from .surfaces.radial_surfaces import Float64Array
 
 
 @dataclass(frozen=True)

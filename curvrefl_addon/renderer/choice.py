@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ..scene.arrays import Float64Array
 from ..scene.view import View
-from .mirror import Mirror
+from .geometry.split import split_angle
+from .mirrors.mirror import Mirror
 from .settings import Settings
-from .split import split_angle
 
 RAYS, VERTICES = "exact", "newton"
 PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.47, 0.005

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.view import View
-from .environment import Environment
-from .solve import Pieces, SolvedChunk, VertexSolution
+from .shading.lookup import Environment
+from .vertices.solve import Pieces, SolvedChunk, VertexSolution
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .environment_vertex import VertexLookups
-from .exact import PathBuffer
-from .surfaces import BackFaces, SurfaceBuffer
+from .environments.vertex_lookups import VertexLookups
+from .rays.paths import PathBuffer
+from .surfaces.surfaces import BackFaces, SurfaceBuffer
 
 
 @dataclass

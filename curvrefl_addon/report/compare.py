@@ -23,7 +23,7 @@ import gpu
 from ..errors import InputError
 from ..optics.catalogue import DEFAULT_COMPARED, METHODS
 from ..output import checked_folder, folder_to_publish
-from ..renderer.frame import Renderer
+from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera

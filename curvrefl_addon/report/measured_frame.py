@@ -18,7 +18,7 @@ TIMED_FRAMES = 3
 
 
 class FrameLike(Protocol):
-    """What is read of `renderer.frame.Frame`."""
+    """What is read of `renderer.renderer.Frame`."""
 
     times_ms: dict[str, float]
     warnings: tuple[str, ...]
@@ -33,7 +33,7 @@ class FrameLike(Protocol):
 
 
 class RendererLike(Protocol):
-    """What is used of `renderer.frame.Renderer`."""
+    """What is used of `renderer.renderer.Renderer`."""
 
     def render(self, view: View) -> FrameLike: ...
     def settle(self) -> None: ...

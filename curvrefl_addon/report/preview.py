@@ -12,7 +12,7 @@ from typing import Self
 import bpy
 
 from ..options import overrides_of, settings_of
-from ..renderer.frame import Renderer
+from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
 from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
 from ..scene.changes import Changes

@@ -19,11 +19,11 @@ import numpy as np
 from ..errors import InputError
 from .arrays import Float64Array, InstanceArrays, LightArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
-from .images import ImageReader
 from .lights import read_light
-from .materials import MaterialReader, ReadMaterial
-from .mesh_store import MeshStore
-from .meshes import MeshNeeds
+from .materials.images import ImageReader
+from .materials.materials import MaterialReader, ReadMaterial
+from .meshes.mesh_store import MeshStore
+from .meshes.meshes import MeshNeeds
 from .visibility import Visibility
 from .world import read_world
 

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from .arrays import Float64Array, LightArrays
-from .node_colors import ColorReader
-from .node_links import source_of
+from .materials.node_colors import ColorReader
+from .materials.node_links import source_of
 
 
 def read_light(

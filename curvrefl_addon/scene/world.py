@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
-from .images import ImageReader
-from .node_colors import Change, ColorReader, NodeColor
-from .node_links import Source, find_input, source_of, surface_source
+from .materials.images import ImageReader
+from .materials.node_colors import Change, ColorReader, NodeColor
+from .materials.node_links import Source, find_input, source_of, surface_source
 
 SKY_COLORS = {
     "SINGLE_SCATTERING": (1.6, 2.0, 2.5),

@@ -42,7 +42,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         self.layout.prop(context.window_manager, "curvrefl_enabled", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .. import viewport
+        from ..viewport import handlers as viewport
 
         layout = self.layout
         layout.use_property_split = True
@@ -78,7 +78,7 @@ class CURVREFL_PT_mirror(_SubPanel, bpy.types.Panel):
         return context.object is not None and context.object.curvrefl.is_mirror
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .. import viewport
+        from ..viewport import handlers as viewport
 
         layout = self.layout
         layout.use_property_split = True
@@ -159,7 +159,7 @@ class CURVREFL_PT_tools(_SubPanel, bpy.types.Panel):
     bl_label = "Tools"
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .. import tracing
+        from ..viewport import tracing
 
         column = self.layout.column()
         column.operator("curvrefl.trace_at_cursor", icon="LIGHT_SUN")
@@ -178,7 +178,7 @@ class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
     bl_label = "Statistics"
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .. import viewport
+        from ..viewport import handlers as viewport
 
         draw_rows(self.layout, viewport.statistics())
         if reason := viewport.reason():

@@ -17,7 +17,7 @@ _COLORS = DiagnosticColors()
 
 
 def _is_changed(_self: Any, _context: bpy.types.Context | None) -> None:
-    from .. import viewport
+    from ..viewport import handlers as viewport
 
     viewport.mirrors_changed()
 

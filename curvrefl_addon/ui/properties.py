@@ -15,7 +15,7 @@ from .choices import ENVIRONMENT_ITEMS, FRESNEL_ITEMS, METHOD_ITEMS, MOTION_ITEM
 
 
 def _is_switched(_self: Any, context: bpy.types.Context) -> None:
-    from .. import viewport
+    from ..viewport import handlers as viewport
 
     enabled = context.window_manager.curvrefl_enabled
     if enabled:
@@ -24,13 +24,13 @@ def _is_switched(_self: Any, context: bpy.types.Context) -> None:
 
 
 def _mirrors_changed(_self: Any, _context: bpy.types.Context | None) -> None:
-    from .. import viewport
+    from ..viewport import handlers as viewport
 
     viewport.mirrors_changed()
 
 
 def _settings_changed(_self: Any, _context: bpy.types.Context | None) -> None:
-    from .. import viewport
+    from ..viewport import handlers as viewport
 
     viewport.settings_changed()
 

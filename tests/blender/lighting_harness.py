@@ -12,15 +12,15 @@ from typing import Any
 import bpy
 import gpu
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.gpu_objects import (
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
     drawing_state,
     full_screen_triangle,
     read_texture,
     require_gpu,
     texture_2d,
 )
-from curvrefl.curvrefl_addon.renderer.lighting import Lighting
-from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry
+from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
 from curvrefl.curvrefl_addon.scene.arrays import (
     InstanceArrays,
     LightArrays,
@@ -283,8 +283,8 @@ class Harness:
         for slot, name in enumerate(self.textures):
             info.sampler(slot, "FLOAT_2D", f"buffer_{name}")
         lighting.declare(info, len(self.textures))
-        info.vertex_source(load("full_screen.vert.glsl"))
-        info.fragment_source(load("lighting.glsl") + _MAIN.replace("FUNCTION", function))
+        info.vertex_source(load("common/full_screen.vert.glsl"))
+        info.fragment_source(load("lighting/lighting.glsl") + _MAIN.replace("FUNCTION", function))
         self.shader = gpu.shader.create_from_info(info)
         self.target = gpu.types.GPUTexture((shape[1], shape[0]), format="RGBA32F")
         self.frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(self.target,))

@@ -8,14 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.descent import minimise
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.optics.screen import Screen
+from curvrefl.curvrefl_addon.optics.solvers.descent import minimise
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.renderer import choice as choices
-from curvrefl.curvrefl_addon.renderer import frame as frame_module
-from curvrefl.curvrefl_addon.renderer import scene_geometry
+from curvrefl.curvrefl_addon.renderer import renderer as frame_module
 from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.geometry import scene_geometry
+from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View

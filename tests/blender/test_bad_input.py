@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 import pytest
 from blender_process import run_script
-from curvrefl.curvrefl_addon import cli
+from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.report.images import load_exr
 from mathutils import Matrix
 from small_scene import RUN_VERB, SIZE, Change, saved

@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.reflector_files import load
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_files import load
 from curvrefl.operators.bake_reflector import CLASSES
 
 pytestmark = pytest.mark.usefixtures("gpu")

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from curvrefl.curvrefl_addon import cli
-from curvrefl.curvrefl_addon.report import benchmark
-from curvrefl.curvrefl_addon.report.benchmark import Limits, measure_benchmark
-from curvrefl.curvrefl_addon.report.benchmark_solves import FETCH_BYTES, FETCHES, SOLVE_BYTES
+from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.study.benchmark import benchmark
+from curvrefl.curvrefl_addon.study.benchmark.benchmark import Limits, measure_benchmark
+from curvrefl.curvrefl_addon.study.benchmark.solves import FETCH_BYTES, FETCHES, SOLVE_BYTES
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

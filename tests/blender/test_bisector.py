@@ -9,16 +9,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics import bisector, status
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer.bounding_grid import bounding_grid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.optics import status
+from curvrefl.curvrefl_addon.optics.solvers import bisector
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.solve import Reflector, solve_vertices
+from curvrefl.curvrefl_addon.renderer.vertices.bounding_grid import bounding_grid
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from scenes.mirror_room import Room
 from scenes.views import look_at
 from test_solve import SURFACES, radial_map, vertices_around

@@ -12,14 +12,15 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon import cli, registration
+from curvrefl.curvrefl_addon import registration
+from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.report.chart import open_scene_steps
-from curvrefl.curvrefl_addon.report.chart_data import read_scene
 from curvrefl.curvrefl_addon.report.compare import Comparison
-from curvrefl.curvrefl_addon.report.vertex_accuracy import VertexTruth
-from curvrefl.curvrefl_addon.report.vertex_count import shell_positions
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, view_of_camera
+from curvrefl.curvrefl_addon.study.charts.chart import open_scene_steps
+from curvrefl.curvrefl_addon.study.charts.chart_data import read_scene
+from curvrefl.curvrefl_addon.study.charts.vertex_count import shell_positions
+from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth
 from curvrefl.operators.compare_with_cycles import TEXT_NAME
 from small_scene import build_scene, saved
 

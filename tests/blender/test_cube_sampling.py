@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.cube_map import sample_cube, texel_directions
-from curvrefl.curvrefl_addon.renderer.gpu_objects import (
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import sample_cube, texel_directions
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
     cube_texture,
     drawing_state,
     full_screen_triangle,

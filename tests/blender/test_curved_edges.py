@@ -12,18 +12,24 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
 from curvrefl.curvrefl_addon.optics import status
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
-from curvrefl.curvrefl_addon.renderer.chunk import unpack_color
-from curvrefl.curvrefl_addon.renderer.curved_edges import SHORTEST
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import read_records, record_texture
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_records, record_texture
+from curvrefl.curvrefl_addon.renderer.geometry.chunk import unpack_color
+from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.solve import Pieces, Reflector, SolvedChunk, VertexSolution, solve_vertices
-from curvrefl.curvrefl_addon.renderer.split import number_pairs
+from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import SHORTEST
+from curvrefl.curvrefl_addon.renderer.vertices.solve import (
+    Pieces,
+    Reflector,
+    SolvedChunk,
+    VertexSolution,
+    solve_vertices,
+)
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.view import View
-from curvrefl.curvrefl_addon.viewport_region import SETTLED_SECONDS, RegionPicture
+from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture
 from scenes.mirror_halls import slab
 from scenes.star_meshes import star_mesh, torus
 from scenes.views import look_at

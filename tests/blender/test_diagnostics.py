@@ -21,23 +21,23 @@ from curvrefl.curvrefl_addon.diagnostic_colors import (
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.canvas import Canvas
-from curvrefl.curvrefl_addon.renderer.diagnostic_legend import draw_layout, layout
-from curvrefl.curvrefl_addon.renderer.diagnostics import DiagnosticPass
-from curvrefl.curvrefl_addon.renderer.environment import Environment
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import (
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
     cube_texture,
     indexed_batch,
     read_texture,
     record_texture,
     texture_2d,
 )
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.solve import SolvedChunk, VertexSolution, statistics
-from curvrefl.curvrefl_addon.renderer.surfaces import SurfaceBuffer
-from curvrefl.curvrefl_addon.renderer.view_block import view_block
+from curvrefl.curvrefl_addon.renderer.shading.diagnostic_legend import draw_layout, layout
+from curvrefl.curvrefl_addon.renderer.shading.diagnostics import DiagnosticPass
+from curvrefl.curvrefl_addon.renderer.shading.lookup import Environment
+from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
+from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import SurfaceBuffer
+from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block
+from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk, VertexSolution, statistics
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_room import Room
 from scenes.views import look_at
@@ -208,7 +208,7 @@ def test_angle_error_of_an_environment_cube() -> None:
     ball = Ball()
     size = 64
     distance = 3.0
-    from curvrefl.curvrefl_addon.optics.cube_map import texel_directions
+    from curvrefl.curvrefl_addon.optics.surfaces.cube_map import texel_directions
 
     faces = np.ones((6, size, size, 4), np.float32)
     faces[..., :3] = distance * texel_directions(size).reshape(6, size, size, 3)

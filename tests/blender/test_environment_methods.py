@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
-from curvrefl.curvrefl_addon.optics.cube_map import nearest_texel, sample_cube
 from curvrefl.curvrefl_addon.optics.environment import (
     axis_frame,
     parallax_directions,
     sphere_map_directions,
     sphere_map_places,
 )
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import read_cube, read_texture
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import nearest_texel, sample_cube
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_cube, read_texture
+from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View

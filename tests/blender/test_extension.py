@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from blender_process import run_script
-from curvrefl.curvrefl_addon import cli
+from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.registration import OPERATORS
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -10,9 +10,9 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.scene_geometry import SceneGeometry
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
+from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.lighting_world import image_directions
+from curvrefl.curvrefl_addon.renderer.lighting.world import image_directions
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MaterialArrays, WorldArrays
 from lighting_harness import Body, Stage, ball, box, cycles_picture, lamp, our_picture, plane
 

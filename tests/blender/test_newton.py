@@ -9,20 +9,26 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import newton, status
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.optics.regimes import make_cases
+from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.optics.solvers import newton
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.solve import MOST_STRAGGLERS_AT_ONCE, Reflector, VertexSolution, solve_vertices
-from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector
-from curvrefl.curvrefl_addon.report.solver_table import study_view
-from curvrefl.curvrefl_addon.report.stability_scenes import trials
+from curvrefl.curvrefl_addon.renderer.vertices.solve import (
+    MOST_STRAGGLERS_AT_ONCE,
+    Reflector,
+    VertexSolution,
+    solve_vertices,
+)
 from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
+from curvrefl.curvrefl_addon.study.solvers.solver_table import study_view
+from curvrefl.curvrefl_addon.study.solvers.study_reflector import StudyReflector
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
+from curvrefl.curvrefl_addon.study.stability.scenes import trials
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")

@@ -8,27 +8,29 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import curvature_regions, newton_region, status
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.fermat import sample
-from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
-from curvrefl.curvrefl_addon.optics.regimes import make_cases
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer.frame import Frame, Renderer
-from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
-from curvrefl.curvrefl_addon.renderer.mirror import Mirror
+from curvrefl.curvrefl_addon.optics.solvers import newton_region
+from curvrefl.curvrefl_addon.optics.surfaces import curvature_regions
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
+from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.solve import (
+from curvrefl.curvrefl_addon.renderer.vertices.solve import (
     Reflector,
     RegionTextures,
     VertexSolution,
     solve_region,
     solve_vertices,
 )
-from curvrefl.curvrefl_addon.report.solver_table import study_view
-from curvrefl.curvrefl_addon.report.stability_scenes import Trial, _box, _trial, trials
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
+from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
+from curvrefl.curvrefl_addon.study.solvers.solver_table import study_view
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
+from curvrefl.curvrefl_addon.study.stability.scenes import Trial, _box, _trial, trials
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

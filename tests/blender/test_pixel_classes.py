@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid
-from curvrefl.curvrefl_addon.renderer.canvas import Canvas
-from curvrefl.curvrefl_addon.renderer.frame import Renderer, union
-from curvrefl.curvrefl_addon.renderer.gpu_objects import read_texture, texture_2d
-from curvrefl.curvrefl_addon.renderer.lighting import FEATURES
-from curvrefl.curvrefl_addon.renderer.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import FEATURES
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer, union
 from curvrefl.curvrefl_addon.renderer.settings import Settings
+from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
+from curvrefl.curvrefl_addon.renderer.surfaces.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, SceneArrays, WorldArrays
 from scenes.mirror_room import Room
 from scenes.views import look_at

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.gpu_objects import full_screen_triangle, read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import full_screen_triangle, read_texture, texture_2d
 from curvrefl.gpu_shaders.loader import load
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -36,8 +36,8 @@ def drawn(values: np.ndarray, places: np.ndarray, facings: np.ndarray) -> np.nda
     info.fragment_out(0, "VEC4", "color")
     for slot, name in enumerate(("values", "places", "facings")):
         info.sampler(slot, "FLOAT_2D", name)
-    info.vertex_source(load("full_screen.vert.glsl"))
-    info.fragment_source(MAIN.replace('#include "quad.glsl"', load("quad.glsl")))
+    info.vertex_source(load("common/full_screen.vert.glsl"))
+    info.fragment_source(MAIN.replace('#include "quad.glsl"', load("lighting/quad.glsl")))
     shader = gpu.shader.create_from_info(info)
     textures = [texture_2d(array.astype(np.float32)) for array in (values, places, facings)]
     target = gpu.types.GPUTexture((SIZE, SIZE), format="RGBA32F")

@@ -9,10 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.renderer.reflector_bake import Limits, bake_instance, bake_reflector, bake_reflectors
-from curvrefl.curvrefl_addon.renderer.reflector_map import ReflectorMap, Spread, pixel_error
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_bake import (
+    Limits,
+    bake_instance,
+    bake_reflector,
+    bake_reflectors,
+)
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_map import ReflectorMap, Spread, pixel_error
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 from scenes.star_meshes import (
     centroids,

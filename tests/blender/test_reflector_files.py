@@ -13,8 +13,8 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.renderer.reflector_files import DESCRIPTION, load, save
-from curvrefl.curvrefl_addon.renderer.reflector_map import ReflectorMap, Spread
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_files import DESCRIPTION, load, save
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_map import ReflectorMap, Spread
 from curvrefl.curvrefl_addon.scene.exr_files import save_exr
 
 SIZE = 12

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, SceneArrays, WorldArrays
 from scenes.mirror_room import Room, radial_mesh

@@ -10,13 +10,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics import secant_uv, sphere, status
-from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
+from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.secant_uv import SampledMap
-from curvrefl.curvrefl_addon.renderer.gpu_objects import record_texture
-from curvrefl.curvrefl_addon.renderer.parametric_map import MOST_OVERLAP, ParametricMap, _islands, bake_parametric
-from curvrefl.curvrefl_addon.renderer.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
+from curvrefl.curvrefl_addon.optics.solvers import secant_uv
+from curvrefl.curvrefl_addon.optics.solvers.secant_uv import SampledMap
+from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import record_texture
+from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
+    MOST_OVERLAP,
+    ParametricMap,
+    _islands,
+    bake_parametric,
+)
+from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
 from curvrefl.curvrefl_addon.scene.meshes import MeshNeeds, read_mesh
 from curvrefl.curvrefl_addon.scene.view import View

@@ -6,12 +6,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import secant_star, status
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.renderer.gpu_objects import cube_texture, record_texture
-from curvrefl.curvrefl_addon.renderer.solve import Reflector, solve_vertices, statistics
+from curvrefl.curvrefl_addon.optics.solvers import secant_star
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices, statistics
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import pytest
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
-from curvrefl.curvrefl_addon.report.solver_table import Row, solver_table
-from curvrefl.curvrefl_addon.report.stability_fuzz import fuzz
-from curvrefl.curvrefl_addon.report.stability_motion import measure_motion
+from curvrefl.curvrefl_addon.study.solvers.solver_table import Row, solver_table
+from curvrefl.curvrefl_addon.study.stability.fuzz import fuzz
+from curvrefl.curvrefl_addon.study.stability.motion import measure_motion
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

@@ -13,18 +13,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
-from curvrefl.curvrefl_addon.optics.regimes import make_cases
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
-from curvrefl.curvrefl_addon.renderer import study_reflector
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.screen_maps import ScreenMaps
+from curvrefl.curvrefl_addon.renderer.mirrors.screen_maps import ScreenMaps
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.study_reflector import StudyReflector
-from curvrefl.curvrefl_addon.report import stability, stability_motion, stability_pictures
-from curvrefl.curvrefl_addon.report.solver_table import solver_table, study_view
-from curvrefl.curvrefl_addon.report.stability import format_stability, measure_stability
-from curvrefl.curvrefl_addon.report.stability_fuzz import fuzz
-from curvrefl.curvrefl_addon.report.stability_scenes import trials
+from curvrefl.curvrefl_addon.study.solvers import study_reflector
+from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
+from curvrefl.curvrefl_addon.study.solvers.solver_table import solver_table, study_view
+from curvrefl.curvrefl_addon.study.solvers.study_reflector import StudyReflector
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
+from curvrefl.curvrefl_addon.study.stability import motion as stability_motion
+from curvrefl.curvrefl_addon.study.stability import pictures as stability_pictures
+from curvrefl.curvrefl_addon.study.stability import stability
+from curvrefl.curvrefl_addon.study.stability.fuzz import fuzz
+from curvrefl.curvrefl_addon.study.stability.scenes import trials
+from curvrefl.curvrefl_addon.study.stability.stability import format_stability, measure_stability
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon import registration, tracing
+from curvrefl.curvrefl_addon import registration
+from curvrefl.curvrefl_addon.viewport import tracing
 from curvrefl.operators.trace_at_cursor import TEXT_NAME
 
 EYE = (0.0, -4.0, 0.0)
@@ -72,7 +73,7 @@ def test_background() -> None:
 @pytest.mark.parametrize("name", ["Cube", "Point"])
 def test_placing_puts_the_object_on_the_reflected_ray(name: str) -> None:
     """And the closed form for the sphere finds the clicked point for it."""
-    from curvrefl.curvrefl_addon.optics.sphere import reflection_points
+    from curvrefl.curvrefl_addon.optics.surfaces.sphere import reflection_points
 
     item = bpy.data.objects[name]
     item.location = (2.0, 1.0, 2.0)

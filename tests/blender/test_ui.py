@@ -10,8 +10,9 @@ from typing import Any
 
 import bpy
 import pytest
-from curvrefl.curvrefl_addon import options, registration, viewport
+from curvrefl.curvrefl_addon import options, registration
 from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties
+from curvrefl.curvrefl_addon.viewport import handlers as viewport
 from curvrefl.operators.mirror_settings import CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror
 
 ENTRIES = {

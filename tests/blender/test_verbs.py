@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from blender_process import run_script
-from curvrefl.curvrefl_addon import cli
-from curvrefl.curvrefl_addon.renderer import surfaces
-from curvrefl.curvrefl_addon.renderer.reflector_files import load
+from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_files import load
+from curvrefl.curvrefl_addon.renderer.surfaces import surfaces
 from curvrefl.curvrefl_addon.report.images import load_exr
 from small_scene import RUN_VERB, SIZE, saved
 

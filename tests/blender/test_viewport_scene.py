@@ -14,12 +14,12 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
-from curvrefl.curvrefl_addon.renderer.chunk import Chunk
-from curvrefl.curvrefl_addon.renderer.frame import Renderer
-from curvrefl.curvrefl_addon.renderer.mirror import Mirror
+from curvrefl.curvrefl_addon.renderer.geometry.chunk import Chunk
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.viewport_environment import Environment, environment_of
-from curvrefl.curvrefl_addon.viewport_scene import MOST_RENDERERS, Look, ViewportScene
+from curvrefl.curvrefl_addon.viewport.environment_light import Environment, environment_of
+from curvrefl.curvrefl_addon.viewport.shown_scene import MOST_RENDERERS, Look, ViewportScene
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")

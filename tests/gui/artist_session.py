@@ -24,7 +24,7 @@ seen: dict[str, Any] = {"steps": []}
 
 
 def viewport() -> Any:
-    return extension("curvrefl_addon.viewport")
+    return extension("curvrefl_addon.viewport.handlers")
 
 
 def our_handlers() -> int:

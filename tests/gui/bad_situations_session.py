@@ -53,7 +53,7 @@ def block() -> bpy.types.Object:
 
 
 def drawn() -> int:
-    return extension("curvrefl_addon.viewport").counters().get("sub-frames", 0)
+    return extension("curvrefl_addon.viewport.handlers").counters().get("sub-frames", 0)
 
 
 def redraws(count: int = REDRAWS) -> Script:
@@ -85,13 +85,13 @@ def switched_on() -> Script:
     yield 0.1
     before = drawn()
     bpy.context.window_manager.curvrefl_enabled = True
-    yield lambda: drawn() >= before + SAMPLES or bool(extension("curvrefl_addon.viewport").messages())
+    yield lambda: drawn() >= before + SAMPLES or bool(extension("curvrefl_addon.viewport.handlers").messages())
     yield 0.1
 
 
 def look(before: int) -> dict[str, Any]:
     return {
-        "messages": extension("curvrefl_addon.viewport").messages(),
+        "messages": extension("curvrefl_addon.viewport.handlers").messages(),
         "enabled": bpy.context.window_manager.curvrefl_enabled,
         "drawn": drawn() - before,
     }

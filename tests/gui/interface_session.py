@@ -134,7 +134,7 @@ def diagnostics(space: bpy.types.SpaceView3D) -> Script:
 def trace(area: bpy.types.Area) -> Script:
     from bpy_extras.view3d_utils import location_3d_to_region_2d
 
-    tracing = extension("curvrefl_addon.tracing")
+    tracing = extension("curvrefl_addon.viewport.tracing")
     _area, space, region = view_3d()
     kettle = bpy.data.objects["Kettle"]
     middle = sum((kettle.matrix_world @ vertex.co for vertex in kettle.data.vertices), start=kettle.location * 0.0)

@@ -39,7 +39,7 @@ def install(archive: str) -> None:
 
 
 def extension(name: str) -> ModuleType:
-    """A module of the installed extension: `curvrefl_addon.viewport`."""
+    """A module of the installed extension: `curvrefl_addon.viewport.handlers`."""
     return importlib.import_module(f"{EXTENSION}.{name}")
 
 
@@ -51,7 +51,7 @@ def view_3d() -> tuple[bpy.types.Area, bpy.types.SpaceView3D, bpy.types.Region]:
 
 def rests() -> bool:
     """All 3D regions have complete pictures."""
-    pictures = extension("curvrefl_addon.viewport")._state.pictures.values()
+    pictures = extension("curvrefl_addon.viewport.handlers")._state.pictures.values()
     return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
 
 

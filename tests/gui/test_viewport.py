@@ -88,7 +88,7 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session, picture
     if not (session.folder / f"{picture}.png").is_file():
         pytest.skip("no ImageMagick to take a picture of the window")
     import bpy
-    from curvrefl.curvrefl_addon.renderer.frame import Renderer
+    from curvrefl.curvrefl_addon.renderer.renderer import Renderer
     from curvrefl.curvrefl_addon.renderer.settings import Settings
     from curvrefl.curvrefl_addon.report.display import display_transform
     from curvrefl.curvrefl_addon.scene.blend_file import find_reflectors, open_blend

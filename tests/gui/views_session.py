@@ -25,7 +25,7 @@ seen: dict[str, Any] = {"captures": {}}
 
 
 def pictures() -> dict[int, Any]:
-    return extension("curvrefl_addon.viewport")._state.pictures
+    return extension("curvrefl_addon.viewport.handlers")._state.pictures
 
 
 def regions() -> list[bpy.types.Region]:
@@ -56,14 +56,14 @@ def engine_draws() -> bool:
 
 
 def capture(name: str) -> None:
-    read = extension("curvrefl_addon.renderer.gpu_objects").read_texture
+    read = extension("curvrefl_addon.renderer.device.gpu_objects").read_texture
     places = []
     for number, region in enumerate(regions()):
         picture = pictures()[region.as_pointer()]
         np.save(Path(FOLDER) / f"{name}_{number}.npy", read(picture._canvas.texture) / picture._sub_frames)
         places.append([region.x, region.y, region.width, region.height])
     screenshot(Path(FOLDER) / f"{name}.png")
-    viewport = extension("curvrefl_addon.viewport")
+    viewport = extension("curvrefl_addon.viewport.handlers")
     seen["captures"][name] = {"regions": places, "messages": viewport.messages(), "pictures": len(pictures())}
 
 

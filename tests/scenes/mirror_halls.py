@@ -8,14 +8,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.scene.arrays import (
-    InstanceArrays,
-    MaterialArrays,
-    MeshArrays,
-    SceneArrays,
-    WorldArrays,
-)
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from scenes.star_meshes import centroids, inverted, lattice, mesh_of, only, star_mesh, torus
 
 

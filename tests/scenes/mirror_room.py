@@ -7,14 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.scene.arrays import (
-    InstanceArrays,
-    MaterialArrays,
-    MeshArrays,
-    SceneArrays,
-    WorldArrays,
-)
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.view import View
 
 MIRROR = 1

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Float64Array
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Float64Array
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from numpy.typing import NDArray
 

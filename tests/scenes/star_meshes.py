@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Float64Array, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Float64Array, RadialSurface, unit
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 
 BALL = "Ball"

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.report.chart_draw import draw_chart, draw_vertex_count, round_numbers
-from curvrefl.curvrefl_addon.report.chart_marks import (
+from curvrefl.curvrefl_addon.report.repeats import Timing, repeated
+from curvrefl.curvrefl_addon.study.charts.chart_draw import draw_chart, draw_vertex_count, round_numbers
+from curvrefl.curvrefl_addon.study.charts.chart_marks import (
     LEVELS,
     Mark,
     VertexAccuracy,
@@ -20,9 +21,8 @@ from curvrefl.curvrefl_addon.report.chart_marks import (
     rows,
     write_csv,
 )
-from curvrefl.curvrefl_addon.report.repeats import Timing, repeated
-from curvrefl.curvrefl_addon.report.vertex_curves import Curve, Fit, counts_up_to, fitted
-from curvrefl.curvrefl_addon.report.vertex_curves import rows as curve_rows
+from curvrefl.curvrefl_addon.study.charts.vertex_curves import Curve, Fit, counts_up_to, fitted
+from curvrefl.curvrefl_addon.study.charts.vertex_curves import rows as curve_rows
 
 
 def timing(milliseconds: float) -> Timing:
@@ -201,7 +201,7 @@ def test_line_of_a_fit() -> None:
 def test_every_method_has_a_look_of_its_own() -> None:
     from curvrefl.curvrefl_addon.diagnostic_colors import method_color
     from curvrefl.curvrefl_addon.optics.catalogue import METHODS
-    from curvrefl.curvrefl_addon.report.chart_draw import STYLES
+    from curvrefl.curvrefl_addon.study.charts.chart_draw import STYLES
 
     assert set(STYLES) == set(METHODS)
     assert len(set(STYLES.values())) == len(METHODS)

@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 import pytest
-from curvrefl.curvrefl_addon import cli, verbs
+from curvrefl.curvrefl_addon.command import cli, verbs
 from curvrefl.curvrefl_addon.errors import InputError
 
 VERBS = ("demo", "test", "render", "compare", "chart", "bake", "build")

@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid
-from curvrefl.curvrefl_addon.renderer.convexity import is_convex
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
+from curvrefl.curvrefl_addon.renderer.geometry.convexity import is_convex
 from scenes.mirror_room import radial_mesh
 
 

@@ -6,15 +6,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.cube_holes import fill_holes
-from curvrefl.curvrefl_addon.optics.cube_map import (
+from curvrefl.curvrefl_addon.optics.surfaces.cube_holes import fill_holes
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import (
     CubeMapSurface,
     face_coordinates,
     nearest_texel,
     sample_cube,
     texel_directions,
 )
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 
 # Of the OpenGL 4.6 specification, table 8.19: face, major axis, sc, tc as signed axes (1 = +x, -3 = -z).
 SPECIFICATION = [(0, 1, -3, -2), (1, -1, 3, -2), (2, 2, 1, 3), (3, -2, 1, -3), (4, 3, 1, -2), (5, -3, -1, -2)]

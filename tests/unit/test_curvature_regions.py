@@ -6,12 +6,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.curvature_regions import CONVEX, HOLLOW, SADDLE, curvature_kinds, curvature_regions
 from curvrefl.curvrefl_addon.optics.fermat import sample
-from curvrefl.curvrefl_addon.optics.newton_region import is_way_free
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES, Saddle
+from curvrefl.curvrefl_addon.optics.solvers.newton_region import is_way_free
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.curvature_regions import (
+    CONVEX,
+    HOLLOW,
+    SADDLE,
+    curvature_kinds,
+    curvature_regions,
+)
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES, Saddle
 
 
 def mapped(surface: RadialSurface, texels: int = 128) -> CubeMapSurface:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.cube_map import texel_directions
 from curvrefl.curvrefl_addon.optics.environment import (
     axis_frame,
     environment_radius,
@@ -15,7 +14,8 @@ from curvrefl.curvrefl_addon.optics.environment import (
     sphere_map_places,
     texel_solid_angles,
 )
-from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 
 
 def random_directions(count: int, seed: int = 1) -> np.ndarray:

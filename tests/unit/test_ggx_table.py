@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.lighting_ggx import ggx_table, integrate_ggx
+from curvrefl.curvrefl_addon.renderer.lighting.ggx import ggx_table, integrate_ggx
 
 
 def test_stored_table_is_the_integral() -> None:

@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import pytest
-from curvrefl.curvrefl_addon.report import gpu_timing, repeats
-from curvrefl.curvrefl_addon.report.gpu_timing import MOST_AT_ONCE, WORTH, empty_wait, time_on_gpu
+from curvrefl.curvrefl_addon.report import repeats
+from curvrefl.curvrefl_addon.study.benchmark import gpu_timing
+from curvrefl.curvrefl_addon.study.benchmark.gpu_timing import MOST_AT_ONCE, WORTH, empty_wait, time_on_gpu
 
 
 class Device:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.hierarchy import (
+from curvrefl.curvrefl_addon.renderer.rays.hierarchy import (
     HEURISTIC_LEVELS,
     LEAF,
     Boxes,

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.lighting_ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
-from curvrefl.curvrefl_addon.renderer.lighting_lamps import lamp_points, lamp_records
-from curvrefl.curvrefl_addon.renderer.lighting_shadow_views import SceneExtent
-from curvrefl.curvrefl_addon.renderer.mesh_pieces import mesh_pieces
+from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import mesh_pieces
+from curvrefl.curvrefl_addon.renderer.lighting.ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
+from curvrefl.curvrefl_addon.renderer.lighting.lamps import lamp_points, lamp_records
+from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MeshArrays
 
 

@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.lighting_suns import split_suns
-from curvrefl.curvrefl_addon.renderer.lighting_world import (
+from curvrefl.curvrefl_addon.renderer.lighting.suns import split_suns
+from curvrefl.curvrefl_addon.renderer.lighting.world import (
     MAP_SIZE,
     ROUGHNESS_LEVELS,
     _sobol,

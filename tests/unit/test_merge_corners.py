@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from curvrefl.curvrefl_addon.scene.corners import merge_corners
+from curvrefl.curvrefl_addon.scene.meshes.corners import merge_corners
 from curvrefl.curvrefl_addon.scene.signature import array_signature
 from hypothesis import given
 from hypothesis import strategies as st

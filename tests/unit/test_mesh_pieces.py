@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.lighting_shadow_views import SceneExtent
-from curvrefl.curvrefl_addon.renderer.mesh_pieces import MeshPieces, mesh_pieces, outline
+from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import MeshPieces, mesh_pieces, outline
+from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 
 hypothesis = pytest.importorskip("hypothesis")

@@ -7,9 +7,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.fermat import sample
-from curvrefl.curvrefl_addon.optics.mesh_rays import MeshRays, reflected_miss
-from curvrefl.curvrefl_addon.optics.radial_surfaces import unit
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES, Study
+from curvrefl.curvrefl_addon.optics.surfaces.mesh_rays import MeshRays, reflected_miss
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES, Study
 
 
 def mesh_of(study: Study, columns: int, rows: int) -> MeshRays:

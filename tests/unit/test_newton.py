@@ -6,13 +6,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import descent, fermat, newton, sphere, status
-from curvrefl.curvrefl_addon.optics.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.pierce import pierce
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.optics.regimes import make_cases
+from curvrefl.curvrefl_addon.optics import fermat, status
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
+from curvrefl.curvrefl_addon.optics.solvers import descent, newton
+from curvrefl.curvrefl_addon.optics.solvers.pierce import pierce
+from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

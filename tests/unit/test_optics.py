@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import descent, fermat, secant_star, sphere, status
-from curvrefl.curvrefl_addon.optics.pierce import pierce
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics import fermat, status
 from curvrefl.curvrefl_addon.optics.screen import Screen
+from curvrefl.curvrefl_addon.optics.solvers import descent, secant_star
+from curvrefl.curvrefl_addon.optics.solvers.pierce import pierce
+from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import sphere
-from curvrefl.curvrefl_addon.optics.oracle import MAXIMUM, MINIMUM, SADDLE, Oracle
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.optics.regimes import BLOCK, REGIMES, _first, make_cases
-from curvrefl.curvrefl_addon.optics.study_surfaces import STUDIES
+from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.study.solvers.oracle import MAXIMUM, MINIMUM, SADDLE, Oracle
+from curvrefl.curvrefl_addon.study.solvers.regimes import BLOCK, REGIMES, _first, make_cases
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 
 
 def test_a_hundred_thousand_cases_on_the_sphere() -> None:

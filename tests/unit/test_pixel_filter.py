@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.pixel_filter import WIDTH, offsets
+from curvrefl.curvrefl_addon.renderer.surfaces.pixel_filter import WIDTH, offsets
 
 
 def test_one_sample_looks_through_the_centre() -> None:

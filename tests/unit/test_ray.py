@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.ray import reflect_ray
-from curvrefl.curvrefl_addon.optics.sphere import reflection_points
+from curvrefl.curvrefl_addon.optics.surfaces.sphere import reflection_points
 
 
 def test_head_on_goes_back() -> None:

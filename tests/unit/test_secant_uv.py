@@ -8,11 +8,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics import secant_uv, sphere, status
-from curvrefl.curvrefl_addon.optics.cube_map import texel_directions
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Float64Array, unit
+from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.secant_uv import EllipsoidMap, ParametricSample, SampledMap, TorusSection
+from curvrefl.curvrefl_addon.optics.solvers import secant_uv
+from curvrefl.curvrefl_addon.optics.solvers.secant_uv import EllipsoidMap, ParametricSample, SampledMap, TorusSection
+from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Float64Array, unit
 
 FOCAL = 660.0
 """Pixels: 480 rows at a 40 degree view"""

@@ -7,8 +7,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid
-from curvrefl.curvrefl_addon.renderer.solid import has_no_boundary, solid_side
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
+from curvrefl.curvrefl_addon.renderer.geometry.solid import has_no_boundary, solid_side
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 from scenes.mirror_room import radial_mesh
 from scenes.star_meshes import inverted, torus, welded

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.split import has_long_edges, longest_edge, split_mesh
+from curvrefl.curvrefl_addon.renderer.geometry.split import has_long_edges, longest_edge, split_mesh
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.radial_surfaces import Bumpy, Ellipsoid
-from curvrefl.curvrefl_addon.optics.star_center import MAX_TRIANGLES, find_star_center, solid_angles
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
+from curvrefl.curvrefl_addon.optics.surfaces.star_center import MAX_TRIANGLES, find_star_center, solid_angles
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 from scenes.star_meshes import corner_block, inverted, joined, moved, star_mesh, torus
 

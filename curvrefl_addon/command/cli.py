@@ -1,0 +1,254 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: `./curvrefl VERB ...`, and `blender --command curvrefl VERB ...` once the extension is there.
+
+Results go to stdout, progress and warnings to stderr. Blender and the renderer are imported by the verbs that need
+them, so that help and usage errors come at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from typing import NoReturn
+
+from ..errors import InputError
+from ..gpu_caches import clear_gpu_caches
+from ..optics.catalogue import DEFAULT_COMPARED
+from . import verbs
+from .verbs import say
+
+DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+ALL_PEERS = "eevee,cycles1,cycles8,cycles64"
+MAX_SIDE = 8192
+"""Largest side of a picture in pixels"""
+MAX_FRAME = 1048574
+"""Blender's own limit"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a verb and return the exit code: 0 done, 2 bad input or usage, 1 a failure of ours, 130 interrupted."""
+    try:
+        return run(arguments)
+    except InputError as error:
+        say(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        say("Interrupted.")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output has left; there is nobody to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OUR_FAILURE
+    except Exception:
+        traceback.print_exc()
+        return OUR_FAILURE
+    finally:
+        clear_gpu_caches()
+
+
+def run(arguments: Sequence[str]) -> int:
+    """As `main`, but errors come out: InputError for bad input and usage, others for failures of ours."""
+    try:
+        options = _parser().parse_args(list(arguments))
+    except SystemExit as finished:
+        # argparse has printed the help.
+        return int(finished.code or 0)
+    verb: Callable[[argparse.Namespace], int] = options.run
+    return verb(options)
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message[:1].upper()}{message[1:].rstrip('.')}: see {self.prog} --help.")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="curvrefl", description="What curved mirrors reflect, true for near objects too.")
+    subparsers = parser.add_subparsers(title="verbs", metavar="VERB", required=True, parser_class=_Parser)
+
+    def verb(name: str, action: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
+        sub = subparsers.add_parser(name, help=text, description=text)
+        sub.set_defaults(run=action)
+        return sub
+
+    demo = verb("demo", verbs.demo, "Build the demo scene and compare its picture with Cycles and EEVEE.")
+    demo.add_argument("--output", default="output/demo", metavar="DIR", help="folder to write to (%(default)s)")
+
+    test = verb("test", verbs.test, "Check the source: lint, types and all tests, or one layer of tests.")
+    test.add_argument(
+        "layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named"
+    )
+
+    render = verb(
+        "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
+    )
+    _add_scene_options(render)
+    render.add_argument("--method", default="auto", metavar="M", help="how to reflect (%(default)s)")
+    render.add_argument(
+        "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
+    )
+    _add_shadow_rays(render)
+    render.add_argument(
+        "--passes",
+        default="color",
+        metavar="P[,P..]",
+        help=f"of {', '.join(verbs.PASSES)}; all but color go to NAME_PASS.exr beside the output (%(default)s)",
+    )
+    render.add_argument("--output", required=True, metavar="FILE", help=".png (as shown) or .exr (scene-linear)")
+
+    compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
+    _add_scene_options(compare)
+    compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
+    compare.add_argument(
+        "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
+    )
+    _add_shadow_rays(compare)
+    compare.add_argument(
+        "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"
+    )
+    compare.add_argument(
+        "--light",
+        default="direct",
+        metavar="L",
+        help="direct: no indirect diffuse light; full: as the scene renders in Cycles (%(default)s)",
+    )
+    compare.add_argument(
+        "--peers",
+        default="eevee,cycles1,cycles8",
+        metavar="P[,P..]",
+        help=f"of {ALL_PEERS}, or none (%(default)s)",
+    )
+    compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    chart = verb(
+        "chart", verbs.chart, "Chart time against error, of methods with all their settings, and time against vertices."
+    )
+    chart.add_argument("files", nargs="+", metavar="FILE.blend")
+    chart.add_argument(
+        "--reflector", metavar="A[,B..]", help="names of the mirror objects in all files (those marked as mirrors)"
+    )
+    chart.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
+    chart.add_argument("--method", default="all", metavar="M[,M..]", help="or all (%(default)s)")
+    chart.add_argument(
+        "--samples", type=_between(1, 65536), default=64, metavar="N", help="of the references (%(default)s)"
+    )
+    chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
+    chart.add_argument("--peers", default=ALL_PEERS, metavar="P[,P..]", help="or none (%(default)s)")
+    chart.add_argument(
+        "--vertices",
+        type=_between(1000, 10_000_000),
+        default=1_000_000,
+        metavar="N",
+        help="largest number in the chart of time against vertices (%(default)s)",
+    )
+    chart.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    stability = verb("stability", verbs.stability, "Try methods where they fail: motion, contact, caustics, any input.")
+    stability.add_argument(
+        "--vertices",
+        type=_between(10, 100_000),
+        default=400,
+        metavar="N",
+        help="per reflector and regime of the solver table (%(default)s)",
+    )
+    stability.add_argument(
+        "--fuzz",
+        type=_between(1000, 100_000_000),
+        default=1_000_000,
+        metavar="N",
+        help="random eyes, vertices and reflectors a method (%(default)s)",
+    )
+    stability.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    benchmark = verb("benchmark", verbs.benchmark, "Measure vertex solves and mirror rays per second on this device.")
+    benchmark.add_argument(
+        "--vertices",
+        type=_between(1000, 10_000_000),
+        default=10_000_000,
+        metavar="N",
+        help="largest number to solve (%(default)s)",
+    )
+    benchmark.add_argument(
+        "--triangles",
+        type=_between(1000, 10_000_000),
+        default=2_000_000,
+        metavar="N",
+        help="of the largest scene to follow rays in (%(default)s)",
+    )
+    benchmark.add_argument(
+        "--bandwidth", type=_positive, metavar="GB/s", help="of the device's memory, to compare with"
+    )
+    benchmark.add_argument("--flops", type=_positive, metavar="TFLOP/s", help="of the device in float32, likewise")
+    benchmark.add_argument(
+        "--output", default="output/benchmark", metavar="DIR", help="folder to write to (%(default)s)"
+    )
+
+    bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
+    bake.set_defaults(camera=None, frame=None, resolution=None)
+    bake.add_argument("file", metavar="FILE.blend")
+    bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
+    bake.add_argument(
+        "--resolution",
+        dest="texels",
+        type=_between(8, 2048),
+        default=128,
+        metavar="N",
+        help="texels along an edge of a map (%(default)s)",
+    )
+    bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
+    build.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
+    return parser
+
+
+def _add_scene_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", metavar="FILE.blend")
+    parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
+    parser.add_argument("--camera", metavar="C", help="name of a camera object (the scene's)")
+    parser.add_argument(
+        "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
+    )
+    parser.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
+
+
+def _add_shadow_rays(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
+    )
+
+
+def _between(least: int, most: int) -> Callable[[str], int]:
+    """An argument type: a whole number in this range."""
+
+    def number(text: str) -> int:
+        # (a dozen digits are out of any range)
+        if not re.fullmatch(r"[+-]?\d{1,12}", text) or not least <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from {least} to {most}")
+        return int(text)
+
+    return number
+
+
+def _positive(text: str) -> float:
+    """A number above zero."""
+    if not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", text) or float(text) == 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return float(text)
+
+
+def _resolution(text: str) -> tuple[int, int]:
+    """Width and height in pixels."""
+    match = re.fullmatch(r"(\d{1,9})[xX](\d{1,9})", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a resolution like 640x480")
+    width, height = int(match[1]), int(match[2])
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {MAX_SIDE} pixels a side")
+    return width, height

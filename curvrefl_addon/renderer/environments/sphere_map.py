@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sphere (disk) map: all directions in the picture of one mirror ball (McGill COMP 557, lecture 18).
+
+The ball is seen from far away along the axis from the mirror to the eye, so what lies behind the mirror is squeezed
+into the rim, all of which stands for the one direction away from the eye. The map is drawn out of an environment cube,
+and again when the axis changes.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import gpu
+
+from ....gpu_shaders.loader import load
+from ...optics.environment import axis_frame
+from ...scene.arrays import Float64Array
+from ..device.gpu_objects import drawing_state, full_screen_triangle
+
+_FRAME = ("environment_right", "environment_up", "environment_axis")
+
+
+class SphereMap:
+    """Disk maps of one axis, drawn out of cube maps."""
+
+    def __init__(self, cube: Any, axis: Float64Array, resolution: int) -> None:
+        """Draws the map of radiance.
+
+        `axis` is a unit direction (3,), world space; a map is a picture of `resolution` x `resolution` texels that the
+        disk just fits into.
+        """
+        self.axis = axis
+        self.constants = {name: tuple(row) for name, row in zip(_FRAME, axis_frame(axis).tolist(), strict=True)}
+        """Push constants of the lookup"""
+        self.radiance = _draw(cube, self.constants, resolution, linear=True)
+        self._resolution = resolution
+        self._positions: Any = None
+
+    def positions(self, cube: Any) -> Any:
+        """The map of world positions and object_ids, drawn when first asked for."""
+        if self._positions is None:
+            self._positions = _draw(cube, self.constants, self._resolution, linear=False)
+        return self._positions
+
+
+def _draw(cube: Any, constants: dict[str, tuple[float, ...]], resolution: int, linear: bool) -> Any:
+    texture = gpu.types.GPUTexture((resolution, resolution), format="RGBA32F")
+    texture.filter_mode(linear)
+    texture.extend_mode("EXTEND")
+    shader = _map_shader()
+    with drawing_state(), gpu.types.GPUFrameBuffer(color_slots=(texture,)).bind():
+        gpu.state.viewport_set(0, 0, resolution, resolution)
+        shader.bind()
+        shader.uniform_float("map_size", float(resolution))
+        for name, value in constants.items():
+            shader.uniform_float(name, value)
+        shader.uniform_sampler("environment", cube)
+        full_screen_triangle().draw(shader)
+    return texture
+
+
+@cache
+def _map_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.push_constant("FLOAT", "map_size")
+    for name in _FRAME:
+        info.push_constant("VEC3", name)
+    info.sampler(0, "FLOAT_CUBE", "environment")
+    info.vertex_source(load("common/full_screen.vert.glsl"))
+    info.fragment_source(load("environments/environment_sphere_map.frag.glsl"))
+    return gpu.shader.create_from_info(info)

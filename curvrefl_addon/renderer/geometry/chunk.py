@@ -1,0 +1,250 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Some instances of a scene as one set of triangles on the GPU: object space and matrices up, world space there.
+
+A *position* is a vertex of a placed mesh; the solver works on positions. A *corner* adds normal and UV; triangles
+index corners. On the GPU all live in record textures (see `gpu_objects`), and vertex shaders fetch them by
+gl_VertexID = corner index (`geometry.glsl`), so one set serves every pass. A compute pass (`place.comp.glsl`) makes
+the world-space records: when an instance moves, its matrix is all that is uploaded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+from numpy.typing import NDArray
+
+from ....gpu_shaders.loader import load
+from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
+from ..device.gpu_objects import dispatch, empty_record_texture, indexed_batch, padded_count, record_texture
+from .mesh_pieces import is_count
+
+HOLDOUT = -1
+"""Material index of what cuts a hole into the picture"""
+INSTANCE_RECORDS = 8
+"""Per instance: rows of the matrix, of the normals' matrix, (object_id, mirror number, 0, 0), 0; as in place.comp"""
+GROUP = 64
+MOST_RANGES = 8
+"""More moved instances than these are placed all in one dispatch"""
+
+type Batches = tuple[tuple[int, Any], ...]
+"""(material index, GPUBatch without attributes) for every material that has triangles"""
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """An instance and what is drawn for it."""
+
+    instance: InstanceArrays
+    mesh: MeshArrays
+    """As it was read"""
+    drawn: MeshArrays
+    """The same surface, its long edges split (see `split`)"""
+    pieces: NDArray[np.int8]
+    """(triangles of `drawn`,) which piece of the mesh each is in (see `mesh_pieces`)"""
+    mirror: int = 0
+    """1, 2, ... for a reflector"""
+
+
+class Chunk:
+    """GPU side of a few or many placed instances; its textures are freed with it."""
+
+    def __init__(self, placed: Sequence[Placed]) -> None:
+        """Uploads all. At least one instance."""
+        self.placed = list(placed)
+        meshes = [item.drawn for item in placed]
+        self._position_starts = _starts([len(mesh.positions) for mesh in meshes])
+        self._corner_starts = _starts([len(mesh.corner_vertex) for mesh in meshes])
+        triangle_counts = [len(mesh.triangles) for mesh in meshes]
+        self.position_count = int(self._position_starts[-1])
+        self.triangle_count = sum(triangle_counts)
+        self.triangles: Int32Array = _joined([mesh.triangles for mesh in meshes], self._corner_starts)
+        """(triangles, 3) index into corners; not to be changed, as the next two"""
+        self._triangle_instance = np.repeat(np.arange(len(meshes), dtype=np.int32), triangle_counts)
+        self.triangle_material: Int32Array = np.concatenate([_materials(item) for item in placed])
+        """(triangles,) material index"""
+        self.corner_position = _joined([mesh.corner_vertex for mesh in meshes], self._position_starts)
+        """(corners,) index into positions"""
+        self._is_count = len(meshes) == 1 and is_count(self.corner_position)
+        self._batches: dict[tuple[bytes, bool], Batches] = {}
+        self._caster_batches: dict[frozenset[tuple[int, int]], Any] = {}
+        self.revision = 0
+        """Another one when positions are not the same any more"""
+
+        corner_count = int(self._corner_starts[-1])
+        sources = np.zeros((padded_count(self.position_count), 4), np.float32)
+        corners = np.zeros((padded_count(2 * corner_count) // 2, 2, 4), np.float32)
+        corners[:corner_count, 0, 3] = self.corner_position
+        corners[:, 1, 2] = 0xFFFFFF
+        for index, mesh in enumerate(meshes):
+            here = slice(self._position_starts[index], self._position_starts[index + 1])
+            sources[here, :3] = mesh.positions
+            sources[here, 3] = index
+            here = slice(self._corner_starts[index], self._corner_starts[index + 1])
+            corners[here, 0, :3] = mesh.corner_normals
+            if mesh.corner_uv is not None:
+                corners[here, 1, :2] = mesh.corner_uv
+            if mesh.corner_color is not None:
+                corners[here, 1, 2] = pack_color(mesh.corner_color)
+        self._source_positions = record_texture(sources)
+        self._source_corners = record_texture(corners.reshape(-1, 4))
+        self.positions = empty_record_texture(self.position_count)
+        """Records (world xyz, object_id)"""
+        self.corners = empty_record_texture(2 * corner_count)
+        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed colour, mirror)"""
+        self._table = np.zeros((len(meshes), INSTANCE_RECORDS, 4), np.float32)
+        self._fill_table(range(len(meshes)))
+        self._place(((0, self.position_count, 0, corner_count),))
+
+    def move(self, changed: Mapping[int, Placed]) -> None:
+        """Replace instances by the same with another matrix, object_id or mirror number."""
+        for index, item in changed.items():
+            self.placed[index] = item
+        self.revision += 1
+        self._fill_table(changed)
+        if len(changed) > MOST_RANGES:
+            self._place(((0, self.position_count, 0, int(self._corner_starts[-1])),))
+            return
+        starts, corner_starts = self._position_starts.tolist(), self._corner_starts.tolist()
+        self._place(
+            [
+                (starts[i], starts[i + 1] - starts[i], corner_starts[i], corner_starts[i + 1] - corner_starts[i])
+                for i in changed
+            ]
+        )
+
+    def batches(self, keep: NDArray[np.bool_], holdouts: bool = False) -> Batches:
+        """Triangles of the instances that `keep` (instances,) chooses, by material.
+
+        With `holdouts`, instances that hold out get HOLDOUT as their material: the eye sees a hole there, a mirror
+        sees the object.
+        """
+        held = np.array([item.instance.holdout for item in self.placed]) if holdouts else np.zeros(len(keep), bool)
+        holdouts = bool((held & keep).any())
+        key = (keep.tobytes(), holdouts)
+        if key not in self._batches:
+            material = self.triangle_material
+            if holdouts:
+                material = np.where(held[self._triangle_instance], HOLDOUT, material)
+            triangles = self.triangles
+            if not keep.all():
+                chosen = keep[self._triangle_instance]
+                triangles, material = triangles[chosen], material[chosen]
+            self._batches[key] = by_material(triangles, material)
+        return self._batches[key]
+
+    def casters(self, idle: frozenset[tuple[int, int]]) -> Any:
+        """GPUBatch, indices into positions, of the triangles that cast shadows; None where there are none.
+
+        `idle` has pairs (index of an instance, piece) that are left out.
+        """
+        if idle not in self._caster_batches:
+            casts = np.array([item.instance.visible_shadow for item in self.placed])
+            if not idle and casts.all() and self._is_count:
+                # Corners are the positions: what is seen whole serves.
+                whole = self.batches(casts)
+                if len(whole) == 1:
+                    self._caster_batches[idle] = whole[0][1]
+                    return whole[0][1]
+            chosen = casts[self._triangle_instance]
+            for index, piece in idle:
+                pieces = self.placed[index].pieces
+                start = int(np.searchsorted(self._triangle_instance, index))
+                chosen[start : start + len(pieces)] &= pieces != piece
+            triangles = self.triangles if chosen.all() else self.triangles[chosen]
+            batch = indexed_batch(self.corner_position[triangles]) if len(triangles) else None
+            self._caster_batches[idle] = batch
+        return self._caster_batches[idle]
+
+    def _fill_table(self, indices: Sequence[int] | Mapping[int, Placed] | range) -> None:
+        rows = list(indices)
+        matrices = np.array([self.placed[index].instance.matrix for index in rows])
+        self._table[rows, :3] = matrices[:, :3]
+        # (M^-1)^T, for row vectors of normals n M^-1
+        self._table[rows, 3:6, :3] = np.linalg.inv(matrices[:, :3, :3]).transpose(0, 2, 1)
+        self._table[rows, 6, 0] = [self.placed[index].instance.object_id for index in rows]
+        self._table[rows, 6, 1] = [self.placed[index].mirror for index in rows]
+
+    def place_points(self, sources: Any, count: int) -> Any:
+        """World-space records of other points of the same instances: `sources` has (object xyz, index of instance)."""
+        points = empty_record_texture(count)
+        self._place(((0, count, 0, 0),), sources, points)
+        return points
+
+    def _place(self, ranges: Sequence[tuple[int, int, int, int]], sources: Any = None, positions: Any = None) -> None:
+        """Run the compute pass over (first position, positions, first corner, corners)."""
+        table = record_texture(self._table.reshape(-1, 4))
+        shader = _place_shader()
+        shader.bind()
+        shader.uniform_sampler("source_positions", sources or self._source_positions)
+        shader.uniform_sampler("source_corners", self._source_corners)
+        shader.uniform_sampler("instances", table)
+        shader.image("positions", positions or self.positions)
+        shader.image("corners", self.corners)
+        for numbers in ranges:
+            shader.uniform_int("range", numbers)
+            dispatch(shader, max(numbers[1], numbers[3]), GROUP)
+
+
+def _starts(counts: list[int]) -> NDArray[np.int64]:
+    return np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
+
+
+def _joined(indices: list[Int32Array], starts: NDArray[np.int64]) -> Int32Array:
+    """Indices into joined arrays, those of the first as they are."""
+    if len(indices) == 1:
+        return indices[0]
+    return np.concatenate([part + np.int32(start) for part, start in zip(indices, starts, strict=False)])
+
+
+def _materials(item: Placed) -> Int32Array:
+    """(triangles,) material index."""
+    materials = np.asarray(item.instance.materials, np.int32)
+    if len(materials) == 1:
+        return np.full(len(item.drawn.triangles), materials[0], np.int32)
+    return materials[np.minimum(item.drawn.triangle_slot, len(materials) - 1)]
+
+
+def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
+    """Batches of triangles (n, 3), whose materials are (n,)."""
+    if len(triangles) == 0:
+        return ()
+    if (material == material[0]).all():
+        return ((int(material[0]), indexed_batch(triangles)),)
+    order = np.argsort(material, kind="stable")
+    materials, starts = np.unique(material[order], return_index=True)
+    groups = np.split(order, starts[1:])
+    return tuple(
+        (int(number), indexed_batch(triangles[group])) for number, group in zip(materials, groups, strict=True)
+    )
+
+
+def unpack_color(packed: Float32Array) -> Float32Array:
+    """(n, 3) scene-linear colours of what `pack_color` has packed (n,)."""
+    levels = np.rint(packed).astype(np.int32)
+    root = np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]).astype(np.float32) / np.float32(255.0)
+    return root * root
+
+
+def pack_color(color: Float32Array) -> Float32Array:
+    """24-bit colour in a float (exact up to 2^24): vertex colours are smooth, 8 bits of their square root suffice."""
+    levels = np.rint(np.sqrt(np.clip(color[:, :3], 0.0, 1.0)) * 255.0).astype(np.int32)
+    return (levels[:, 0] + 256 * levels[:, 1] + 65536 * levels[:, 2]).astype(np.float32)
+
+
+@cache
+def _place_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.push_constant("IVEC4", "range")
+    for slot, name in enumerate(("source_positions", "source_corners", "instances")):
+        info.sampler(slot, "FLOAT_2D", name)
+    info.image(0, "RGBA32F", "FLOAT_2D", "positions", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "corners", qualifiers={"WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load("surfaces/place.comp.glsl"))
+    return gpu.shader.create_from_info(info)

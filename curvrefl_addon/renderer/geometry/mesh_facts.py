@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is worth knowing of a mesh whatever its placement, found once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+
+from ...scene.arrays import Float32Array, MeshArrays
+from .convexity import is_convex
+from .mesh_inside import is_closed
+from .mesh_pieces import MeshPieces, box_of, mesh_pieces
+from .solid import solid_side
+from .split import longest_edge
+
+
+class MeshFacts:
+    """Object space; each found when first asked for."""
+
+    def __init__(self, mesh: MeshArrays) -> None:
+        self.mesh = mesh
+
+    @cached_property
+    def box(self) -> tuple[Float32Array, Float32Array]:
+        """Lowest and highest corner (3,) of the box around the mesh."""
+        return box_of(self.mesh.positions)
+
+    @cached_property
+    def longest_edge(self) -> float:
+        return longest_edge(self.mesh)
+
+    @cached_property
+    def is_convex(self) -> bool:
+        return is_convex(self.mesh)
+
+    @cached_property
+    def is_closed(self) -> bool:
+        return is_closed(self.mesh)
+
+    @property
+    def never_sees_itself(self) -> bool:
+        """As a mirror."""
+        return self.is_convex and self.is_closed
+
+    @cached_property
+    def solid_side(self) -> int:
+        """See `solid.solid_side`."""
+        return solid_side(self.mesh)
+
+    @cached_property
+    def pieces(self) -> MeshPieces:
+        """Planes on its hull and outlines, for shadow maps."""
+        return mesh_pieces(self.mesh)
+
+
+class MeshFactsCache:
+    """By identity: arrays are frozen, an edited mesh is another one."""
+
+    def __init__(self) -> None:
+        self._facts: dict[int, MeshFacts] = {}
+
+    def of(self, mesh: MeshArrays) -> MeshFacts:
+        facts = self._facts.get(id(mesh))
+        if facts is None:
+            facts = self._facts[id(mesh)] = MeshFacts(mesh)
+        return facts
+
+    def keep(self, meshes: Iterable[MeshArrays]) -> None:
+        """Forget all others."""
+        kept = {id(mesh) for mesh in meshes}
+        self._facts = {key: facts for key, facts in self._facts.items() if key in kept}

@@ -1,0 +1,405 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All instances of a scene on the GPU, kept up to date with the least work.
+
+Instances lie in chunks. One that moves has its matrix uploaded; only a chunk whose meshes, materials or members change
+is built again. Each reflector is a chunk of its own, and what mirrors do not see lies apart from what they do, so that
+the scenery of a mirror is a list of whole chunks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from ...scene.view import View
+from .chunk import Batches, Chunk, Placed
+from .mesh_facts import MeshFactsCache
+from .split import has_long_edges, split_mesh
+
+CHUNK_TRIANGLES = 1 << 16
+"""A chunk takes no more instances when it has so many: small enough to build again while something is edited, large
+enough that a scene has few"""
+SLACK = 0.8
+"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
+CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
+"""(8, 3) which end of a box each of its corners has"""
+TOO_FINE = 3.9
+"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """How finely a mirror needs its scenery split (see `split`)."""
+
+    center: tuple[float, float, float]
+    """Star centre, world space"""
+    angle: float
+    own: int
+    """Index of the mirror's instance"""
+
+
+@dataclass(slots=True)
+class Difference:
+    """What an update changed."""
+
+    moved: list[int] = field(default_factory=list)
+    """Indices of instances whose matrices changed, unless `structure`"""
+    structure: bool = False
+    """Instances came, went or changed in more than their matrices"""
+
+
+class SceneGeometry:
+    """Chunks of one scene."""
+
+    def __init__(self) -> None:
+        self.chunks: list[Chunk] = []
+        self.facts = MeshFactsCache()
+        self.placed: list[Placed] = []
+        """As the scene's instances"""
+        self.counters = {"chunks built": 0, "instances placed": 0, "meshes split": 0}
+        self.revision = 0
+        """Another one when chunks are not the same any more"""
+        self._boxes: dict[int, Float64Array] = {}
+        """By a chunk's id, (8, 4) homogeneous corners of a box around it, world space"""
+        self._sceneries: dict[int, list[tuple[Chunk, Batches]]] = {}
+        """By the mirror's instance; of this revision, as the next"""
+        self._seen: list[tuple[Chunk, Batches]] | None = None
+        self._where: list[tuple[Chunk, int] | None] = []
+        self._angles: list[float] = []
+        """Per instance the angle it is split with, endless where it is not"""
+        self._sights: tuple[Sight, ...] = ()
+        self._unchecked: set[int] = set()
+
+    def update(self, scene: SceneArrays, mirrors: Mapping[int, int]) -> Difference:
+        """Follow the scene; `mirrors` numbers reflectors (1, 2, ...) by the index of their instance."""
+        old = self._matched(scene.instances)
+        known = [None if before is None else self.placed[before] for before in old]
+        difference = Difference(structure=old != list(range(len(self.placed))))
+        numbers = [0] * len(old)
+        for index, number in mirrors.items():
+            numbers[index] = number
+        meshes = scene.meshes
+        changed = [
+            index
+            for index, (item, instance, number) in enumerate(zip(known, scene.instances, numbers, strict=True))
+            if item is None
+            or item.instance is not instance
+            or item.mirror != number
+            or item.mesh is not meshes[instance.mesh]
+        ]
+        dirty: list[int] = []
+        for index in changed:
+            item, instance, number = known[index], scene.instances[index], numbers[index]
+            mesh = meshes[instance.mesh]
+            if item is not None and item.mesh is mesh and _differs_in_place_only(item, instance, number):
+                known[index] = replace(item, instance=instance, mirror=number)
+                difference.moved.append(index)
+                continue
+            dirty.append(index)
+            if item is not None and item.mesh is mesh:
+                known[index] = Placed(instance, mesh, item.drawn, item.pieces, number)
+            else:
+                known[index] = Placed(instance, mesh, mesh, self.facts.of(mesh).pieces.triangle_piece, number)
+        placed = [item for item in known if item is not None]
+        if not difference.structure and not dirty:
+            self.placed = placed
+            self._unchecked.update(difference.moved)
+            self._move(difference.moved)
+            return difference
+        difference.structure = True
+        where = [None if before is None else self._where[before] for before in old]
+        self._angles = [
+            np.inf if before is None or item.drawn is item.mesh else self._angles[before]
+            for item, before in zip(placed, old, strict=True)
+        ]
+        gone = set(range(len(self.placed))) - {before for before in old if before is not None}
+        stale = {id(found[0]) for index in gone if (found := self._where[index]) is not None}
+        self.placed, self._where = placed, where
+        self._unchecked = set(range(len(placed)))
+        self._move(difference.moved)
+        self._build(dirty, stale)
+        self.facts.keep([mesh for item in placed for mesh in (item.mesh, item.drawn)])
+        return difference
+
+    def refine(self, sights: Sequence[Sight]) -> None:
+        """Split what mirrors need finer than it is: of what changed since the last call, or all for other sights."""
+        if tuple(sights) != self._sights:
+            self._unchecked = set(range(len(self.placed)))
+            self._sights = tuple(sights)
+        chosen = np.array(sorted(self._unchecked), np.int64)
+        self._unchecked.clear()
+        if len(chosen) == 0 or not sights:
+            return
+        coarse = np.stack([self._may_be_coarse(sight, chosen) for sight in sights], axis=1)
+        finest = min(sight.angle for sight in sights)
+        dirty = []
+        for row in np.flatnonzero(coarse.any(axis=1)):
+            index = int(chosen[row])
+            needed = [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
+            if self._split(index, needed, finest):
+                dirty.append(index)
+        self._build(dirty, set())
+
+    def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
+        """All that a mirror, the instance `own`, may show."""
+        if own not in self._sceneries:
+            itself = self._where[own]
+            assert itself is not None
+            self._sceneries[own] = [
+                (chunk, chunk.batches(np.ones(len(chunk.placed), bool)))
+                for chunk in self.chunks
+                if chunk is not itself[0] and chunk.placed[0].instance.visible_glossy
+            ]
+        return self._sceneries[own]
+
+    def hidden_faces(self, chunk: Chunk, view: View) -> str:
+        """Which faces the eye cannot see for sure: 'BACK', 'FRONT' (of what is inside out) or 'NONE'.
+
+        Of mirrors only, whose many triangles are worth it: closed ones that lie wholly before the eye.
+        """
+        if len(chunk.placed) > 1 or not chunk.placed[0].mirror:
+            return "NONE"
+        item = chunk.placed[0]
+        clip = self._box(chunk) @ view.world_to_clip.T
+        if (clip[:, 2] <= -clip[:, 3]).any() or (clip[:, 3] <= 0.0).any():
+            return "NONE"
+        side = self.facts.of(item.drawn).solid_side * np.sign(np.linalg.det(item.instance.matrix[:3, :3]))
+        return ("NONE", "BACK", "FRONT")[int(side)]
+
+    def may_be_in(self, chunk: Chunk, world_to_clip: Float64Array) -> bool:
+        """False where a chunk is outside of the view volume of a matrix (4, 4) for sure."""
+        clip = self._box(chunk) @ world_to_clip.T
+        beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
+        return not (beyond.all(axis=0).any() or before.all(axis=0).any())
+
+    def _box(self, chunk: Chunk) -> Float64Array:
+        """(8, 4) homogeneous corners of a box around a chunk, world space."""
+        box = self._boxes.get(id(chunk))
+        if box is None:
+            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
+            low, high = corners.min(axis=0), corners.max(axis=0)
+            box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
+        return box
+
+    def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
+        """Centres (n, 3) and radii (n,) of balls around chunks, world space."""
+        boxes = np.array([self._box(chunk)[:, :3] for chunk in chunks]).reshape(-1, 8, 3)
+        low, high = boxes.min(axis=1), boxes.max(axis=1)
+        return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
+
+    def seen(self, view: View) -> list[tuple[Chunk, Batches]]:
+        """All that the eye may see directly."""
+        if self._seen is None:
+            self._seen = []
+            for chunk in self.chunks:
+                keep = np.array([item.instance.visible_camera for item in chunk.placed])
+                if batches := chunk.batches(keep, holdouts=True):
+                    self._seen.append((chunk, batches))
+        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_clip)]
+
+    def of_instance(self, index: int) -> tuple[Chunk, Batches]:
+        """A reflector's own chunk."""
+        found = self._where[index]
+        assert found is not None and len(found[0].placed) == 1, "a reflector is a chunk of its own"
+        return found[0], found[0].batches(np.ones(1, bool))
+
+    def place_of(self, index: int) -> tuple[Chunk, int]:
+        """Chunk of an instance and its index there."""
+        found = self._where[index]
+        assert found is not None
+        return found
+
+    def balls(self, indices: NDArray[np.int64] | None = None) -> tuple[Float64Array, Float64Array]:
+        """Centres (n, 3) and radii (n,) of balls around instances, world space."""
+        chosen = range(len(self.placed)) if indices is None else indices
+        if len(chosen) == 0:
+            return np.zeros((0, 3)), np.zeros(0)
+        boxes = np.array([self.facts.of(self.placed[index].mesh).box for index in chosen], np.float64)
+        matrices = np.array([self.placed[index].instance.matrix for index in chosen])
+        middle = boxes.mean(axis=1)
+        centers = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
+        return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * _stretches(matrices)
+
+    def longest_edge(self, chunk: Chunk) -> float:
+        """Of the triangles drawn for a chunk, world space, or a little more; metres."""
+        matrices = np.array([item.instance.matrix for item in chunk.placed])
+        lengths = np.array([self.facts.of(item.drawn).longest_edge for item in chunk.placed])
+        return float((lengths * _stretches(matrices)).max())
+
+    def box_corners(self, indices: Sequence[int]) -> Float64Array:
+        """(8 n, 3) corners of the boxes around instances, world space."""
+        items = [self.placed[index] for index in indices]
+        return _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
+
+    def _matched(self, instances: Sequence[InstanceArrays]) -> list[int | None]:
+        """For each instance the index of the one it was before."""
+        if len(self.placed) == len(instances):
+            differ = [item.instance is not new for item, new in zip(self.placed, instances, strict=True)]
+            if not any(differ) or all(
+                self.placed[index].instance.object_id == instances[index].object_id
+                for index in np.flatnonzero(differ).tolist()
+            ):
+                return list(range(len(instances)))
+        before = {key: index for index, key in enumerate(_keys(item.instance for item in self.placed))}
+        return [before.get(key) for key in _keys(instances)]
+
+    def _move(self, moved: Iterable[int]) -> None:
+        changed: dict[int, tuple[Chunk, dict[int, Placed]]] = {}
+        for index in moved:
+            found = self._where[index]
+            assert found is not None
+            changed.setdefault(id(found[0]), (found[0], {}))[1][found[1]] = self.placed[index]
+            self.counters["instances placed"] += 1
+        for chunk, items in changed.values():
+            chunk.move(items)
+            self._grow_box(chunk, list(items.values()))
+
+    def _grow_box(self, chunk: Chunk, moved: Sequence[Placed]) -> None:
+        """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
+        box = self._boxes.get(id(chunk))
+        if box is not None:
+            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
+            low = np.minimum(box[:, :3].min(axis=0), corners.min(axis=0))
+            high = np.maximum(box[:, :3].max(axis=0), corners.max(axis=0))
+            self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
+
+    def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
+        """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
+        dirty = set(dirty)
+        stale = stale | {id(found[0]) for index in dirty if (found := self._where[index]) is not None}
+        if not dirty and not stale:
+            return
+        self.revision += 1
+        self._boxes.clear()
+        self._sceneries.clear()
+        self._seen = None
+        self.chunks = [chunk for chunk in self.chunks if id(chunk) not in stale]
+        loose = [index for index, found in enumerate(self._where) if found is None or id(found[0]) in stale]
+        for kind in {self._kind(index) for index in loose}:
+            self._pack([index for index in loose if self._kind(index) == kind], kind)
+
+    def _kind(self, index: int) -> tuple[int, bool]:
+        """What may share a chunk."""
+        item = self.placed[index]
+        return (index + 1 if item.mirror else 0, item.instance.visible_glossy)
+
+    def _pack(self, indices: list[int], kind: tuple[int, bool]) -> None:
+        """Put instances of one kind into new chunks, with those of a chunk that is half empty."""
+        wanted = sum(len(self.placed[index].drawn.triangles) for index in indices)
+        members: dict[int, list[int]] = {}
+        for index, found in enumerate(self._where):
+            if found is not None and index not in indices and self._kind(index) == kind:
+                members.setdefault(id(found[0]), []).append(index)
+        for chunk in list(self.chunks):
+            if id(chunk) in members and chunk.triangle_count + wanted <= CHUNK_TRIANGLES:
+                self.chunks.remove(chunk)
+                indices = sorted(indices + members[id(chunk)])
+                break
+        group: list[int] = []
+        size = 0
+        for index in indices:
+            group.append(index)
+            size += len(self.placed[index].drawn.triangles)
+            if size >= CHUNK_TRIANGLES:
+                self._add_chunk(group)
+                group, size = [], 0
+        if group:
+            self._add_chunk(group)
+
+    def _add_chunk(self, indices: list[int]) -> None:
+        chunk = Chunk([self.placed[index] for index in indices])
+        self.chunks.append(chunk)
+        for local, index in enumerate(indices):
+            self._where[index] = (chunk, local)
+        self.counters["chunks built"] += 1
+
+    def _may_be_coarse(self, sight: Sight, chosen: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which may have an edge that is too long for a mirror, or are far too fine: by balls and longest edges."""
+        centers, radii = self.balls(chosen)
+        matrices = np.array([self.placed[index].instance.matrix for index in chosen])
+        edges = np.array([self.facts.of(self.placed[index].drawn).longest_edge for index in chosen])
+        nearest = np.maximum(np.linalg.norm(centers - sight.center, axis=1) - radii, 0.0)
+        coarse = edges * _stretches(matrices) > sight.angle * nearest
+        fine = np.array([self._angles[index] for index in chosen]) * TOO_FINE < sight.angle
+        shown = np.array([index != sight.own and self.placed[index].instance.visible_glossy for index in chosen])
+        return (coarse | fine) & shown
+
+    def _split(self, index: int, sights: Sequence[Sight], finest: float) -> bool:
+        """Split an instance for these mirrors; False where it is fine as it is."""
+        item = self.placed[index]
+        if self._angles[index] * TOO_FINE >= finest and not any(
+            has_long_edges(item.drawn, _relative(item.drawn, item.instance, sight), sight.angle) for sight in sights
+        ):
+            return False
+        slack = 1.0 if item.drawn is item.mesh else SLACK
+        drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
+        for sight in sights:
+            drawn, rows = split_mesh(drawn, _relative(drawn, item.instance, sight), slack * sight.angle)
+            parents = parents[rows]
+        pieces = self.facts.of(item.mesh).pieces.triangle_piece
+        self.placed[index] = replace(item, drawn=drawn, pieces=pieces[parents])
+        self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)
+        self.counters["meshes split"] += 1
+        return drawn is not item.drawn
+
+
+def _box_corners(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float64Array]]) -> Float64Array:
+    """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
+    ends = np.array([box for box, _ in boxes], np.float64)
+    matrices = np.array([matrix for _, matrix in boxes])
+    corners = np.stack([ends[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
+    return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
+
+
+def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
+    """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
+    sizes = [
+        32 * len(mesh.positions) + 64 * len(mesh.corner_vertex) + 24 * len(mesh.triangles) for mesh in scene.meshes
+    ]
+    total = sum(sizes[instance.mesh] for instance in scene.instances)
+    if with_rays:
+        used = [scene.meshes[index] for index in {instance.mesh for instance in scene.instances}]
+        # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
+        total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
+    return total
+
+
+def _relative(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
+    """(vertices, 3) in world axes about the star centre."""
+    shift = instance.matrix[:3, 3] - np.array(sight.center)
+    return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
+
+
+def _stretches(matrices: Float64Array) -> Float64Array:
+    """(n,) the most that matrices (n, 4, 4) lengthen anything, or a little more; exact without shear."""
+    linear = matrices[:, :3, :3]
+    squared = np.abs(np.einsum("nki,nkj->nij", linear, linear))
+    return np.sqrt(squared.sum(axis=2).max(axis=1))
+
+
+def _keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:
+    """(object_id, which of the object's instances) of each."""
+    counts: dict[int, int] = {}
+    keys = []
+    for instance in instances:
+        number = counts.get(instance.object_id, 0)
+        counts[instance.object_id] = number + 1
+        keys.append((instance.object_id, number))
+    return keys
+
+
+def _differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) -> bool:
+    old = known.instance
+    return (
+        bool(known.mirror) == bool(number)
+        and old.materials == instance.materials
+        and old.visible_camera == instance.visible_camera
+        and old.visible_glossy == instance.visible_glossy
+        and old.visible_shadow == instance.visible_shadow
+        and old.holdout == instance.holdout
+    )

@@ -1,0 +1,126 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of the GGX microfacet lobe.
+
+The lobe is Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), with the height-correlated
+Smith term; its albedo is the mean of G2 / G1 over visible normals (Heitz, "Sampling the GGX Distribution of Visible
+Normals", JCGT 2018).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ...scene.arrays import Float32Array, Float64Array
+
+TABLE_SIZE = 32
+"""Steps of roughness and of the viewer's cosine, both 0..1; as GGX_TABLE_SIZE in ggx.glsl"""
+IOR_SLICES = 16
+"""Steps of sqrt((ior - 1) / (ior + 1)), 0..1; as GGX_IOR_SLICES in ggx.glsl"""
+
+
+TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
+"""`integrate_ggx()` in half precision, by tools/make_ggx_table.py: integrating would take seconds of every start"""
+
+
+@cache
+def ggx_table() -> Float32Array:
+    """The table of `integrate_ggx`, as stored."""
+    return np.load(TABLE_FILE).astype(np.float32)
+
+
+def integrate_ggx(strata: int = 96) -> Float32Array:
+    """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): rows roughness, columns the viewer's cosine, once per slice.
+
+    x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
+    (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
+    The slice after the last describes the lobe: x: cosine between its mean direction and the normal; y: roughness of
+    the lobe about its own normal, seen along it, that is spread as much; z, w: the same of a dielectric's lobe
+    (IOR 1.5), whose Fresnel term draws it to the rim.
+    `strata` squared is the number of sampled normals per entry.
+    """
+    roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
+    cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
+    table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
+    iors = _slice_iors()
+    for row, rough in enumerate(roughness):
+        weight, cos_difference, light = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
+        albedo = weight.mean(axis=1)
+        table[row, :, :, 0] = albedo
+        total = np.maximum(weight.sum(axis=1), 1e-9)
+        for index, ior in enumerate(iors):
+            f0 = ((ior - 1.0) / (ior + 1.0)) ** 2
+            share = np.maximum((fresnel_dielectric(cos_difference, ior) - f0) / (1.0 - f0), 0.0)
+            table[row, index, :, 2] = (weight * share).sum(axis=1) / total
+        table[row, :, :, 1] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
+        table[row, :-2, :, 3] = table[row, 1:-1, :, 2]
+        for channel, part in ((0, weight), (2, weight * fresnel_dielectric(cos_difference, 1.5))):
+            mean = (part[..., None] * light).sum(axis=1) / np.maximum(part.sum(axis=1), 1e-9)[:, None]
+            lengths = np.linalg.norm(mean, axis=1)
+            table[row, -1, :, channel] = mean[:, 2] / lengths
+            table[row, -1, :, channel + 1] = lengths
+    own_lobes = _own_lobe_lengths(roughness)
+    table[:, -1, :, 1::2] = np.interp(-table[:, -1, :, 1::2], -own_lobes, roughness)
+    return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
+
+
+def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
+    """Unpolarised reflectance of a smooth dielectric, `ior` >= 1."""
+    g = np.sqrt(np.maximum(ior * ior - 1.0 + cosine * cosine, 1e-12))
+    a = (g - cosine) / (g + cosine)
+    b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0)
+    return 0.5 * a * a * (1.0 + b * b)
+
+
+def _slice_iors() -> list[float]:
+    squares = np.minimum(np.linspace(0.0, 1.0, IOR_SLICES), 0.99) ** 2
+    return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
+
+
+def own_lobe(cosine: np.ndarray, roughness: float) -> np.ndarray:
+    """The lobe about its own normal seen along it, up to a factor, at these cosines to it; float32 stays float32."""
+    alpha2 = cosine.dtype.type(max(roughness, 0.02) ** 4)
+    above = np.maximum(cosine, 0.0)
+    spread = cosine * (0.5 * (alpha2 - 1.0)) + 0.5 * (alpha2 + 1.0)
+    return above / ((above + np.sqrt(above * above * (1.0 - alpha2) + alpha2)) * spread * spread)
+
+
+def _own_lobe_lengths(roughness: Float64Array) -> Float64Array:
+    """Length of the mean direction of `own_lobe`, per roughness."""
+    cosine = np.cos(0.5 * np.pi * np.linspace(0.0, 1.0, 4097) ** 3)
+    lobes = [own_lobe(cosine, float(rough)) for rough in roughness]
+    return np.array([np.trapezoid(lobe * cosine, cosine) / np.trapezoid(lobe, cosine) for lobe in lobes])
+
+
+def _sample_lobe(alpha: float, cosine: Float64Array, strata: int) -> tuple[Float64Array, Float64Array, Float64Array]:
+    """Over visible normals, (cosines, strata^2): weights G2 / G1, cosines between viewer and microfacet, and (.., 3)
+    the directions to the light in the frame where the viewer is at (sine, 0, cosine)."""
+    steps = (np.arange(strata) + 0.5) / strata
+    u1, u2 = (a.ravel()[None, :] for a in np.meshgrid(steps, steps, indexing="ij"))
+    view = np.stack([np.sqrt(1.0 - cosine**2), np.zeros_like(cosine), cosine], axis=1)
+    stretched = view * np.array([alpha, alpha, 1.0])
+    stretched /= np.linalg.norm(stretched, axis=1, keepdims=True)
+    x, z = stretched[:, 0:1], stretched[:, 2:3]
+    radius, phi = np.sqrt(u1), 2.0 * np.pi * u2
+    t1 = radius * np.cos(phi)  # the tangent frame of a viewer in the xz plane: y, and the cross product of both
+    t2 = radius * np.sin(phi)
+    s = 0.5 * (1.0 + z)
+    t2 = (1.0 - s) * np.sqrt(np.maximum(1.0 - t1**2, 0.0)) + s * t2
+    t3 = np.sqrt(np.maximum(1.0 - t1**2 - t2**2, 0.0))
+    normal = np.stack(np.broadcast_arrays(alpha * (-z * t2 + x * t3), alpha * t1, np.maximum(x * t2 + z * t3, 1e-9)))
+    normal /= np.linalg.norm(normal, axis=0)
+    cos_difference = np.clip(normal[0] * view[:, 0:1] + normal[2] * view[:, 2:3], 0.0, 1.0)
+    light = 2.0 * cos_difference[..., None] * np.moveaxis(normal, 0, -1) - view[:, None, :]
+    light_z = light[..., 2]
+    lambda_view = _smith_lambda(alpha, view[:, 2:3])
+    lambda_light = _smith_lambda(alpha, np.maximum(light_z, 1e-9))
+    weight = np.where(light_z > 0.0, (1.0 + lambda_view) / (1.0 + lambda_view + lambda_light), 0.0)
+    return weight, cos_difference, light
+
+
+def _smith_lambda(alpha: float, cosine: Float64Array) -> Float64Array:
+    tangent2 = 1.0 / cosine**2 - 1.0
+    return 0.5 * (np.sqrt(1.0 + alpha * alpha * tangent2) - 1.0)

@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lamps as the shader needs them: one point on each lamp per sub-frame, in Blender's units. Pure numpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...scene.arrays import Float64Array, LightArrays
+
+LAMP_RECORDS = 12
+"""vec4 records per lamp, as in lamps.glsl"""
+MAX_LAMPS = 32
+"""Uniform blocks hold 16 KiB everywhere"""
+SPOT, SUN, AREA, POINT = 1, 2, 3, 0
+KINDS = {"POINT": POINT, "SPOT": SPOT, "SUN": SUN, "AREA": AREA}
+
+
+@dataclass(frozen=True, slots=True)
+class LampSample:
+    """One point (homogeneous, w = 0: direction to the sun) of a lamp."""
+
+    place: Float64Array
+
+
+def is_soft(light: LightArrays) -> bool:
+    """Whether the lamp has an extent, so that its shadow has a half-shadow."""
+    if light.kind == "SUN":
+        return light.angle > 0.0
+    if light.kind == "AREA":
+        return max(light.size) > 0.0
+    return light.radius > 0.0
+
+
+def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
+    """(count, 4) homogeneous points spread evenly over the lamp; its middle for a count of 1 or a hard lamp.
+
+    Balls are sampled so that they look like an even disk from every side, as Cycles' soft-falloff lamps.
+    """
+    matrix = light.matrix
+    x, y, back, centre = (matrix[:3, k] for k in range(4))
+    weight = 0.0 if light.kind == "SUN" else 1.0
+    if count == 1 or not is_soft(light):
+        middle = back if light.kind == "SUN" else centre
+        return np.tile(np.append(middle, weight), (1, 1))
+    # half of the points; the rest lie opposite
+    half = (count + 1) // 2
+    u, v = (np.arange(half) + 0.5) / half, _half_sequence(half, seed)
+    if light.kind == "AREA" and not light.ellipse:
+        offsets = 0.5 * np.column_stack([u - 1.0, 2.0 * v - 1.0]) * light.size @ np.stack([x, y])
+    elif light.kind == "AREA":
+        offsets = 0.5 * _half_disk(u, v) * light.size @ np.stack([x, y])
+    elif light.kind == "SUN":
+        offsets = np.tan(0.5 * min(light.angle, 3.1)) * _half_disk(u, v) @ np.stack([x, y])
+        centre = back
+    else:
+        offsets = light.radius * _half_ball(u, v)
+    offsets = np.stack([offsets, -offsets], axis=1).reshape(-1, 3)[:count]
+    places = centre + offsets
+    if light.kind == "SUN":
+        places /= np.linalg.norm(places, axis=1, keepdims=True)
+    return np.column_stack([places, np.full(count, weight)])
+
+
+def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Float64Array:
+    """(LAMP_RECORDS, 4) of a lamp lit from `place`; the shadow's records stay 0 (filled by Lighting).
+
+    `spacing`: how many samples share the lamp's extent, for the width of highlights.
+    """
+    records = np.zeros((LAMP_RECORDS, 4))
+    matrix = light.matrix
+    x, y, back, centre = (matrix[:3, k] for k in range(4))
+    color = np.asarray(light.color, np.float64)
+    kind = KINDS[light.kind]
+    extent = light.radius
+    records[0] = [*place[:3], kind]
+    records[2] = [*(back if kind == SUN else centre), light.radius]
+    records[3, :3] = -back
+    records[4, :3], records[5, :3] = x, y
+    records[5, 3] = float(light.visible_glossy)
+    if kind == SUN:
+        half = 0.5 * light.angle
+        # the whole sun gives `color` to a plane that faces its middle
+        records[1, :3] = color * 2.0 / (1.0 + np.cos(half))
+        if half > 0.0:
+            records[6, :3] = color / (np.pi * np.sin(half) ** 2)
+        records[3, 3] = np.cos(half)
+        extent = np.sin(half)
+    elif kind == AREA:
+        area = light.size[0] * light.size[1] * (np.pi / 4.0 if light.ellipse else 1.0)
+        records[1, :3] = color / np.pi  # radiance times area
+        if area > 0.0:
+            records[6, :3] = color / (np.pi * area)
+        records[4, :3] *= 0.5 * light.size[0]
+        records[5, :3] *= 0.5 * light.size[1]
+        records[4, 3] = float(light.ellipse)
+        records[2, 3] = np.sqrt(area / np.pi)
+        extent = records[2, 3]
+    else:
+        records[1, :3] = color / (4.0 * np.pi)  # radiant intensity
+        if light.radius > 0.0:
+            records[6, :3] = records[1, :3] / (np.pi * light.radius**2)
+        if kind == SPOT:
+            edge = np.cos(0.5 * light.spot_angle)
+            records[3, 3] = edge
+            records[4, 3] = 1.0 / max((1.0 - edge) * light.spot_blend, 1e-5)
+    records[1, 3] = extent / np.sqrt(spacing)
+    return records
+
+
+def _half_sequence(count: int, seed: int) -> Float64Array:
+    """(count,) van der Corput's sequence, shifted by `seed`; off 0 so that 1 minus it interleaves."""
+    sequence = np.zeros(count)
+    weight, rest = 0.5, np.arange(count)
+    while np.any(rest > 0):
+        sequence += weight * (rest & 1)
+        rest >>= 1
+        weight *= 0.5
+    return (sequence + 0.25 / count + 0.5698402910 * seed) % 1.0
+
+
+def _half_disk(u: Float64Array, v: Float64Array) -> Float64Array:
+    """(n, 2) points of one half of the unit disk."""
+    radius, turn = np.sqrt(u), np.pi * v
+    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
+
+
+def _half_ball(u: Float64Array, v: Float64Array) -> Float64Array:
+    """(n, 3) points of one half of the unit ball, density 1 / sqrt(1 - r^2): along any axis an even disk."""
+    radii = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, 257))
+    share = (np.arcsin(radii) - radii * np.sqrt(1.0 - radii**2)) * 2.0 / np.pi
+    height, turn = 1.0 - 2.0 * u, np.pi * v
+    sine = np.sqrt(np.maximum(1.0 - height**2, 0.0))
+    # the radii, one from each of as many equal shares, in an order unlike that of the directions
+    count = len(u)
+    radius = np.interp(((np.arange(count) * 5) % count + 0.5) / count, share, radii)
+    return np.column_stack([sine * np.cos(turn), sine * np.sin(turn), height]) * radius[:, None]

@@ -1,0 +1,319 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lamps, world light and their shadows on the GPU, for `lighting.glsl`.
+
+A picture is the mean of `sub_frames` shadings. Each sees one point of every soft lamp and a few directions of the
+world, with hard shadows from depth maps; their mean has the half-shadows. The maps belong to the scene, not to the
+view: they are drawn when a sub-frame first needs them and kept.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ..device.gpu_objects import buffer_of, texture_2d, uniform_block
+from ..geometry.scene_geometry import Difference, SceneGeometry
+from .ggx import ggx_table
+from .lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
+from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
+from .suns import split_suns
+from .world import world_light
+
+HEADER_RECORDS = 8
+DIRECTION_RECORDS = 5
+MAX_DIRECTIONS = 32
+"""World directions of one sub-frame"""
+DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
+"""vec4 records of the uniform block; as in lighting.glsl"""
+SAMPLER_COUNT = 5
+MANY_TRIANGLES = 300_000
+LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
+"""Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
+WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 16
+"""World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
+DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
+"""World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
+WORLD_MAP_RESOLUTION = 384
+LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
+type Features = frozenset[str]
+"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether the world shines and whether it is an image"""
+FEATURES: Features = frozenset(
+    f"LIGHTING_{name}" for name in ("POINT", "SPOT", "SUN", "AREA", "MAPS", "CUBES", "IMAGE", "WORLD")
+)
+LAMP_MAP_BYTES = 160 << 20
+"""The finest resolution that fits is taken"""
+
+
+class Lighting:
+    """GPU resources that light one scene; `free()` when done."""
+
+    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, sub_frames: int = 16) -> None:
+        """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
+        self.sub_frames = max(sub_frames, 1)
+        self._geometry = geometry
+        self._ggx = texture_2d(ggx_table(), linear=True)
+        self._lamp_maps = ShadowMaps(LAMP_MAP_RESOLUTIONS[0], bias_texels=1.0)
+        self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
+        self._blocks: dict[int, Any] = {}
+        self._bound: Any = None
+        self.warnings: tuple[str, ...] = ()
+        """What could not be represented, one sentence each"""
+        self._scene = scene
+        self._read_geometry()
+        self._read_world()
+        self._plan_lamps()
+        self._plan_world_shadows()
+        self.features = self._found_features()
+        """What a shader that lights this scene has to have (see `declare`)"""
+
+    def follow(self, scene: SceneArrays, difference: Difference) -> None:
+        """Light another state of the scene, whose geometry the `difference` has changed."""
+        before, self._scene = self._scene, scene
+        moved = difference.moved
+        planned = difference.structure or (bool(moved) and not self._holds(moved))
+        if planned:
+            self._read_geometry()
+        if scene.world is not before.world:
+            self._read_world()
+        if planned or scene.lights is not before.lights or scene.world is not before.world:
+            self._plan_lamps()
+        elif moved:
+            self._lamp_maps.forget()
+        if planned or scene.world is not before.world:
+            self._plan_world_shadows()
+        elif moved:
+            self._world_maps.forget()
+        self.features = self._found_features()
+        self._blocks.clear()
+
+    def _read_geometry(self) -> None:
+        facts = self._geometry.facts
+        self._extent = SceneExtent(
+            [
+                (facts.of(item.mesh).pieces, item.instance.matrix, item.instance.visible_shadow)
+                for item in self._geometry.placed
+            ]
+        )
+        self._casters = ShadowCasters(self._geometry, self._extent)
+        self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
+
+    def _holds(self, moved: list[int]) -> bool:
+        """Whether the maps' views serve for the scene with these instances where they are now."""
+        corners = self._geometry.box_corners(moved)
+        if not self._extent.spares(moved, corners):
+            return False
+        lamps = [
+            view
+            for light, planned in zip(self._lights, self._lamp_places, strict=True)
+            if light.casts_shadow
+            for view in planned
+        ]
+        # Where nothing could be in shadow there is no map, and now something may.
+        if any(len(layers) == 0 or layers == (-1,) for _, layers in lamps) or -1 in self._world_layers:
+            return False
+        if not self._lamp_maps.hold([layers[0] for _, layers in lamps if len(layers) == 1], corners):
+            return False
+        if not self._world_maps.hold(range(len(self._world_maps.views)), corners):
+            return False
+        cubes = [(place, layers) for place, layers in lamps if len(layers) == 6]
+        balls = self._geometry.balls(np.array(moved))
+        return all(self._cube_holds(place[:3], layers, *balls) for place, layers in cubes)
+
+    def _cube_holds(
+        self, place: Float64Array, layers: tuple[int, ...], centers: Float64Array, radii: Float64Array
+    ) -> bool:
+        """Whether balls are within a cube map's reach, and no face that has no map sees one."""
+        near_term, far_term = self._lamp_maps.views[max(layers)].depth_terms
+        farthest = far_term / (1.0 - near_term)
+        if (np.linalg.norm(centers - place, axis=1) + radii).max() > farthest:
+            return False
+        if min(layers) >= 0:
+            return True
+        met = meets_faces(place, centers, radii)
+        return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))
+
+    def _found_features(self) -> Features:
+        kinds = {light.kind for light in self._lights}
+        shadows = {
+            len(layers) for planned in self._lamp_places for _, layers in planned if max(layers, default=-1) >= 0
+        }
+        found = {f"LIGHTING_{kind}" for kind in kinds}
+        found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
+        if self._world.image is not None:
+            found.add("LIGHTING_IMAGE")
+        if self._world_is_lit:
+            found.add("LIGHTING_WORLD")
+        return frozenset(found)
+
+    @staticmethod
+    def declare(info: Any, first_sampler: int, features: Features = FEATURES) -> None:
+        """Add SAMPLER_COUNT samplers from slot `first_sampler`, the uniform block in slot 1 and defines to a
+        GPUShaderCreateInfo; with the `features` of a scene, what `lighting.glsl` has beyond them is left out."""
+        for name in sorted(features):
+            info.define(name)
+        for index, (kind, name) in enumerate(
+            (
+                ("DEPTH_2D_ARRAY", "lighting_lamp_depth"),
+                ("DEPTH_2D_ARRAY", "lighting_world_depth"),
+                ("FLOAT_2D_ARRAY", "lighting_world_maps"),
+                ("FLOAT_2D", "lighting_world_image"),
+                ("FLOAT_2D", "lighting_ggx"),
+            )
+        ):
+            info.sampler(first_sampler + index, kind, name)
+        info.uniform_buf(1, "vec4", f"lighting_data[{DATA_RECORDS}]")
+
+    def prepare(self, sub_frame: int) -> None:
+        """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
+
+        Not inside a frame buffer's `bind()` block whose viewport matters: that is restored, but costs time.
+        """
+        index = sub_frame % self.sub_frames
+        if index not in self._blocks:
+            lamp_layers, world_layers, records = self._records(index)
+            self._lamp_maps.draw(lamp_layers, self._casters)
+            self._world_maps.draw(world_layers, self._casters)
+            self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
+        self._bound = self._blocks[index]
+
+    def bind(self, shader: Any) -> None:
+        """Set the samplers and the block of the sub-frame last prepared on a bound shader."""
+        shader.uniform_block("lighting_data", self._bound)
+        shader.uniform_sampler("lighting_lamp_depth", self._lamp_maps.texture)
+        shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
+        shader.uniform_sampler("lighting_world_maps", self._world_textures)
+        shader.uniform_sampler("lighting_world_image", self._world_image)
+        shader.uniform_sampler("lighting_ggx", self._ggx)
+
+    def free(self) -> None:
+        """Drop the GPU objects; the instance cannot be used afterwards."""
+        self._blocks.clear()
+        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_ggx"):
+            self.__dict__.pop(name, None)
+
+    def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
+        shining = [light for light in lights if max(light.color) > 0.0]
+        if len(shining) > MAX_LAMPS:
+            self.warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            shining.sort(key=lambda light: -sum(light.color))
+        return shining[:MAX_LAMPS]
+
+    def _plan_lamps(self) -> None:
+        """Choose the points on every lamp, their shadow views and one resolution for all."""
+        self.warnings = ()
+        self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
+        samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
+        points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
+        resolution = LAMP_MAP_RESOLUTIONS[0]
+        views: list[ShadowView] = []
+        for resolution in LAMP_MAP_RESOLUTIONS:
+            self._lamp_places, views = self._lamp_views(points, resolution)
+            if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
+                break
+        self._lamp_maps.plan(views, resolution)
+
+    def _lamp_views(
+        self, points: list[Float64Array], resolution: int
+    ) -> tuple[list[list[tuple[Float64Array, tuple[int, ...]]]], list[ShadowView]]:
+        """Per lamp its points with the layers of their maps (-1: nothing in shadow there), and all views."""
+        views: list[ShadowView] = []
+        lamps = []
+        for light, places in zip(self._lights, points, strict=True):
+            planned = []
+            for place in places:
+                found: tuple[ShadowView | None, ...] = ()
+                if light.casts_shadow and light.kind == "SUN":
+                    found = (self._extent.parallel_view(place[:3] / np.linalg.norm(place[:3]), resolution),)
+                elif light.casts_shadow:
+                    found = self._extent.point_views(place[:3], resolution)
+                layers = []
+                for view in found:
+                    layers.append(-1 if view is None else len(views))
+                    if view is not None:
+                        views.append(view)
+                planned.append((place, tuple(layers)))
+            lamps.append(planned)
+        return lamps, views
+
+    def _read_world(self) -> None:
+        """Choose the world's directions; fill its textures."""
+        world = self._world = self._scene.world
+        self._sky = split_suns(world)
+        lit = max(world.color) > 0.0
+        at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
+        most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
+        self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
+        light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
+        self._world_light, self._world_is_lit = light, lit
+        maps = light.maps
+        self._world_textures = gpu.types.GPUTexture(
+            (maps.shape[2], maps.shape[1]), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
+        )
+        if world.image is None:
+            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
+        else:
+            image = np.ones((*world.image.shape[:2], 4), np.float32)
+            image[..., :3] = world.image
+            self._world_image = texture_2d(image, linear=True, repeat=True)
+
+    def _plan_world_shadows(self) -> None:
+        """Shadow views of the world's directions."""
+        views: list[ShadowView] = []
+        directions = self._world_light.directions
+        self._world_layers = np.full(len(directions), -1)
+        for index, direction in enumerate(directions if self._world_is_lit else ()):
+            view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
+            if view is not None:
+                self._world_layers[index] = len(views)
+                views.append(view)
+        self._world_maps.plan(views)
+
+    def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
+        """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+        records = np.zeros((DATA_RECORDS, 4))
+        lamp_layers: list[int] = []
+        for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):
+            place, layers = planned[index % len(planned)]
+            start = HEADER_RECORDS + row * LAMP_RECORDS
+            block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
+            self._shadow_records(block, self._lamp_maps, layers)
+            records[start : start + LAMP_RECORDS] = block
+            lamp_layers += [layer for layer in layers if layer >= 0]
+        world_layers: list[int] = []
+        at_once = self._directions_at_once
+        for draw in range(index * at_once, (index + 1) * at_once):
+            direction = self._world_light.draws[draw]
+            layer = int(self._world_layers[direction])
+            if layer < 0:
+                continue
+            start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
+            records[start] = [*self._world_light.directions[direction], layer]
+            weight = self._world_light.weights[draw] * self.sub_frames
+            view = self._world_maps.views[layer]
+            records[start + 1 : start + 4] = window_rows(view, self._world_maps.resolution)[:3]
+            # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
+            records[[start + 4, 5]] = [*weight, weight.sum()]
+            world_layers.append(layer)
+        records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
+        records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
+        records[2:5, :3] = self._world.rotation
+        return lamp_layers, world_layers, records
+
+    def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
+        """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
+        if len(layers) == 1 and layers[0] >= 0:
+            block[6, 3] = 1.0
+            block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
+            block[11, 0] = layers[0]
+        elif len(layers) == 6 and max(layers) >= 0:
+            block[6, 3] = 2.0
+            near_term, far_term = maps.views[max(layers)].depth_terms
+            block[7] = layers[:4]
+            block[8] = [layers[4], layers[5], near_term, far_term]
+            half = 0.5 * maps.resolution - BORDER
+            block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]

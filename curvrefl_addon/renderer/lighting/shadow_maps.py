@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Depth maps of shadow views: layers of one array texture, each drawn once, when first needed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ....gpu_shaders.loader import load
+from ...scene.arrays import Float64Array
+from ..device.gpu_objects import drawing_state
+from ..geometry.scene_geometry import SceneGeometry
+from .shadow_views import SceneExtent, ShadowView
+
+SLOPE_LIMIT_TEXELS = 20.0
+"""Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
+
+
+BORDER = 1
+"""Texels round a map that stay empty: they stand for all that lies outside of it"""
+
+
+class ShadowCasters:
+    """What is drawn into the maps: the scene's chunks without what casts on nothing."""
+
+    def __init__(self, geometry: SceneGeometry, extent: SceneExtent) -> None:
+        self._geometry = geometry
+        self._extent = extent
+        self._idle: dict[frozenset[int], dict[int, frozenset[tuple[int, int]]]] = {}
+        self._revision = geometry.revision
+
+    def draw(self, shader: Any, view: ShadowView) -> None:
+        """All that casts in a view, with a bound shader."""
+        idle_planes = view.idle_planes
+        if self._revision != self._geometry.revision:
+            self._revision = self._geometry.revision
+            self._idle.clear()
+        if idle_planes not in self._idle:
+            self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
+        idle = self._idle[idle_planes]
+        for chunk in self._geometry.chunks:
+            if not self._geometry.may_be_in(chunk, view.world_to_clip):
+                continue
+            batch = chunk.casters(idle.get(id(chunk), frozenset()))
+            if batch is not None:
+                shader.uniform_sampler("positions", chunk.positions)
+                batch.draw(shader)
+
+    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, frozenset[tuple[int, int]]]:
+        """By a chunk's id, pairs (instance in the chunk, piece)."""
+        found: dict[int, set[tuple[int, int]]] = {}
+        for index, piece in self._extent.pieces_in_planes(planes):
+            chunk, local = self._geometry.place_of(int(index))
+            found.setdefault(id(chunk), set()).add((local, int(piece)))
+        return {key: frozenset(pairs) for key, pairs in found.items()}
+
+
+class ShadowMaps:
+    """Square depth maps of `resolution`, one layer per view."""
+
+    def __init__(self, resolution: int, bias_texels: float) -> None:
+        """`bias_texels`: how far from its middle a texel counts: 1 in bilinear comparison, 0.5 for the nearest."""
+        self.resolution = resolution
+        self.views: list[ShadowView] = []
+        self._bias_texels = bias_texels
+        self.texture: Any = None
+        self._size = (0, 0)
+        self._drawn: list[bool] = []
+
+    def plan(self, views: list[ShadowView], resolution: int | None = None) -> None:
+        """Hold these views from now on."""
+        self.views = views
+        self.resolution = resolution or self.resolution
+        size = (self.resolution if views else 1, max(len(views), 1))
+        if self.texture is None or size != self._size:
+            self._size = size
+            self.texture = gpu.types.GPUTexture((size[0], size[0]), layers=size[1], format="DEPTH_COMPONENT32F")
+            self.texture.filter_mode(False)
+        self.forget()
+
+    def forget(self) -> None:
+        """What casts has moved: all are drawn again when needed."""
+        self._drawn = [False] * len(self.views)
+
+    def draw(self, layers: Iterable[int], casters: ShadowCasters) -> None:
+        """Make sure that these layers are there; restores the frame buffer and the state."""
+        missing = [layer for layer in layers if not self._drawn[layer]]
+        if not missing:
+            return
+        shader = shadow_depth_shader()
+        for layer in missing:
+            view = self.views[layer]
+            target = gpu.types.GPUFrameBuffer(depth_slot={"texture": self.texture, "layer": layer})
+            with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
+                gpu.state.viewport_set(0, 0, self.resolution, self.resolution)
+                target.clear(depth=1.0)
+                gpu.state.viewport_set(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
+                shader.bind()
+                shader.uniform_float("world_to_clip", _matrix(view))
+                shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
+                casters.draw(shader, view)
+            self._drawn[layer] = True
+
+    def hold(self, layers: Sequence[int], points: Float64Array) -> bool:
+        """Whether all world points (n, 3) are inside of every one of these maps."""
+        if not layers:
+            return True
+        matrices = np.array([self.views[layer].world_to_clip for layer in layers])
+        clip = np.einsum("vij,nj->vni", matrices[:, :, :3], points) + matrices[:, None, :, 3]
+        return bool((np.abs(clip[..., :3]) <= clip[..., 3:]).all())
+
+
+def _slope_limit(view: ShadowView) -> tuple[float, float]:
+    """Greatest bias in window depth: the first plus the second times (1 - depth)."""
+    limit = SLOPE_LIMIT_TEXELS * view.texel_slope
+    return (limit * (view.depth_terms[0] - 1.0), limit) if view.is_perspective else (limit, 0.0)
+
+
+def _matrix(view: ShadowView) -> Any:
+    from mathutils import Matrix
+
+    return Matrix(view.world_to_clip.tolist())
+
+
+def window_rows(view: ShadowView, resolution: int) -> Float64Array:
+    """(4, 4) rows that give a world point's texel x, texel y and depth in 0..1, each times w, and w."""
+    half = 0.5 * resolution - BORDER
+    to_window = np.array(
+        [
+            [half, 0.0, 0.0, 0.5 * resolution],
+            [0.0, half, 0.0, 0.5 * resolution],
+            [0.0, 0.0, 0.5, 0.5],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+    return to_window @ view.world_to_clip
+
+
+@cache
+def shadow_depth_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.sampler(0, "FLOAT_2D", "positions")
+    info.push_constant("MAT4", "world_to_clip")
+    info.push_constant("VEC3", "bias")
+    info.depth_write("ANY")
+    info.vertex_source(load("lighting/shadow_depth.vert.glsl"))
+    info.fragment_source(load("lighting/shadow_depth.frag.glsl"))
+    return gpu.shader.create_from_info(info)

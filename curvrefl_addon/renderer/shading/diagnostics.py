@@ -1,0 +1,306 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The diagnostic pass: takes the place of the shade pass on mirrors and shows how the picture came about.
+
+Iterations as in figure 3c of Roger & Holzschuch 2006; zebra stripes and line lights as in surface inspection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ....gpu_shaders.loader import load
+from ...diagnostic_colors import (
+    MODES,
+    RAMP_TEXELS,
+    SOLVED_MODES,
+    DiagnosticColors,
+    DiagnosticOptions,
+    method_color,
+    ramp_colors,
+)
+from ...scene.arrays import Float32Array
+from ..device.gpu_objects import drawing_state, full_screen_triangle, record_texture, texture_2d
+from ..surfaces.surfaces import SurfaceBuffer
+from ..surfaces.view_block import TYPEDEF
+from ..vertices.solve import SolvedChunk
+from .lookup import Environment, declare
+
+_SEEN = ("seen_position", "seen_normal", "seen_color")
+_REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
+_AXES = {"ZEBRA": ("stripe_axis",), "LINES": ("stripe_up", "stripe_side")}
+_DARK, _BRIGHT = (0.008, 0.008, 0.010), (0.900, 0.900, 0.900)
+
+
+class DiagnosticPass:
+    """Draws diagnostic views of surface buffers; make it where a GPU context is."""
+
+    def __init__(self, colors: DiagnosticColors | None = None) -> None:
+        self.colors = colors or DiagnosticColors()
+        ramp = np.ones((1, RAMP_TEXELS, 4), np.float32)
+        ramp[0, :, :3] = ramp_colors(self.colors.ramp)
+        self._ramp = texture_2d(ramp, "RGBA16F", linear=True)
+        self._marks: _Marks | None = None
+        self._points: tuple[int, Any] = (0, None)
+
+    def add(
+        self,
+        target: Any,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Environment],
+        view_uniforms: Any,
+        weight: float,
+        mode: str,
+        options: DiagnosticOptions,
+        methods: Sequence[str],
+        parts: Sequence[Sequence[SolvedChunk]] = (),
+    ) -> None:
+        """Add view `mode` (of `MODES`), times `weight`, to the frame buffer `target` on the pixels of mirrors.
+
+        Writes premultiplied scene-linear color with alpha = `weight`, as the shade pass does. `reflected` is the
+        reflected scene's surface buffer, or for each mirror the environment whose positions stand for it; views that
+        are not in `SOLVED_MODES` do not look at it.
+        `methods` are the catalogue names by which each mirror is drawn; the status view shows the vertices of `parts`,
+        per mirror.
+        """
+        if mode not in MODES:
+            raise ValueError(f"no diagnostic view {mode}")
+        marks = None
+        if mode == "STATUS" and isinstance(reflected, SurfaceBuffer):
+            marks = self._draw_marks(seen, reflected, view_uniforms, options, parts)
+        environments: Sequence[Environment | None] = (None,)
+        if not isinstance(reflected, SurfaceBuffer) and mode in SOLVED_MODES:
+            environments = reflected
+        # Before the frame buffer is bound: what is made only now draws, too.
+        textures = [environment.positions() if environment else None for environment in environments]
+        with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
+            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            for number, (environment, positions) in enumerate(zip(environments, textures, strict=True), 1):
+                shader = _shader(mode, environment.lookup if environment else "", marks is not None)
+                shader.bind()
+                shader.uniform_block("view", view_uniforms)
+                shader.uniform_float("weight", weight)
+                for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
+                    shader.uniform_sampler(name, texture)
+                # Held until the draw: a sampler is bound by reference.
+                palette = self._set_look(shader, mode, options, methods)
+                if environment is not None:
+                    shader.uniform_float("mirror", float(number))
+                    environment.bind(shader, positions)
+                elif mode in SOLVED_MODES and isinstance(reflected, SurfaceBuffer):
+                    buffers = (reflected.position, reflected.normal, reflected.color)
+                    for name, texture in zip(_REFLECTED, buffers, strict=True):
+                        shader.uniform_sampler(name, texture)
+                if marks is not None:
+                    shader.uniform_sampler("marks", marks)
+                full_screen_triangle().draw(shader)
+                del palette
+
+    def _set_look(self, shader: Any, mode: str, options: DiagnosticOptions, methods: Sequence[str]) -> Any:
+        """Set a view's own constants on the bound shader; returns what has to live until the draw."""
+        if mode in ("ZEBRA", "LINES"):
+            lines = mode == "LINES"
+            axes = options.axes.tolist()
+            # A constant that a shader declares and does not use cannot be set.
+            for name, direction in zip(_AXES[mode], axes[1:] if lines else axes[:1], strict=True):
+                shader.uniform_float(name, direction)
+            shader.uniform_float("count", float(options.lines if lines else options.stripes))
+            shader.uniform_float("duty", min(options.line_width * options.lines / 360.0, 1.0) if lines else 0.5)
+            shader.uniform_float("dark", _DARK)
+            shader.uniform_float("bright", _BRIGHT)
+            return None
+        if mode != "ANGLE_ERROR":
+            shader.uniform_float("background", self.colors.background)
+        if mode in ("ITERATIONS", "ANGLE_ERROR"):
+            ends = np.log2(options.angles) if mode == "ANGLE_ERROR" else np.array(options.iterations)
+            shader.uniform_float("range", ends.tolist())
+            shader.uniform_sampler("ramp", self._ramp)
+            return None
+        palette = record_texture(self._palette(mode, methods))
+        shader.uniform_sampler("palette", palette)
+        return palette
+
+    def _palette(self, mode: str, methods: Sequence[str]) -> Float32Array:
+        """(mirrors + 1, 4): the color of each mirror's number."""
+        rows = np.ones((len(methods) + 1, 4), np.float32)
+        for row, method in zip(rows[1:], methods, strict=True):
+            # The vertices' own colors are laid over this: it is only where they belong.
+            row[:3] = method_color(method) if mode == "METHOD" else 0.4 * np.array(self.colors.converged)
+        return rows
+
+    def _draw_marks(
+        self,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer,
+        view_uniforms: Any,
+        options: DiagnosticOptions,
+        parts: Sequence[Sequence[SolvedChunk]],
+    ) -> Any:
+        """Texture with the left-out triangles and the vertices, alpha 1 where they are."""
+        marks = self._marks
+        if marks is None or (marks.width, marks.height) != (seen.width, seen.height):
+            marks = self._marks = _Marks(seen.width, seen.height)
+        with drawing_state("LESS_EQUAL", depth_write=True), marks.frame_buffer.bind():
+            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            marks.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            for mirror, chunks in enumerate(parts, 1):
+                for chunk in (part for part in chunks if part.image == 0):
+                    self._draw_failed(mirror, chunk, seen, view_uniforms)
+                    if options.point_size > 0.0:
+                        self._draw_vertices(mirror, chunk, seen, reflected, view_uniforms, options.point_size)
+        return marks.color
+
+    def _draw_failed(self, mirror: int, part: SolvedChunk, seen: SurfaceBuffer, view_uniforms: Any) -> None:
+        shader = _failed_shader()
+        shader.bind()
+        shader.uniform_block("view", view_uniforms)
+        shader.uniform_float("mirror", float(mirror))
+        shader.uniform_float("failed_color", self.colors.failed)
+        for name, texture in (
+            ("positions", part.chunk.positions),
+            ("corners", part.chunk.corners),
+            ("reflection_points", part.solution.reflection_points),
+            ("virtual_positions", part.solution.virtual_positions),
+            ("mirror_color", seen.color),
+        ):
+            shader.uniform_sampler(name, texture)
+        for _, batch in part.batches:
+            batch.draw(shader)
+
+    def _draw_vertices(
+        self,
+        mirror: int,
+        part: SolvedChunk,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer,
+        view_uniforms: Any,
+        size: float,
+    ) -> None:
+        count = part.solution.count
+        if count == 0:
+            return
+        if self._points[0] < count:
+            vertices = gpu.types.GPUVertBuf(format=gpu.types.GPUVertFormat(), len=count)
+            self._points = count, gpu.types.GPUBatch(type="POINTS", buf=vertices)
+        shader = _vertices_shader()
+        shader.bind()
+        shader.uniform_block("view", view_uniforms)
+        shader.uniform_float("mirror", float(mirror))
+        shader.uniform_float("point_size", size)
+        shader.uniform_float("reflected_color", self.colors.converged)
+        shader.uniform_float("hidden_color", self.colors.hidden)
+        shader.uniform_float("failed_color", self.colors.failed)
+        for name, texture in (
+            ("reflection_points", part.solution.reflection_points),
+            ("virtual_positions", part.solution.virtual_positions),
+            ("mirror_position", seen.position),
+            ("mirror_color", seen.color),
+            ("reflected_position", reflected.position),
+        ):
+            shader.uniform_sampler(name, texture)
+        gpu.state.program_point_size_set(True)
+        try:
+            self._points[1].draw_range(shader, elem_start=0, elem_count=count)
+        finally:
+            gpu.state.program_point_size_set(False)
+
+
+class _Marks:
+    """Render target of what lies over the status view."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.color = gpu.types.GPUTexture((width, height), format="RGBA16F")
+        self.color.filter_mode(False)
+        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
+        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.color,))
+        self.width, self.height = width, height
+
+
+@cache
+def _shader(mode: str, lookup: str, marks: bool) -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(TYPEDEF)
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.uniform_buf(0, "ViewBlock", "view")
+    info.push_constant("FLOAT", "weight")
+    samplers = [(name, "FLOAT_2D") for name in _SEEN]
+    if mode in SOLVED_MODES:
+        info.define("SHOWS_SCENE")
+        if mode != "ANGLE_ERROR":
+            info.push_constant("VEC3", "background")
+        if lookup:
+            info.push_constant("FLOAT", "mirror")
+        else:
+            samplers += [(name, "FLOAT_2D") for name in _REFLECTED]
+    if mode in ("ITERATIONS", "ANGLE_ERROR"):
+        info.push_constant("VEC2", "range")
+        samplers.append(("ramp", "FLOAT_2D"))
+        source = "diagnostics/diagnostic_ramp.frag.glsl"
+    elif mode in ("STATUS", "METHOD"):
+        samplers.append(("palette", "FLOAT_2D"))
+        source = "diagnostics/diagnostic_palette.frag.glsl"
+    else:
+        for name in (*_AXES[mode], "dark", "bright"):
+            info.push_constant("VEC3", name)
+        info.push_constant("FLOAT", "count")
+        info.push_constant("FLOAT", "duty")
+        source = "diagnostics/diagnostic_stripes.frag.glsl"
+    if marks:
+        info.define("MARKS")
+        samplers.append(("marks", "FLOAT_2D"))
+    info.define(mode)
+    for slot, (name, kind) in enumerate(samplers):
+        info.sampler(slot, kind, name)
+    # Views of the surface alone do not look anything up.
+    lookup_source = declare(info, lookup, len(samplers)) if lookup else ""
+    info.vertex_source(load("common/full_screen.vert.glsl"))
+    info.fragment_source(lookup_source + load(source))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _vertices_shader() -> Any:
+    info = _marks_info()
+    for name in ("reflected_color", "hidden_color", "failed_color"):
+        info.push_constant("VEC3", name)
+    info.push_constant("FLOAT", "point_size")
+    names = ("reflection_points", "virtual_positions", "mirror_position", "mirror_color", "reflected_position")
+    for slot, name in enumerate(names):
+        info.sampler(slot, "FLOAT_2D", name)
+    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_diagnostic_vertices")
+    for kind, name in (("VEC3", "reflection_point"), ("FLOAT", "length_to_vertex"), ("FLOAT", "vertex_status")):
+        interface.flat(kind, name)
+    info.vertex_out(interface)
+    info.vertex_source(load("diagnostics/diagnostic_vertices.vert.glsl"))
+    info.fragment_source(load("diagnostics/diagnostic_vertices.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _failed_shader() -> Any:
+    info = _marks_info()
+    info.push_constant("VEC3", "failed_color")
+    names = ("positions", "corners", "reflection_points", "virtual_positions", "mirror_color")
+    for slot, name in enumerate(names):
+        info.sampler(slot, "FLOAT_2D", name)
+    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_diagnostic_failed")
+    interface.smooth("VEC2", "failed")
+    info.vertex_out(interface)
+    info.vertex_source(load("diagnostics/diagnostic_failed.vert.glsl"))
+    info.fragment_source(load("diagnostics/diagnostic_failed.frag.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+def _marks_info() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(TYPEDEF)
+    info.uniform_buf(0, "ViewBlock", "view")
+    info.push_constant("FLOAT", "mirror")
+    info.fragment_out(0, "VEC4", "mark")
+    return info

@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where in a pixel the sub-frames of an anti-aliased picture look.
+
+Sub-frames have equal weights; their offsets are spread as Cycles' pixel filter is, a Blackman-Harris window, so that
+the average converges to the same picture.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...scene.arrays import Float64Array
+
+WIDTH = 3.0
+"""Pixels from end to end: Cycles' default filter width of 1.5 is half of a Blackman-Harris window's"""
+_COEFFICIENTS = (0.35875, -0.48829, 0.14128, -0.01168)
+
+
+def offsets(samples: int) -> Float64Array:
+    """(samples, 2) pixel offsets, mean zero; one sample looks through the pixel's centre."""
+    if samples == 1:
+        return np.zeros((1, 2))
+    # Two-dimensional low-discrepancy points (Hammersley set), centred in their strata.
+    index = np.arange(samples)
+    bits = np.zeros(samples)
+    scale, left = 0.5, index.copy()
+    while left.any():
+        bits += scale * (left & 1)
+        left >>= 1
+        scale *= 0.5
+    points = np.column_stack([(index + 0.5) / samples, bits + 0.5 / samples])
+    position = np.linspace(-0.5, 0.5, 1025)
+    window = np.cos(2 * np.pi * np.outer(position + 0.5, np.arange(4))) @ np.array(_COEFFICIENTS)
+    cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (window[1:] + window[:-1]))])
+    spread = np.interp(points, cumulative / cumulative[-1], position) * WIDTH
+    return spread - spread.mean(axis=0)

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The vertex solve by bounding grids: corners are searched for, vertices interpolated (`bisector_grid`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+
+from ....gpu_shaders.loader import load
+from ...scene.arrays import Float32Array
+from ..device.gpu_objects import dispatch, empty_record_texture, record_texture
+from ..geometry.chunk import Chunk
+from .bounding_grid import BoundingGrid, bounding_grid
+from .solve import GROUP, VertexSolution
+
+_SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
+
+
+class ChunkGrid:
+    """Bounding grids of all instances of a chunk."""
+
+    def __init__(self, chunk: Chunk, share: float) -> None:
+        """`share` of the vertices that are to be solved."""
+        known: dict[int, BoundingGrid] = {}
+        corners: list[Float32Array] = []
+        numbers, cells = [], []
+        corner_start = cell_start = 0
+        for index, item in enumerate(chunk.placed):
+            grid = known.setdefault(id(item.drawn), bounding_grid(item.drawn.positions, share))
+            corners.append(np.column_stack([grid.corners, np.full(len(grid.corners), index, np.float32)]))
+            numbers.append(grid.cell_corners + corner_start)
+            cells.append(np.column_stack([grid.local, grid.vertex_cell + cell_start]))
+            corner_start += len(grid.corners)
+            cell_start += len(grid.cell_corners)
+        self.corner_count = corner_start
+        self._sources = record_texture(np.concatenate(corners).astype(np.float32))
+        self._cells = record_texture(np.concatenate(cells).astype(np.float32))
+        self._numbers = record_texture(np.concatenate(numbers).reshape(-1, 4).astype(np.float32))
+        self._count = chunk.position_count
+
+    def solve(self, chunk: Chunk, search: Callable[[Any, int], VertexSolution]) -> VertexSolution:
+        """Where the chunk's vertices reflect; `search` solves so many records of a texture of positions."""
+        corners = search(chunk.place_points(self._sources, self.corner_count), self.corner_count)
+        solution = VertexSolution(empty_record_texture(self._count), empty_record_texture(self._count), self._count)
+        shader = _interpolation_shader()
+        shader.bind()
+        shader.uniform_int("count", self._count)
+        textures = (
+            self._cells,
+            self._numbers,
+            corners.reflection_points,
+            corners.virtual_positions,
+            chunk.positions,
+        )
+        for name, texture in zip(_SAMPLERS, textures, strict=True):
+            shader.uniform_sampler(name, texture)
+        shader.image("reflection_points", solution.reflection_points)
+        shader.image("virtual_positions", solution.virtual_positions)
+        dispatch(shader, self._count, GROUP)
+        return solution
+
+
+@cache
+def _interpolation_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.push_constant("INT", "count")
+    for slot, name in enumerate(_SAMPLERS):
+        info.sampler(slot, "FLOAT_2D", name)
+    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load("solvers/bisector_grid.comp.glsl"))
+    return gpu.shader.create_from_info(info)

@@ -1,0 +1,375 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The vertex solve: a compute shader finds the reflection point of every position of a geometry.
+
+One shader file per method (`gpu_shaders/<method>.comp.glsl`) over `solver.glsl`; what of the reflector it reads is
+named in the catalogue and bound from here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import gpu
+import numpy as np
+from numpy.typing import NDArray
+
+from ....gpu_shaders.loader import load
+from ...optics import status
+from ...optics.catalogue import METHODS
+from ...optics.solvers.newton_region import STEPS as REGION_STEPS
+from ...optics.solvers.secant_star import NEWTON_STEPS
+from ...optics.surfaces.curvature_regions import SEEDS, Regions
+from ...scene.arrays import Float64Array, Int32Array
+from ...scene.view import View
+from ..device.gpu_objects import (
+    cube_texture,
+    dispatch,
+    empty_index_texture,
+    empty_record_texture,
+    read_records,
+    record_texture,
+    uniform_block,
+)
+from ..geometry.chunk import Batches, Chunk
+
+GROUP = 64
+MOST_STRAGGLERS_AT_ONCE = 1 << 14
+"""Invocations of a clean-up pass, which share whatever the first pass has left"""
+SAME_VIEW = 2
+"""Solver block's last count where the last frame had the same view: a vertex that has not moved keeps what it showed"""
+SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
+    "radial": (("FLOAT_CUBE", "radial"),),
+    "parametric": (
+        ("FLOAT_2D", "surface_point"),
+        ("FLOAT_2D", "surface_du"),
+        ("FLOAT_2D", "surface_dv"),
+        ("FLOAT_CUBE", "uv_of_direction"),
+    ),
+    "screen": (("FLOAT_2D", "screen_position"), ("FLOAT_2D", "screen_normal")),
+    "previous": (("FLOAT_2D", "previous_points"), ("FLOAT_2D", "previous_virtual")),
+    "plane": (),
+}
+"""What a method's `maps` are to its shader: kind and name of each sampler, beside `positions`"""
+_BLOCK = np.dtype(
+    [
+        ("world_to_map", "f4", (4, 4)),
+        ("map_to_world", "f4", (4, 4)),
+        ("map_to_search", "f4", (4, 4)),
+        ("eye", "f4", 4),
+        ("counts", "i4", 4),
+        ("screen", "f4", 4),
+        ("plane", "f4", 4),
+        ("start", "f4", 4),
+    ]
+)
+_TYPEDEF = (
+    "struct Solver { mat4 world_to_map; mat4 map_to_world; mat4 map_to_search; vec4 eye; ivec4 counts; vec4 screen; "
+    "vec4 plane; vec4 start; };"
+)
+
+
+@dataclass(frozen=True)
+class Reflector:
+    """What a solve knows of one reflector. Map frame: `world_to_map`'s, metres."""
+
+    world_to_map: Float64Array
+    """(4, 4) rigid"""
+    bound: float
+    """No point of it is farther from the origin of the map frame, metres"""
+    textures: Mapping[str, Any] = field(default_factory=dict)
+    """By the sampler names of the method's maps"""
+    side: float = 1.0
+    """1: it reflects on its outer side, seen from the star centre; -1: on its inner side"""
+    plane: Sequence[float] = (0.0, 0.0, 1.0, 0.0)
+    """Unit normal n and offset d in the map frame, n . p = d"""
+    map_to_search: Float64Array = field(default_factory=lambda: np.eye(4))
+    """(4, 4) homogeneous point in the map frame to texels of the screen maps"""
+    start: Sequence[float] = (0.0, 0.0)
+    """Texel where a search on the screen maps begins"""
+    is_convex: bool = False
+    """Closed and convex: a line enters it once"""
+
+
+@dataclass(frozen=True)
+class VertexSolution:
+    """Record textures of one solve (see `solver.glsl`); world space."""
+
+    reflection_points: Any
+    """Per position: P xyz, status + 4 iterations"""
+    virtual_positions: Any
+    """Per position: where the vertex seems to be, and |PV|"""
+    count: int
+    inputs: bytes = b""
+    """All that it was solved from beside positions and maps"""
+
+    def read(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """P (n, 3), status (n,), iterations (n,), virtual positions with |PV| (n, 4); waits for the GPU."""
+        points = read_records(self.reflection_points, self.count)
+        packed = np.rint(points[:, 3]).astype(np.int32)
+        return points[:, :3], packed & 3, packed >> 2, read_records(self.virtual_positions, self.count)
+
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        target = gpu.types.GPUFrameBuffer(color_slots=(self.reflection_points,))
+        with target.bind():
+            target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Parts of triangles as record textures, laid out as those of a `Chunk`."""
+
+    positions: Any
+    corners: Any
+    triangles: Int32Array
+    """(n, 3) index into corners"""
+    corner_position: Int32Array
+    """(corners,) index into positions"""
+
+
+@dataclass(frozen=True)
+class SolvedChunk:
+    """A part of a mirror's scenery with its reflection points."""
+
+    chunk: Chunk | Pieces
+    """Whose triangles `batches` index; pieces are of triangles that had an edge split (`curved_edges`)"""
+    batches: Batches
+    solution: VertexSolution
+    image: int = 0
+    """0 for the image that every vertex has, or that says why not; 1, 2, ... for one in a region of the mirror"""
+    whole: NDArray[np.bool_] | None = None
+    """(triangles of the chunk,) which are in `batches`, the others' parts are pieces; None: all"""
+
+    @property
+    def places(self) -> Int32Array:
+        """(n, 3) the triangles that `batches` draw, index into positions."""
+        places = self.chunk.corner_position[self.chunk.triangles]
+        return places if self.whole is None else places[self.whole]
+
+
+def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
+    """Counts and iterations over all solutions as `report.json` has them; waits for the GPU."""
+    parts = [solution.read() for solution in solutions]
+    code = np.concatenate([np.zeros(0, np.int32), *(part[1] for part in parts)])
+    iterations = np.concatenate([np.zeros(0, np.int32), *(part[2] for part in parts)])
+    searched = iterations[code == status.REFLECTED]
+    some = len(searched) > 0
+    return {
+        "vertices": len(code),
+        "reflected": len(searched),
+        "hidden": int((code == status.HIDDEN).sum()),
+        "unconverged": int((code >= status.UNSOLVED).sum()),
+        "iterations": {
+            "mean": float(searched.mean()) if some else 0.0,
+            "p99": float(np.percentile(searched, 99)) if some else 0.0,
+            "max": int(searched.max()) if some else 0,
+        },
+    }
+
+
+def solve_vertices(
+    method: str,
+    view: View,
+    reflector: Reflector,
+    positions: Any,
+    count: int,
+    steps: int = 0,
+    tolerance: float = 0.05,
+    previous: VertexSolution | None = None,
+    at_rest: bool = False,
+    first_rung: int = 0,
+) -> VertexSolution:
+    """Solve `count` records of the `positions` texture with a method that has a compute shader of its own.
+
+    `steps` of the search, 0 for the method's own number; `tolerance` in pixels of `view`; `previous` is the solution of
+    the same positions in the frame before, for methods that start from it. It is the result too where nothing has
+    changed: `at_rest` says so of positions and maps. `first_rung` leaves starts of the clean-up pass out.
+    """
+    block = _vertices_block(method, view, reflector, count, steps, tolerance, first_rung)
+    if at_rest and previous is not None and previous.inputs == _inputs(method, block):
+        return previous
+    solve = PreparedSolve(method, reflector, block, positions, count, previous)
+    solve.run()
+    return solve.solution
+
+
+def prepare_solve(
+    method: str,
+    view: View,
+    reflector: Reflector,
+    positions: Any,
+    count: int,
+    tolerance: float = 0.05,
+    previous: VertexSolution | None = None,
+) -> PreparedSolve:
+    """As `solve_vertices`, but nothing has been run yet."""
+    block = _vertices_block(method, view, reflector, count, tolerance=tolerance)
+    return PreparedSolve(method, reflector, block, positions, count, previous)
+
+
+class PreparedSolve:
+    """The dispatches of one solve: run again, for timing, they do the same again."""
+
+    def __init__(
+        self,
+        method: str,
+        reflector: Reflector,
+        block: np.ndarray,
+        positions: Any,
+        count: int,
+        previous: VertexSolution | None,
+    ) -> None:
+        """`block` of a solve without a last frame."""
+        inputs = _inputs(method, block)
+        block["counts"][0, 3] = 0 if previous is None else SAME_VIEW if previous.inputs == inputs else 1
+        self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
+        """There once it has run"""
+        self._method = method
+        self._images = {
+            "reflection_points": self.solution.reflection_points,
+            "virtual_positions": self.solution.virtual_positions,
+        }
+        if METHODS[method].stragglers:
+            self._images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
+        self._textures = {
+            **reflector.textures,
+            "positions": positions,
+            "previous_points": positions if previous is None else previous.reflection_points,
+            "previous_virtual": positions if previous is None else previous.virtual_positions,
+        }
+        # Bound by reference only: it has to outlive the dispatches.
+        self._uniforms = uniform_block(block)
+
+    def run(self) -> None:
+        """Have the GPU do it; returns before it has."""
+        stragglers, count = METHODS[self._method].stragglers, self.solution.count
+        if stragglers:
+            self._images["straggler_count"].clear(format="UINT", value=(0,))
+        for name, most in ((self._method, count), (stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
+            if not name:
+                continue
+            shader = _solver_shader(name, self._method)
+            shader.bind()
+            shader.uniform_block("solver", self._uniforms)
+            for sampler in ("positions", *(sampler for _, sampler in _samplers(self._method))):
+                shader.uniform_sampler(sampler, self._textures[sampler])
+            for image, texture in self._images.items():
+                shader.image(image, texture)
+            dispatch(shader, most, GROUP)
+
+
+def solve_region(
+    view: View,
+    reflector: Reflector,
+    regions: RegionTextures,
+    region: int,
+    positions: Any,
+    count: int,
+    tolerance: float = 0.05,
+) -> VertexSolution:
+    """Images of `count` records of `positions` in one region of a mirror that bends both ways; UNSOLVED is none."""
+    block = _solver_block(view, reflector, count, 0, tolerance)
+    block["start"] = (SEEDS, region, REGION_STEPS, 0)
+    solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
+    # Bound by reference only: it has to outlive the dispatch.
+    uniforms = uniform_block(block)
+    shader = _region_shader()
+    shader.bind()
+    shader.uniform_block("solver", uniforms)
+    shader.uniform_sampler("positions", positions)
+    shader.uniform_sampler("radial", reflector.textures["radial"])
+    shader.uniform_sampler("region_masks", regions.masks)
+    shader.uniform_sampler("region_seeds", regions.seeds)
+    shader.image("reflection_points", solution.reflection_points)
+    shader.image("virtual_positions", solution.virtual_positions)
+    dispatch(shader, count, GROUP)
+    return solution
+
+
+class RegionTextures:
+    """Regions of one mirror on the GPU."""
+
+    def __init__(self, regions: Regions) -> None:
+        self.count = len(regions)
+        masks = np.zeros((*regions.masks.shape, 4), np.float32)
+        masks[..., 0] = regions.masks
+        self.masks = cube_texture(masks, linear=False)
+        seeds = np.zeros((regions.seeds.shape[0] * SEEDS, 4), np.float32)
+        seeds[:, :3] = regions.seeds.reshape(-1, 3)
+        self.seeds = record_texture(seeds)
+
+
+def _inputs(method: str, block: np.ndarray) -> bytes:
+    """See `VertexSolution`."""
+    return method.encode() + block.tobytes()
+
+
+def _vertices_block(
+    method: str,
+    view: View,
+    reflector: Reflector,
+    count: int,
+    steps: int = 0,
+    tolerance: float = 0.05,
+    first_rung: int = 0,
+) -> np.ndarray:
+    """Of a solve by a method's own shader, without a last frame; see `solve_vertices`."""
+    block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
+    block["start"] = (*reflector.start, first_rung, reflector.is_convex)
+    return block
+
+
+def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:
+    """All but `start`."""
+    block = np.zeros(1, _BLOCK)
+    block["world_to_map"] = reflector.world_to_map.T
+    block["map_to_world"] = np.linalg.inv(reflector.world_to_map).T
+    block["map_to_search"] = reflector.map_to_search.T
+    block["eye"] = reflector.world_to_map @ view.eye
+    block["counts"] = (count, steps, NEWTON_STEPS, 0)
+    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
+    block["plane"] = reflector.plane
+    return block
+
+
+def _samplers(method: str) -> list[tuple[str, str]]:
+    return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
+
+
+@cache
+def _solver_shader(name: str, method: str) -> Any:
+    """`gpu_shaders/<name>.comp.glsl` with what `method` gives its shaders."""
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_TYPEDEF)
+    info.uniform_buf(0, "Solver", "solver")
+    info.sampler(0, "FLOAT_2D", "positions")
+    for slot, (kind, sampler) in enumerate(_samplers(method), 1):
+        info.sampler(slot, kind, sampler)
+    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
+    if METHODS[method].stragglers:
+        info.image(2, "R32UI", "UINT_2D", "stragglers", qualifiers={"READ", "WRITE"})
+        info.image(3, "R32UI", "UINT_2D_ATOMIC", "straggler_count", qualifiers={"READ", "WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load(f"solvers/{name}.comp.glsl"))
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def _region_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.typedef_source(_TYPEDEF)
+    info.uniform_buf(0, "Solver", "solver")
+    info.sampler(0, "FLOAT_2D", "positions")
+    info.sampler(1, "FLOAT_CUBE", "radial")
+    info.sampler(2, "FLOAT_CUBE", "region_masks")
+    info.sampler(3, "FLOAT_2D", "region_seeds")
+    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
+    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
+    info.local_group_size(GROUP, 1)
+    info.compute_source(load("solvers/newton_region.comp.glsl"))
+    return gpu.shader.create_from_info(info)

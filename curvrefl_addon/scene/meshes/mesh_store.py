@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshes of a scene, each read once for all that share it, and again only when its data-blocks change."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..arrays import MeshArrays
+from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
+
+EMPTY = MeshArrays(
+    name="",
+    positions=np.zeros((0, 3), np.float32),
+    corner_vertex=np.zeros(0, np.int32),
+    corner_normals=np.zeros((0, 3), np.float32),
+    corner_uv=None,
+    corner_color=None,
+    triangles=np.zeros((0, 3), np.int32),
+    triangle_slot=np.zeros(0, np.int32),
+)
+"""At the numbers of meshes that are gone: those of the others stay"""
+
+type _Key = tuple[int, MeshNeeds, bool]
+"""Address of the evaluated mesh, what is read of it, whether wound the other way round"""
+
+
+@dataclass(frozen=True, slots=True)
+class StoredMesh:
+    """A mesh of the scene."""
+
+    number: int
+    """Index into `MeshStore.meshes`"""
+    dropped: int
+    """Triangles left out because a coordinate is not finite"""
+    warnings: tuple[str, ...]
+    owners: frozenset[int]
+    """`session_uid` of data-blocks whose change of geometry changes the mesh"""
+
+
+class MeshStore:
+    """Keeps what it has read. An edited mesh whose arrays come out the same stays the same object."""
+
+    def __init__(self) -> None:
+        self.meshes: list[MeshArrays] = []
+        self.reads = 0
+        """How many meshes have been read"""
+        self._stored: dict[_Key, StoredMesh] = {}
+        self._used: set[_Key] = set()
+        self._replaced: dict[int, MeshArrays] = {}
+        """By signature, arrays that were dropped since the last walk"""
+
+    def begin(self) -> None:
+        """Before a walk through all instances."""
+        self._used = set()
+
+    def end(self) -> None:
+        """After it: what no instance shows is let go."""
+        for key in set(self._stored) - self._used:
+            self._drop(key)
+        self._replaced.clear()
+
+    def forget_all(self) -> None:
+        """Any may have changed; those whose arrays come out the same stay the same objects all the same."""
+        for key in list(self._stored):
+            self._drop(key)
+
+    def forget(self, owners: set[int]) -> None:
+        """The geometry of these data-blocks changed."""
+        for key, stored in list(self._stored.items()):
+            if not stored.owners.isdisjoint(owners):
+                self._drop(key)
+
+    def read(self, obj: bpy.types.Object, owner: int, needs: MeshNeeds, is_mirrored: bool) -> StoredMesh:
+        """The mesh of an evaluated object, which the data-block `owner` (session_uid) makes or instances."""
+        assert obj.data is not None
+        key = (obj.data.as_pointer(), needs, is_mirrored)
+        self._used.add(key)
+        if key not in self._stored:
+            owners = frozenset((owner, obj.original.session_uid, obj.data.original.session_uid))
+            if is_mirrored:
+                plain = self.read(obj, owner, needs, is_mirrored=False)
+                arrays, dropped, warnings = mirrored(self.meshes[plain.number]), plain.dropped, plain.warnings
+            else:
+                arrays, dropped, warnings = self._read(obj, needs)
+            self._stored[key] = StoredMesh(self._number(arrays), dropped, warnings, owners)
+        return self._stored[key]
+
+    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[str, ...]]:
+        reading = _read_surface(obj, needs)
+        self.reads += 1
+        warnings = [f'"{obj.name}" has no {what} that its material needs.' for what in reading.missing]
+        if reading.dropped:
+            warnings.insert(
+                0, f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
+            )
+        return reading.mesh, reading.dropped, tuple(warnings)
+
+    def _number(self, arrays: MeshArrays) -> int:
+        """A free number for these arrays, or for the same ones as they were before."""
+        arrays = self._replaced.get(arrays.signature, arrays)
+        for number, known in enumerate(self.meshes):
+            if known is EMPTY:
+                self.meshes[number] = arrays
+                return number
+        self.meshes.append(arrays)
+        return len(self.meshes) - 1
+
+    def _drop(self, key: _Key) -> None:
+        stored = self._stored.pop(key)
+        arrays = self.meshes[stored.number]
+        self._replaced[arrays.signature] = arrays
+        self.meshes[stored.number] = EMPTY
+
+
+def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:
+    assert isinstance(obj.data, bpy.types.Mesh)
+    if not obj.data.is_editmode:
+        return read_mesh(obj.data, needs)
+    # What is being edited has its evaluated arrays only in a copy.
+    mesh = obj.to_mesh()
+    assert mesh is not None
+    try:
+        return read_mesh(mesh, needs)
+    finally:
+        obj.to_mesh_clear()

@@ -1,0 +1,187 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Time against error: every method at every value of the setting that trades one for the other, and the peers.
+
+One mark is one method with one value on one scene. Pictures are judged as in `compare`, by one reference that all
+marks of a scene share; vertices by the oracle (`vertex_accuracy`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import replace
+
+import bpy
+
+from ...errors import InputError
+from ...optics.catalogue import METHODS, Method
+from ...renderer.renderer import Renderer
+from ...renderer.settings import Settings
+from ...report.compare import Comparison
+from ...report.cycles_reference import Still, render_peer, render_reference
+from ...report.geometry_reference import GeometryReference, render_geometry
+from ...report.measured_frame import frame_geometry_error, image_error, measure_frame, measure_times
+from ...report.metrics import missing_flip
+from ...scene.arrays import SceneArrays
+from ...scene.blend_file import find_camera, find_reflectors, view_of_camera
+from ...scene.extract import extract_scene
+from ...scene.view import View
+from ..solvers.solver_table import settings_of
+from ..solvers.vertex_accuracy import VertexTruth
+from .chart_marks import Mark
+
+FRAMES = 2
+"""Timed in each of two rounds through all methods"""
+PEER_REPEATS, PEER_SECONDS = 3, 2.0
+"""A peer is timed again while it has taken less: one that needs half a minute once is timed once"""
+
+
+def sweep(name: str) -> Iterator[tuple[Settings, float, bool]]:
+    """Settings, value and whether it is the default, for the values that the method's entry in the catalogue names."""
+    method = METHODS[name]
+    default = default_value(method)
+    for value in method.sweep[1]:
+        yield settings_of(method, name, value), value, value == default
+
+
+def default_value(method: Method) -> float:
+    """Of the setting that is varied; where 0 stands for the method's own, that."""
+    return float(getattr(Settings(), method.sweep[0])) or float(method.steps)
+
+
+def step_count(comparison: Comparison) -> int:
+    """How many steps `scene_steps` has."""
+    return 4 + 2 * sum(len(METHODS[name].sweep[1]) for name in comparison.methods) + len(comparison.peers)
+
+
+def scene_steps(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    reflector_names: Sequence[str],
+    comparison: Comparison,
+    scene_name: str,
+) -> Generator[str, None, tuple[list[Mark], list[str]]]:
+    """Measure the open scene at its frame through its camera; yields before each of at most `step_count` steps.
+
+    Returns the marks and warnings, one sentence each. A method that refuses a reflector has one mark with the reason.
+    Raises InputError for what is wrong with the scene itself; RenderCanceledError where the user stops a render.
+    """
+    yield "Reading the scene"
+    view = view_of_camera(scene, find_camera(scene), comparison.width, comparison.height)
+    arrays = read_scene(scene, view_layer, reflector_names)
+    vertex_truth = VertexTruth(arrays, view)
+    warnings = [*vertex_truth.warnings, *filter(None, [missing_flip()])]
+
+    try:
+        marks = yield from _marks(scene, view_layer, arrays, view, comparison, scene_name, vertex_truth)
+    finally:
+        vertex_truth.free()
+    return marks, warnings
+
+
+def _marks(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    arrays: SceneArrays,
+    view: View,
+    comparison: Comparison,
+    scene_name: str,
+    vertex_truth: VertexTruth,
+) -> Generator[str, None, list[Mark]]:
+    width, height = comparison.width, comparison.height
+    yield "Tracing the mirrors' geometry in Cycles"
+    object_ids = {instance.object_name: instance.object_id for instance in arrays.instances}
+    geometry = render_geometry(scene, view_layer, width, height, object_ids, arrays.reflectors)
+    if not geometry.mask.any():
+        raise InputError(f"No reflector is in view of the camera of {scene_name}: turn the camera, or name others.")
+    yield f"Rendering the reference in Cycles with {comparison.samples} samples"
+    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
+    yield "Looking for all reflection points of the vertices"
+    vertex_truth.prepare()
+
+    marks: list[Mark] = []
+    used: dict[int, Settings] = {}
+    for name in comparison.methods:
+        setting = METHODS[name].sweep[0]
+        for settings, value, is_default in sweep(name):
+            if comparison.light == "direct":
+                # As Cycles there.
+                settings = replace(settings, bounces=1)
+            yield f"Rendering {name}, {setting} {value:g}"
+            mark = Mark(scene_name, name, setting, value, is_default)
+            try:
+                mark = _measured(mark, settings, arrays, view, reference, geometry, vertex_truth)
+            except InputError as error:
+                marks.append(Mark(scene_name, name, reason=str(error)))
+                break
+            used[len(marks)] = settings
+            marks.append(mark)
+    # All once more, the last first: what else the machine does at one time would count against single methods.
+    for index, settings in reversed(used.items()):
+        mark = marks[index]
+        yield f"Timing {mark.name}, {mark.setting} {mark.value:g} once more"
+        marks[index] = _timed_again(mark, settings, arrays, view, vertex_truth)
+    mask = geometry.mask != 0
+    for peer in comparison.peers:
+        yield f"Rendering the peer {peer}"
+        still = render_peer(scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS)
+        error = image_error(still.pixels, reference.pixels, mask)
+        samples = peer.removeprefix("cycles")
+        engine = ("cycles", "samples", float(samples)) if samples.isdigit() else (peer, "", None)
+        marks.append(
+            Mark(
+                scene_name,
+                *engine,
+                is_peer=True,
+                times={"frame": still.timing},
+                flip=error["flip"],
+                psnr=error["psnr"],
+            )
+        )
+    return marks
+
+
+def read_scene(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reflector_names: Sequence[str]) -> SceneArrays:
+    """The open scene at its frame. Raises InputError for what is wrong with it."""
+    with bpy.context.temp_override(scene=scene, view_layer=view_layer):
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+    return extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
+
+
+def _measured(
+    mark: Mark,
+    settings: Settings,
+    arrays: SceneArrays,
+    view: View,
+    reference: Still,
+    geometry: GeometryReference,
+    vertex_truth: VertexTruth,
+) -> Mark:
+    # A renderer of its own: how finely edges are split depends on what was asked for before.
+    frame = measure_frame(Renderer(arrays, settings), view, FRAMES)
+    image = image_error(frame.color, reference.pixels, geometry.mask != 0)
+    shown = frame_geometry_error(frame, geometry)
+    angle = shown["angle_deg"]
+    solves = METHODS[mark.name].solves_vertices
+    return Mark(
+        mark.scene,
+        mark.name,
+        mark.setting,
+        mark.value,
+        mark.is_default,
+        times=frame.times,
+        flip=image["flip"],
+        psnr=image["psnr"],
+        angle_deg=(angle["median"], angle["p95"], angle["p99"]),
+        wrong_object=shown["wrong_object"],
+        vertices=vertex_truth.measure(settings) if solves else None,
+    )
+
+
+def _timed_again(mark: Mark, settings: Settings, arrays: SceneArrays, view: View, vertex_truth: VertexTruth) -> Mark:
+    more = measure_times(Renderer(arrays, settings), view, FRAMES)
+    return replace(
+        mark,
+        times={name: timing.joined(more[name]) for name, timing in mark.times.items()},
+        vertices=None if mark.vertices is None else vertex_truth.time_again(mark.vertices, settings),
+    )

@@ -1,0 +1,328 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draw handlers: put the renderer's mirrors into every 3D viewport.
+
+The mirrors are drawn into the frame buffer that is bound before the view's engine draws: it is scene-linear, so the
+view transform and the overlays come out right. Where none was seen there, they are drawn over the finished view, with
+the colors of the Standard view transform and over its overlays. Who hides whom is decided by the renderer's own passes,
+because the viewport's depth is not there with overlays off.
+
+While only the view moves nothing is read from the scene. Updates of the scene are gathered and looked at by the next
+redraw. A handler that fails switches itself off, says why once in the panel, and can be switched on again.
+"""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Any
+
+import bpy
+import gpu
+from bpy.app.handlers import persistent
+
+from ..diagnostic_colors import MODES, legend_of
+from ..options import current_options, settings_of
+from ..renderer.shading.diagnostic_legend import draw_legend
+from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
+from .shown_scene import ViewportScene, look_of
+
+IDLE_SECONDS = 0.02
+"""Between the sub-frames of a view that rests"""
+ASKED_SECONDS = 5.0
+"""Statistics asked for less long ago are still of interest"""
+SHOWN_IN = {"SOLID", "MATERIAL", "RENDERED"}
+
+
+@dataclass
+class _State:
+    """All that lives while the switch is on."""
+
+    handlers: list[Any] = field(default_factory=list)
+    scenes: dict[tuple[int, str], ViewportScene] = field(default_factory=dict)
+    """By the scene's session_uid and the view layer's name"""
+    pictures: dict[int, RegionPicture] = field(default_factory=dict)
+    """Per region; the one drawn last comes last"""
+    frame_buffers: dict[int, Any] = field(default_factory=dict)
+    """Per region, captured before its engine draws; of this redraw only"""
+    failure: str = ""
+    asked_at: float = -1e9
+    """When the statistics were last asked for, on a monotonic clock"""
+    counters: dict[str, int] = field(default_factory=dict)
+    """Of scenes that are gone, and of pictures"""
+
+
+_state = _State()
+
+
+def switch(on: bool) -> None:
+    """Start or stop drawing. Starting clears an earlier failure."""
+    _stop()
+    if on:
+        _state.failure = ""
+        _add_handlers()
+    redraw_all()
+
+
+def messages() -> list[str]:
+    """What the user should know, one sentence each."""
+    found = [_state.failure] if _state.failure else []
+    for scene in _state.scenes.values():
+        found += scene.messages
+        for renderer in scene.renderers.values():
+            found += renderer.warnings
+    return list(dict.fromkeys(found))
+
+
+def counters() -> dict[str, int]:
+    """How often what was read, made and drawn since the extension was enabled: what tests of laziness count."""
+    total = dict(_state.counters)
+    for scene in _state.scenes.values():
+        _add_counts(total, scene.counters)
+    return total
+
+
+def statistics() -> list[tuple[str, str]]:
+    """Rows for the panel: vertices, solved, hidden, failed, iterations and times of the view drawn last.
+
+    Times are taken while somebody asks for them: that costs a wait for the GPU.
+    """
+    _state.asked_at = monotonic()
+    for picture in reversed(_state.pictures.values()):
+        if rows := picture.statistics():
+            return rows
+    return [("Nothing solved yet", "")]
+
+
+def reason() -> str:
+    """Why `auto` has chosen as it has in the view drawn last, one sentence, or nothing."""
+    return next((picture.reason for picture in reversed(_state.pictures.values())), "")
+
+
+def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
+    """Rows for the panel on an object's map; empty where there is none yet."""
+    for scene in _state.scenes.values():
+        for renderer in scene.renderers.values():
+            for baked in renderer.mirrors:
+                if baked.map is not None and baked.object_name == mirror.name:
+                    return [*baked.map.rows(), ("Bake Time", f"{baked.bake_ms:.0f} ms")]
+    return []
+
+
+def settings_changed() -> None:
+    """Show the scene with other settings: nothing is read for it."""
+    redraw_all()
+
+
+def mirrors_changed() -> None:
+    """Objects were marked as mirrors, or no longer, or show another material as such."""
+    for scene in _state.scenes.values():
+        scene.mirrors_changed()
+    redraw_all()
+
+
+def forget_scenes() -> None:
+    """Read all scenes as if they had never been seen."""
+    for key in list(_state.scenes):
+        _free(key)
+    redraw_all()
+
+
+def unregister() -> None:
+    """Leave nothing behind."""
+    for manager in bpy.data.window_managers:
+        if manager.curvrefl_enabled:
+            manager.curvrefl_enabled = False
+    _stop()
+    _state.failure = ""
+    _state.counters.clear()
+
+
+def redraw_all() -> None:
+    """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
+    there: set[int] = set()
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+                    there.update(region.as_pointer() for region in area.regions)
+    for gone in set(_state.pictures) - there:
+        del _state.pictures[gone]
+
+
+def _add_handlers() -> None:
+    space = bpy.types.SpaceView3D
+    _state.handlers = [
+        space.draw_handler_add(_guarded(_capture), (), "WINDOW", "PRE_VIEW"),
+        space.draw_handler_add(_guarded(_draw), (), "WINDOW", "POST_VIEW"),
+        space.draw_handler_add(_guarded(_draw_legend), (), "WINDOW", "POST_PIXEL"),
+    ]
+    for handlers, function in _app_handlers():
+        handlers.append(function)
+
+
+def _stop() -> None:
+    for handler in _state.handlers:
+        bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
+    _state.handlers = []
+    for handlers, function in _app_handlers():
+        if function in handlers:
+            handlers.remove(function)
+    for timer in (redraw_all, _redraw_settled):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
+    _state.pictures.clear()
+    _state.frame_buffers.clear()
+    for key in list(_state.scenes):
+        _free(key)
+
+
+def _free(key: tuple[int, str]) -> None:
+    scene = _state.scenes.pop(key)
+    _add_counts(_state.counters, scene.counters)
+    for region in [region for region, picture in _state.pictures.items() if picture.scene is scene]:
+        del _state.pictures[region]
+    scene.free()
+
+
+def _app_handlers() -> list[tuple[list[Any], Callable[..., None]]]:
+    handlers = bpy.app.handlers
+    return [
+        (handlers.depsgraph_update_post, _scene_changed),
+        (handlers.frame_change_post, _scene_changed),
+        (handlers.undo_post, _mirrors_may_differ),
+        (handlers.redo_post, _mirrors_may_differ),
+        (handlers.load_post, _loaded),
+    ]
+
+
+@persistent
+def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    if depsgraph is None or depsgraph.mode != "VIEWPORT" or depsgraph.view_layer is None:
+        return
+    known = _state.scenes.get((scene.session_uid, depsgraph.view_layer.name))
+    if known is not None:
+        known.note(depsgraph.updates)
+
+
+@persistent
+def _mirrors_may_differ(*_arguments: Any) -> None:
+    """Undo brings settings of objects back; what it brings back of the scene comes as an update."""
+    mirrors_changed()
+
+
+@persistent
+def _loaded(*_arguments: Any) -> None:
+    """Another file: nothing of the last one is left."""
+    if any(manager.curvrefl_enabled for manager in bpy.data.window_managers):
+        _state.pictures.clear()
+        forget_scenes()
+    else:
+        _stop()
+
+
+def _guarded(function: Callable[[bpy.types.Context], None]) -> Callable[[], None]:
+    """A handler that never raises: a failure ends the drawing and is reported once."""
+
+    def handler() -> None:
+        if _state.failure:
+            return
+        try:
+            function(bpy.context)
+        except Exception as error:
+            traceback.print_exc()
+            _state.failure = f"Drawing stopped: {_reason(error)}. Put that right and switch it on again."
+            # A handler cannot be removed while it runs, and a property not be set while drawing.
+            bpy.app.timers.register(_switch_off, first_interval=0.0)
+
+    return handler
+
+
+def _reason(error: Exception) -> str:
+    """Why it failed, for the user."""
+    text = str(error).strip().rstrip(".")
+    if isinstance(error, MemoryError) or ("gpu." in text and ".new(" in text):
+        # What Blender says when the driver gives it no texture or buffer.
+        return "the GPU has no memory left; hide objects, make the view smaller or lower the samples"
+    return text or type(error).__name__
+
+
+def _switch_off() -> None:
+    kept = _state.failure
+    _stop()
+    for manager in bpy.data.window_managers:
+        if manager.curvrefl_enabled:
+            manager.curvrefl_enabled = False
+    _state.failure = kept
+    redraw_all()
+
+
+def _capture(context: bpy.types.Context) -> None:
+    _state.frame_buffers[context.region.as_pointer()] = gpu.state.active_framebuffer_get()
+
+
+def _draw(context: bpy.types.Context) -> None:
+    # The frame buffer is this redraw's own: never kept beyond it.
+    region = context.region.as_pointer()
+    frame_buffer = _state.frame_buffers.pop(region, None)
+    space = context.space_data
+    if not isinstance(space, bpy.types.SpaceView3D) or space.shading.type not in SHOWN_IN:
+        return
+    scene, layer = context.scene, context.view_layer
+    assert scene is not None and layer is not None
+    key = (scene.session_uid, layer.name)
+    shown = _state.scenes.get(key)
+    if shown is None:
+        shown = _state.scenes[key] = ViewportScene()
+    chosen = scene.curvrefl
+    options = current_options()
+    renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), options.memory_cap << 20)
+    picture = _state.pictures.pop(region, None)
+    if renderer is None:
+        return
+    viewport = gpu.state.viewport_get()
+    if picture is None or picture.renderer is not renderer:
+        picture = RegionPicture(shown, renderer)
+    _state.pictures[region] = picture
+    now = monotonic()
+    is_timed = now - _state.asked_at < ASKED_SECONDS
+    picture.advance(view_of(context), chosen, options, now, is_timed, _state.counters)
+    # Diagnostic colors must come out as they are in their legend: not through the view transform.
+    if chosen.show in MODES or frame_buffer is None:
+        frame_buffer = gpu.state.active_framebuffer_get()
+    picture.composite(frame_buffer, viewport)
+    _draw_again(picture)
+
+
+def _draw_legend(context: bpy.types.Context) -> None:
+    """What the colors of a diagnostic view mean."""
+    scene = context.scene
+    if scene is None or context.region.as_pointer() not in _state.pictures:
+        return
+    diagnostic = diagnostic_of(scene.curvrefl, current_options())
+    if diagnostic is None:
+        return
+    legend = legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, (scene.curvrefl.method,))
+    if legend is not None:
+        draw_legend(legend, context)
+
+
+def _draw_again(picture: RegionPicture) -> None:
+    """While the view rests its picture gets finer."""
+    if picture.is_coarse:
+        if not bpy.app.timers.is_registered(_redraw_settled):
+            bpy.app.timers.register(_redraw_settled, first_interval=SETTLED_SECONDS)
+    elif picture.has_work and not bpy.app.timers.is_registered(redraw_all):
+        bpy.app.timers.register(redraw_all, first_interval=IDLE_SECONDS)
+
+
+def _redraw_settled() -> None:
+    redraw_all()
+
+
+def _add_counts(total: dict[str, int], counts: dict[str, int]) -> None:
+    for name, count in counts.items():
+        total[name] = total.get(name, 0) + count

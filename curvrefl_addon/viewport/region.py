@@ -1,0 +1,212 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The picture of one region of a window: coarse while something moves, finer while it rests."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import gpu
+import numpy as np
+
+from ...gpu_shaders.loader import load
+from ..diagnostic_colors import MODES, DiagnosticOptions
+from ..optics.catalogue import METHODS
+from ..renderer.device.gpu_objects import drawing_state, full_screen_triangle
+from ..renderer.reflection import Diagnostic, Reflection
+from ..renderer.renderer import Renderer
+from ..renderer.surfaces.canvas import Canvas
+from ..renderer.vertices.solve import statistics
+from ..scene.view import View
+
+if TYPE_CHECKING:
+    from .shown_scene import ViewportScene
+
+SETTLED_SECONDS = 0.15
+"""After the last change the full resolution is drawn again"""
+DIVISORS = {"FULL": 1, "HALF": 2, "QUARTER": 4}
+"""Of `Scene.curvrefl.motion_resolution`"""
+
+
+class RegionPicture:
+    """Sum of the sub-frames drawn so far, and what they show."""
+
+    def __init__(self, scene: ViewportScene, renderer: Renderer) -> None:
+        self.scene = scene
+        self.renderer = renderer
+        self._view: View | None = None
+        """At full resolution"""
+        self._state: tuple[int, Diagnostic | None] = (0, None)
+        """Revision of the renderer and what is shown, at the last change"""
+        self._reflection: Reflection | None = None
+        self._canvas: Canvas | None = None
+        self._divisor = 1
+        self._sub_frames = 0
+        self._changed_at = 0.0
+        self._rows: list[tuple[str, str]] = []
+        self._solve_ms = self._draw_ms = 0.0
+
+    @property
+    def is_coarse(self) -> bool:
+        """Drawn at less than the full resolution, or with less care: it is worth another go once all rests."""
+        return self._divisor > 1 or (self._reflection is not None and not self._reflection.is_final)
+
+    @property
+    def is_complete(self) -> bool:
+        """No sub-frame is left to draw."""
+        return self._sub_frames >= self.renderer.settings.samples
+
+    @property
+    def has_work(self) -> bool:
+        """There is something left to do while the view rests."""
+        return not self.is_complete or self.renderer.can_improve
+
+    def advance(
+        self, view: View, settings: Any, options: Any, now: float, is_timed: bool, counters: dict[str, int]
+    ) -> None:
+        """Draw the next sub-frame of `view`, from the start where something is not as before.
+
+        `settings`: Scene.curvrefl; `options`: the preferences; `now`: seconds of a monotonic clock. Where it `is_timed`
+        the times wait for the GPU.
+        """
+        diagnostic = diagnostic_of(settings, options)
+        state = (self.renderer.revision, diagnostic)
+        divisor, at_rest = 0, False
+        if self._view is None or state != self._state or not _is_same(self._view, view):
+            self._changed_at = now
+            divisor = DIVISORS.get(settings.motion_resolution, DIVISORS["HALF"])
+        elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
+            divisor, at_rest = 1, True
+        if divisor:
+            self._start(view, divisor, diagnostic, is_timed, counters, at_rest)
+        else:
+            self.renderer.improve()
+        self._view, self._state = view, state
+        if not self.is_complete:
+            assert self._reflection is not None and self._canvas is not None
+            start = perf_counter()
+            self.renderer.add_sub_frame(
+                self._canvas, self._reflection, self._sub_frames, 1.0, mirrors_only=True, diagnostic=diagnostic
+            )
+            if is_timed:
+                self._canvas.wait()
+                self._draw_ms = 1e3 * (perf_counter() - start)
+            self._sub_frames += 1
+            counters["sub-frames"] = counters.get("sub-frames", 0) + 1
+
+    def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
+        """Put the picture over the viewport's own."""
+        assert self._canvas is not None
+        shader = _composite_shader()
+        with frame_buffer.bind():
+            gpu.state.viewport_set(*viewport)
+            with drawing_state(blend="ALPHA_PREMULT"):
+                shader.bind()
+                shader.uniform_float("sub_frames", float(max(self._sub_frames, 1)))
+                shader.uniform_float("region", tuple(float(number) for number in viewport))
+                shader.uniform_sampler("picture", self._canvas.texture)
+                full_screen_triangle().draw(shader)
+        # What handlers before and after ours take for granted in this place.
+        gpu.state.depth_mask_set(True)
+
+    def statistics(self) -> list[tuple[str, str]]:
+        """Rows for the panel; read from the GPU once for each picture, when it rests."""
+        if not self._rows and self._reflection is not None and self._reflection.solutions and not self.is_coarse:
+            found = statistics(self._reflection.solutions)
+            self._rows = [
+                ("Vertices", f"{found['vertices']:,}"),
+                ("Reflected", f"{found['reflected']:,}"),
+                ("Hidden", f"{found['hidden']:,}"),
+                ("Failed", f"{found['unconverged']:,}"),
+                ("Iterations", f"{found['iterations']['mean']:.1f}"),
+            ]
+        if not self._rows and self._reflection is not None and self._reflection.follows_rays and not self.is_coarse:
+            self._rows = [("Rays", "followed"), ("Bounces", str(self.renderer.settings.bounces))]
+        times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
+        choice = self.renderer.choice
+        chosen = []
+        if choice is not None:
+            chosen = [
+                ("Chosen", METHODS[choice.settings.method].label),
+                ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),
+            ]
+        return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
+
+    @property
+    def reason(self) -> str:
+        """Why `auto` has chosen as it has, one sentence; nothing for other methods."""
+        return "" if self.renderer.choice is None else self.renderer.choice.why
+
+    def _start(
+        self,
+        view: View,
+        divisor: int,
+        diagnostic: Diagnostic | None,
+        is_timed: bool,
+        counters: dict[str, int],
+        at_rest: bool,
+    ) -> None:
+        small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
+        texture = None if self._canvas is None else self._canvas.texture
+        if self._canvas is None or (texture.width, texture.height) != (small.width, small.height):
+            self._canvas = Canvas.of_size(small.width, small.height, linear=True)
+        else:
+            self._canvas.clear()
+        start = perf_counter()
+        is_solved = diagnostic is None or diagnostic.needs_solve
+        self._reflection = self.renderer.reflect(small, solve=is_solved, at_rest=at_rest)
+        self._solve_ms = self._draw_ms = 0.0
+        if is_timed:
+            for solution in self._reflection.solutions:
+                solution.wait()
+            self._solve_ms = 1e3 * (perf_counter() - start)
+        self._divisor, self._sub_frames, self._rows = divisor, 0, []
+        counters["solves"] = counters.get("solves", 0) + 1
+
+
+def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
+    """The diagnostic view that `Scene.curvrefl` asks for, in the preferences' colors; None for the picture itself."""
+    if settings.show not in MODES:
+        return None
+    x, y, z = settings.stripe_direction
+    return Diagnostic(
+        settings.show,
+        DiagnosticOptions(axis=(x, y, z), stripes=settings.stripe_count, lines=settings.stripe_count),
+        options.colors,
+    )
+
+
+def view_of(context: bpy.types.Context) -> View:
+    """The eye of a region."""
+    data = context.region_data
+    return View(
+        np.array(data.view_matrix, np.float64),
+        np.array(data.window_matrix, np.float64),
+        context.region.width,
+        context.region.height,
+    )
+
+
+def _is_same(one: View, other: View) -> bool:
+    return (
+        (one.width, one.height) == (other.width, other.height)
+        and np.array_equal(one.world_to_view, other.world_to_view)
+        and np.array_equal(one.view_to_clip, other.view_to_clip)
+    )
+
+
+@cache
+def _composite_shader() -> Any:
+    info = gpu.types.GPUShaderCreateInfo()
+    info.vertex_in(0, "VEC2", "pos")
+    info.fragment_out(0, "VEC4", "color")
+    info.push_constant("FLOAT", "sub_frames")
+    info.push_constant("VEC4", "region")
+    info.sampler(0, "FLOAT_2D", "picture")
+    info.vertex_source(load("common/full_screen.vert.glsl"))
+    info.fragment_source(load("common/composite.frag.glsl"))
+    return gpu.shader.create_from_info(info)

@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One scene as the viewports show it: read when it changes, one renderer for each light that a viewport asks for."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+
+from ..errors import InputError
+from ..optics.catalogue import METHODS
+from ..options import marked_mirrors, newer_settings, overrides_of
+from ..renderer.geometry.scene_geometry import estimated_bytes
+from ..renderer.renderer import Renderer
+from ..renderer.settings import Settings
+from ..scene.arrays import SceneArrays
+from ..scene.changes import Changes
+from ..scene.extract import SceneReader
+from .environment_light import Environment, EnvironmentLights, environment_of
+
+MOST_RENDERERS = 3
+"""Ways of lighting, and local views, of one scene whose pictures are kept"""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What makes viewports on one scene show different pictures."""
+
+    environment: Environment
+    local_view: int = 0
+    """Address of the viewport whose local view it is, 0: none"""
+
+
+class ViewportScene:
+    """A scene in one view layer."""
+
+    def __init__(self) -> None:
+        self.changes = Changes(everything=True)
+        self.messages: list[str] = []
+        """What the user should know, one sentence each"""
+        self.renderers: dict[Look, Renderer] = {}
+        """The one used last comes last"""
+        self._reader = SceneReader()
+        self._lights = EnvironmentLights()
+        self._arrays: SceneArrays | None = None
+        self._refused: dict[int, str] = {}
+        """Objects (session_uid) that cannot be mirrors as they are, and why"""
+        self._mirrors: list[bpy.types.Object] | None = None
+        self._shown: dict[Look, SceneArrays] = {}
+        self._dropped: Counter[str] = Counter()
+        """Counts of renderers that are gone"""
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """How often what was read from the scene and made for it."""
+        total = Counter(self._reader.reads) + self._dropped
+        for renderer in self.renderers.values():
+            total.update(_made(renderer))
+        return dict(total)
+
+    def mirrors_changed(self) -> None:
+        """Objects were marked, or their overrides changed: data-blocks are looked up anew."""
+        self._mirrors = None
+        self._refused.clear()
+        self.changes.listing = True
+
+    def note(self, updates: Any) -> None:
+        """Remember what a depsgraph updated."""
+        self.changes.add(updates)
+        if self.changes.listing:
+            self._mirrors = None
+
+    def renderer(self, context: bpy.types.Context, look: Look, settings: Settings, memory_cap: int) -> Renderer | None:
+        """The renderer for a viewport, brought up to date; None where there is nothing to show.
+
+        `memory_cap`: bytes of GPU memory that meshes may take.
+        """
+        if self.changes or self._mirrors is None:
+            self._read(context, memory_cap)
+        if self._arrays is None:
+            return None
+        try:
+            return self._up_to_date(context, look, settings)
+        except InputError as error:
+            self._drop(look)
+            uid = self._culprit(str(error))
+            if uid is None:
+                self.messages.append(str(error))
+                self._arrays = None
+                return None
+            self._refused[uid] = str(error)
+            self.changes.listing = True
+            self._mirrors = None
+            return self.renderer(context, look, settings, memory_cap)
+
+    def free(self) -> None:
+        """Let go of everything."""
+        for look in list(self.renderers):
+            self._drop(look)
+
+    def _read(self, context: bpy.types.Context, memory_cap: int) -> None:
+        scene = context.scene
+        assert scene is not None
+        if self._mirrors is None:
+            self._mirrors = marked_mirrors(scene)
+        for uid in self.changes.geometry | self.changes.objects:
+            self._refused.pop(uid, None)
+        seen = [mirror for mirror in self._mirrors if mirror.visible_get(view_layer=context.view_layer)]
+        arrays = self._arrays_of(context, scene, seen)
+        newer = newer_settings(scene)
+        self.messages = [*([newer] if newer else []), *self._refused.values()]
+        self._shown.clear()
+        self._arrays = arrays
+        if arrays is None:
+            self.free()
+            return
+        method = METHODS.get(scene.curvrefl.method)
+        needed = estimated_bytes(arrays, method is None or method.follows_rays or method.chooses)
+        if needed > memory_cap:
+            self._arrays = None
+            self.messages.append(
+                f"The scene needs about {needed >> 20} MB of GPU memory and the preferences allow "
+                f"{memory_cap >> 20} MB: hide objects, or raise the memory limit."
+            )
+
+    def _arrays_of(
+        self, context: bpy.types.Context, scene: bpy.types.Scene, seen: list[bpy.types.Object]
+    ) -> SceneArrays | None:
+        """The scene with those of the mirrors that can be ones. Changes stay until there is something to show."""
+        while usable := [mirror for mirror in seen if mirror.session_uid not in self._refused]:
+            self._lights.forget_images(self.changes.images)
+            changes, self.changes = self.changes, Changes()
+            try:
+                return self._reader.read(
+                    context.evaluated_depsgraph_get(), scene, usable, changes, overrides_of(usable)
+                )
+            except InputError as error:
+                uid = self._culprit(str(error))
+                if uid is None:
+                    raise
+                self._refused[uid] = str(error)
+        return None
+
+    def _up_to_date(self, context: bpy.types.Context, look: Look, settings: Settings) -> Renderer:
+        if look not in self._shown:
+            assert self._arrays is not None
+            self._shown[look] = self._lights.lit(self._local(context, look), look.environment)
+        arrays = self._shown[look]
+        renderer = self.renderers.pop(look, None)
+        if renderer is None:
+            while len(self.renderers) >= MOST_RENDERERS:
+                self._drop(next(iter(self.renderers)))
+            renderer = Renderer(arrays, settings)
+            self._dropped["renderers made"] += 1
+        self.renderers[look] = renderer
+        renderer.update(arrays)
+        if renderer.settings != settings:
+            renderer.configure(settings)
+        return renderer
+
+    def _local(self, context: bpy.types.Context, look: Look) -> SceneArrays:
+        """What a local view leaves of the scene."""
+        assert self._arrays is not None
+        if not look.local_view:
+            return self._arrays
+        space = context.space_data
+        assert isinstance(space, bpy.types.SpaceView3D)
+        shown = {obj.session_uid for obj in bpy.data.objects if obj.local_view_get(space)}
+        return self._reader.only(self._arrays, shown)
+
+    def _culprit(self, message: str) -> int | None:
+        """The mirror that an InputError names."""
+        for mirror in self._mirrors or ():
+            if f'"{mirror.name}"' in message and mirror.session_uid not in self._refused:
+                return mirror.session_uid
+        return None
+
+    def _drop(self, look: Look) -> None:
+        renderer = self.renderers.pop(look, None)
+        self._shown.pop(look, None)
+        if renderer is not None:
+            self._dropped.update(_made(renderer))
+            renderer.free()
+        self._lights.keep({kept.environment for kept in self.renderers})
+
+
+def _made(renderer: Renderer) -> dict[str, int]:
+    return {**renderer.counters, **renderer.geometry.counters, **renderer.ray_counters}
+
+
+def look_of(space: bpy.types.SpaceView3D, settings: Any) -> Look:
+    """How a viewport shows its scene."""
+    return Look(environment_of(space, settings), space.as_pointer() if space.local_view is not None else 0)

@@ -1,8 +1,0 @@
-// SPDX-FileCopyrightText: 2026 Curvrefl contributors
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Number of this invocation, for `dispatch` of renderer/gpu_objects.py.
-
-int invocation()
-{
-  return int(gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x);
-}

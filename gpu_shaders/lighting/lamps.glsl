@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lamps of renderer/lighting/lamps.py. Records of a lamp:
+//   0: place of this sub-frame's sample (sun: direction to it), kind
+//   1: intensity (sun: irradiance; area: radiance times area), width of the sample for highlights
+//   2: middle (sun: direction to it), radius
+//   3: direction in which it shines, cosine of the cone's or the sun's half angle
+//   4, 5: half axes of an area lamp (else unit), with: ellipse or smoothness of a spot's edge; seen in mirrors
+//   6: radiance of its body, kind of shadow (0 none, 1 one map, 2 cube)
+//   7..10: one map: rows that give texel x, texel y, depth and w; 11: its layer
+//   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
+// Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py), as many
+// drivers run all branches.
+#define LAMP_POINT 0
+#define LAMP_SPOT 1
+#define LAMP_SUN 2
+#define LAMP_AREA 3
+#if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
+#define LIGHTING_NEAR_LAMPS
+#endif
+#if defined(LIGHTING_SUN) || defined(LIGHTING_NEAR_LAMPS)
+#define LIGHTING_LAMPS
+#endif
+
+float spot_share(int base, vec3 from_lamp)
+{
+  float t = clamp((dot(from_lamp, lighting_data[base + 3].xyz) - lighting_data[base + 3].w) * lighting_data[base + 4].w,
+                  0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+float lamp_shadow(int base, vec3 position)
+{
+  int kind = int(lighting_data[base + 6].w);
+  vec3 window = vec3(0.0);
+  float layer = -1.0;
+#ifdef LIGHTING_MAPS
+  if (kind == 1) {
+    vec4 p = vec4(position, 1.0);
+    float w = dot(lighting_data[base + 10], p);
+    window = vec3(dot(lighting_data[base + 7], p), dot(lighting_data[base + 8], p),
+                  dot(lighting_data[base + 9], p)) / w;
+    layer = w > 0.0 ? lighting_data[base + 11].x : -1.0;
+  }
+#endif
+#ifdef LIGHTING_CUBES
+  if (kind == 2) {
+    vec3 ray = position - lighting_data[base].xyz;
+    vec3 size = abs(ray);
+    vec4 sides = lighting_data[base + 7];
+    bool x_face = size.x >= size.y && size.x >= size.z;
+    bool y_face = !x_face && size.y >= size.z;
+    float depth = max(size.x, max(size.y, size.z));
+    vec2 across = x_face ? ray.yz : (y_face ? ray.xz : ray.xy);
+    vec2 layers = x_face ? sides.xy : (y_face ? sides.zw : lighting_data[base + 8].xy);
+    float towards = x_face ? ray.x : (y_face ? ray.y : ray.z);
+    layer = towards > 0.0 ? layers.x : layers.y;
+    window = vec3(across / depth * lighting_data[base + 9].y + lighting_data[base + 9].x,
+                  lighting_data[base + 8].z + lighting_data[base + 8].w / depth);
+  }
+#endif
+  float lit = 1.0;
+  if (layer >= 0.0) {
+    lit = lit_smooth(window - vec3(0.0, 0.0, 1e-6), int(layer + 0.5));
+  }
+  return lit;
+}
+
+#ifdef RAY_SHADOWS
+// Out of a surface by this share of the place's coordinates, which rounding may have moved it.
+#define SHADOW_OFFSET 2e-6
+#define SHADOW_END 0.9999
+
+// 1 where nothing is on the way to this sub-frame's sample of the lamp.
+float lamp_shadow_by_ray(int base, Surface s, vec3 to_light, float range)
+{
+  if (int(lighting_data[base + 6].w) == 0) {
+    return 1.0;  // casts no shadow, or nothing could be in it
+  }
+  vec3 size = abs(s.position);
+  vec3 start = s.position + s.normal * (SHADOW_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
+  return walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true).instance < 0 ? 1.0 : 0.0;
+}
+#endif
+
+// Radiance towards the viewer from all lamps.
+vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
+{
+  vec3 sum = vec3(0.0);
+#ifdef LIGHTING_LAMPS
+  int count = int(lighting_data[0].x);
+  int i = 0;
+  do {
+    int base = HEADER_RECORDS + i * LAMP_RECORDS;
+    vec4 place = lighting_data[base];
+    int kind = int(place.w);
+    vec3 to_light = place.xyz;
+    vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
+    float width = lighting_data[base + 1].w;
+    float range = 1e30;
+#ifdef LIGHTING_NEAR_LAMPS
+    if (kind != LAMP_SUN) {
+      to_light = place.xyz - s.position;
+      float facing = 1.0;
+      if (kind != LAMP_AREA) {
+        // a ball shines as a disk that faces the surface: the sample moved into that disk
+        vec3 middle = lighting_data[base + 2].xyz - s.position;
+        float away2 = max(dot(middle, middle), 1e-12);
+        to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
+        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-12));
+      }
+      float distance2 = max(dot(to_light, to_light), 1e-12);
+      range = sqrt(distance2);
+      to_light *= inversesqrt(distance2);
+      width *= inversesqrt(distance2);
+      if (kind == LAMP_AREA) {
+        facing = max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
+        // no closer than a share of its own size: a point stands for its surroundings
+        distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
+      }
+      else if (kind == LAMP_SPOT) {
+        irradiance *= spot_share(base, -to_light);
+      }
+      irradiance *= facing / distance2;
+    }
+#endif
+    float cos_light = dot(s.normal, to_light);
+    if (cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
+#ifdef RAY_SHADOWS
+      irradiance *= lamp_shadow_by_ray(base, s, to_light, range);
+#else
+      irradiance *= lamp_shadow(base, s.position);
+#endif
+      vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
+      // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
+      float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
+      if (alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
+        scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
+      }
+      sum += scattered * irradiance;
+    }
+    i++;
+  } while (i < count);
+#endif
+  return sum;
+}
+
+// Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
+// through lamps in Cycles); alpha 1 where any is hit.
+vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
+{
+  vec4 sum = vec4(0.0);
+#ifdef LIGHTING_LAMPS
+  int count = int(lighting_data[0].x);
+  int i = 0;
+  do {
+    int base = HEADER_RECORDS + i * LAMP_RECORDS;
+    int kind = int(lighting_data[base].w);
+    vec3 radiance = lighting_data[base + 6].rgb;
+    vec3 shines = lighting_data[base + 3].xyz;
+    bool hit = false;
+    if (kind == LAMP_SUN) {
+      hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
+    }
+#ifdef LIGHTING_NEAR_LAMPS
+    else {
+      vec3 middle = lighting_data[base + 2].xyz - origin;
+      if (kind == LAMP_AREA) {
+        float facing = dot(direction, shines);
+        float t = dot(middle, shines) / (facing == 0.0 ? 1e-30 : facing);
+        vec3 place = t * direction - middle;
+        vec3 axis_x = lighting_data[base + 4].xyz;
+        vec3 axis_y = lighting_data[base + 5].xyz;
+        vec2 across = vec2(dot(place, axis_x) / dot(axis_x, axis_x), dot(place, axis_y) / dot(axis_y, axis_y));
+        bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
+                                                       max(abs(across.x), abs(across.y)) <= 1.0;
+        hit = facing < 0.0 && t > 0.0 && t < distance && inside;
+      }
+      else {
+        // a disk that faces the ray's origin
+        float away = length(middle);
+        vec3 axis = middle / max(away, 1e-30);
+        float facing = dot(direction, axis);
+        float t = away / max(facing, 1e-30);
+        vec3 place = t * direction - middle;
+        float radius = lighting_data[base + 2].w;
+        hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
+        if (kind == LAMP_SPOT) {
+          radiance *= spot_share(base, -direction);
+        }
+      }
+    }
+#endif
+    if (hit && lighting_data[base + 5].w > 0.5 && radiance.r + radiance.g + radiance.b > 0.0) {
+      sum += vec4(radiance, 1.0);
+    }
+    i++;
+  } while (i < count);
+#endif
+  return vec4(sum.rgb, min(sum.a, 1.0));
+}

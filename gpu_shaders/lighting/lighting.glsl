@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light on a surface point towards a viewer: lamps with shadows, the world with its shadows, emission.
+// Needs the samplers and the uniform block of renderer/lighting/lighting.py (Lighting.declare).
+//
+// lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
+//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour, brightest that
+//   is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of each direction where there is no
+//   image. Without lamps or directions the first record is dark: the loops over them run at
+//   least once, as a software renderer runs the body of a `for` once more than it needs.
+#define HEADER_RECORDS 8
+#define LAMP_RECORDS 12
+#define MAX_LAMPS 32
+#define DIRECTION_RECORDS 5
+
+struct Surface {
+  vec3 position;   // world space
+  vec3 normal;     // unit shading normal
+  vec3 base_color;
+  float metallic;
+  float roughness;
+  float ior;
+  float specular_level;
+  vec3 emission;
+  bool glossy_only;
+};
+
+// (Includes are put in place before defines are known: what others include too must not be behind one.)
+#include "common/records.glsl"
+#ifdef RAY_SHADOWS
+#include "rays/ray_walk.glsl"
+#endif
+#include "lighting/ggx.glsl"
+#include "lighting/shadow.glsl"
+#include "lighting/world_light.glsl"
+#include "lighting/lamps.glsl"
+
+// Outgoing radiance. `to_viewer`: unit. The normal is turned to the viewer's side.
+vec3 shade_surface(Surface s, vec3 to_viewer)
+{
+  float cos_viewer = dot(s.normal, to_viewer);
+  if (cos_viewer < 0.0) {
+    s.normal = -s.normal;
+    cos_viewer = -cos_viewer;
+  }
+  Lobes lobes = lobes_of(s, cos_viewer);
+  return s.emission + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+}
+
+// What a mirror shows besides its reflection: emission and the diffuse base below the reflecting lobe.
+vec3 shade_under_mirror(Surface s, vec3 to_viewer)
+{
+  float cos_viewer = dot(s.normal, to_viewer);
+  if (cos_viewer < 0.0) {
+    s.normal = -s.normal;
+    cos_viewer = -cos_viewer;
+  }
+  Lobes lobes = lobes_of(s, cos_viewer);
+  vec3 sum = s.emission;
+  if (max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) > 0.0) {
+    lobes.metal_weight = vec3(0.0);
+    lobes.dielectric_weight = 0.0;
+    lobes.specular_albedo = vec3(0.0);
+    sum += lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+  }
+  return sum;
+}

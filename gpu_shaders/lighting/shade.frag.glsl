@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror shows.
+// A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND, SHADES_SURFACE,
+// SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined.
+#if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
+#define QUADS
+#endif
+#include "lighting/quad.glsl"
+#include "lighting/lighting.glsl"
+#include "lighting/shade_surfaces.glsl"
+#include "lighting/mirror_tint.glsl"
+
+// As shade_surface turns it: neighbours that turn apart share nothing.
+vec3 facing(vec3 normal, vec3 direction)
+{
+  return dot(normal, direction) > 0.0 ? -normal : normal;
+}
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 origin, direction;
+  pixel_ray(textureSize(seen_position, 0), origin, direction);
+#ifdef SHADES_BACKGROUND
+  vec3 radiance = world_radiance(direction) + lamps_seen(origin, direction, 2e30).rgb;
+#else
+  vec4 position = texelFetch(seen_position, pixel, 0);
+  vec4 normal = texelFetch(seen_normal, pixel, 0);
+  vec4 base = texelFetch(seen_color, pixel, 0);
+#ifdef SHADES_SURFACE
+  world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
+  vec3 radiance = shade_surface(surface_of(position, normal, base.rgb), -direction);
+#else
+#ifdef ENVIRONMENT
+  // One pass per mirror.
+  if (base.w != mirror) {
+    discard;
+  }
+#endif
+  vec3 tint = mirror_tint(int(normal.w + 0.5), base.rgb, max(-dot(normal.xyz, direction), 0.0));
+  float seen_mirror = base.w;
+  origin = position.xyz;
+  direction = reflect(direction, normal.xyz);
+#ifdef ENVIRONMENT
+  vec3 radiance = tint * environment_at(origin, direction).rgb;
+#endif
+#ifdef SHADES_MIRROR
+  vec3 radiance = tint * (world_radiance(direction) + lamps_seen(origin, direction, 2e30).rgb);
+#endif
+#if defined(SHADES_MIRROR_OF_SURFACE) || defined(SHADES_MIRROR_OF_MIRROR)
+  position = texelFetch(reflected_position, pixel, 0);
+  normal = texelFetch(reflected_normal, pixel, 0);
+  base = texelFetch(reflected_color, pixel, 0);
+  // What is shown stands where it is, not where this pixel's own ray would have met it.
+  direction = normalize(position.xyz - origin);
+  Surface shown = surface_of(position, normal, base.rgb);
+#ifdef SHADES_MIRROR_OF_MIRROR
+  // What is seen in that one comes in passes of its own.
+  vec3 radiance = shade_under_mirror(shown, -direction);
+#else
+  world_is_shared =
+    quad_is_one_surface(shown.position, facing(shown.normal, direction), vec3(position.w, normal.w, seen_mirror));
+  vec3 radiance = shade_surface(shown, -direction);
+#endif
+#ifdef LIGHTING_NEAR_LAMPS
+  radiance += lamps_seen(origin, direction, distance(position.xyz, origin)).rgb;
+#endif
+  radiance *= tint;
+#endif
+#endif
+#endif
+  color = vec4(radiance, 1.0) * weight;
+}

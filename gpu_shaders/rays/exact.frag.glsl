@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
+// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask). With
+// KEEPS_WAY the next pass can go on from here. With WITH_COUNTS the direction is (nodes, triangles, instances that the ray
+// was tested against, 1).
+#include "rays/ray_walk.glsl"
+#include "rays/ray_surface.glsl"
+#include "lighting/mirror_tint.glsl"
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 mirror_place = texelFetch(mirror_position, pixel, 0);
+  vec4 mirror_facing = texelFetch(mirror_normal, pixel, 0);
+  vec4 mirror_base = texelFetch(mirror_color, pixel, 0);
+  float own = mirror_base.w;
+#ifdef ON_PATH
+  vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
+#else
+  vec3 incoming = normalize(mirror_place.xyz * view.eye.w - view.eye.xyz);
+  own *= eye_side;
+#endif
+  vec3 normal = mirror_facing.xyz;
+  vec3 direction = reflect(incoming, normal);
+  Hit hit = walk(mirror_place.xyz, direction, 3e38, SEEN_IN_MIRRORS, own, false);
+
+#ifdef KEEPS_WAY
+#ifdef WITH_COUNTS
+  direction_out = vec4(hit.visited, hit.tested, hit.entered, 1.0);
+#else
+  direction_out = vec4(direction, hit.visited);
+#endif
+  vec3 tint = mirror_tint(int(mirror_facing.w + 0.5), mirror_base.rgb, max(-dot(normal, incoming), 0.0));
+#ifdef ON_PATH
+  tint *= texelFetch(path_throughput, pixel, 0).rgb;
+#endif
+  throughput_out = vec4(tint, 1.0);
+#endif
+  if (hit.instance < 0) {
+    surface_position = vec4(direction, 0.0);
+    surface_normal = vec4(0.0);
+    surface_color_out = vec4(0.0);
+#ifdef WITH_IMAGES
+    uv_out = vec4(0.0, 0.0, -1.0, 0.0);
+#endif
+    return;
+  }
+  RaySurface surface = surface_of_hit(hit, mirror_place.xyz, direction);
+  vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
+  surface_position = vec4(surface.position, surface.object_id);
+  surface_normal = vec4(surface.normal, float(surface.material));
+  surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, surface.mirror);
+#ifdef WITH_IMAGES
+  vec4 transform = fetch_record(materials, MATERIAL_RECORDS * surface.material + 3);
+  float image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4).x;
+  uv_out = vec4(surface.uv * transform.xy + transform.zw, image, 0.0);
+#endif
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surface where a ray of ray_walk.glsl has hit: attributes of its triangle's corners by barycentric weights.
+#include "surfaces/vertex_color.glsl"
+
+struct RaySurface {
+  vec3 position;  // world space
+  vec3 normal;    // unit shading normal, world space, towards where the ray comes from
+  vec2 uv;
+  vec3 color;     // vertex color
+  float object_id;
+  float mirror;   // 1, 2, ... on a mirror
+  int material;
+};
+
+RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
+{
+  vec4 about = fetch_record(rays, hit.instance + 3);
+  vec4 regions = fetch_record(rays, hit.instance + 4);
+  int materials_of_slots = rays_top.z + int(regions.w);
+  int slots = int(fetch_record(rays, hit.instance + 5).x);
+  vec4 numbers = fetch_record(rays, hit.triangle + 3);
+  vec3 weights = vec3(1.0 - hit.place.x - hit.place.y, hit.place);
+  vec3 normal = vec3(0.0);
+  vec3 uv_color = vec3(0.0);
+  vec3 color = vec3(0.0);
+  for (int k = 0; k < 3; k++) {
+    int corner = REGION_UNIT * int(regions.z) + 2 * int(numbers[k]);
+    vec4 second = fetch_record(rays, corner + 1);
+    normal += weights[k] * fetch_record(rays, corner).xyz;
+    uv_color.xy += weights[k] * second.xy;
+    color += weights[k] * unpack_vertex_color(second.z);
+  }
+  // Normals go with the transposed inverse, whose columns are the rows from world to object space.
+  vec3 facing = cross(fetch_record(rays, hit.triangle + 1).xyz, fetch_record(rays, hit.triangle + 2).xyz);
+  vec3 x = fetch_record(rays, hit.instance).xyz;
+  vec3 y = fetch_record(rays, hit.instance + 1).xyz;
+  vec3 z = fetch_record(rays, hit.instance + 2).xyz;
+  vec3 outward = facing.x * x + facing.y * y + facing.z * z;
+  bool is_mirrored = (int(about.z) & IS_MIRRORED) != 0;
+  bool is_front = (dot(outward, direction) < 0.0) != is_mirrored;
+  RaySurface surface;
+  surface.position = origin + hit.range * direction;
+  surface.normal = normalize(normal.x * x + normal.y * y + normal.z * z) * (is_front ? 1.0 : -1.0);
+  surface.uv = uv_color.xy;
+  surface.color = color;
+  surface.object_id = about.x;
+  surface.mirror = about.y;
+  int slot = min(int(numbers.w), slots - 1);
+  surface.material = int(fetch_record(rays, materials_of_slots + slot / 4)[slot % 4]);
+  return surface;
+}

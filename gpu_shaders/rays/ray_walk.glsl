@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first triangle on a ray, by a walk of two levels of bounding-volume hierarchies: of the placed meshes, and in each
+// mesh of its triangles in object space. Needs the sampler (FLOAT_2D) `rays` and the push constant (IVEC4) `rays_top` of
+// renderer/rays/ray_scene.py: first record of the top level's nodes, of its instances, of its materials.
+//
+// Records of an inner node, for each of its two children: lowest corner, link; highest corner, count. count 0: an inner
+// node, link is its number; count < 0: link is an instance; count > 0: link is the first of so many triangles.
+// Of a triangle: corner A; edges B - A and C - A; numbers of its corners and its material slot. Object space.
+// Of a corner: normal; uv and packed color.
+// Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as none);
+// (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
+#include "common/records.glsl"
+
+#define STACK 64
+#define NODE_RECORDS 4
+#define INSTANCE_RECORDS 6
+#define TRIANGLE_RECORDS 4
+#define REGION_UNIT 16
+// What the walk is at: no node, so that it takes the next of its stack; at its end.
+#define NOWHERE -1
+#define OVER 99
+// What sees an instance, and how a mirror sees itself.
+#define SEEN_IN_MIRRORS 1
+#define CASTS_SHADOWS 2
+#define NEVER_SEES_ITSELF 4
+#define IS_CLOSED 8
+#define IS_MIRRORED 16  // its matrix turns space inside out
+// Share of a triangle by which its edges overlap the neighbours', or rounding would let rays through between them.
+#define OVERLAP 2e-6
+
+struct Ray {
+  vec3 origin;
+  vec3 direction;  // of any length, in object space; distances are in lengths of the world's unit vector
+  vec3 inverse;
+};
+
+struct Hit {
+  float range;    // distance along the ray
+  int instance;   // first record; -1: nothing was hit
+  int triangle;   // first record
+  vec2 place;     // barycentric weights of B and C
+  float visited;  // nodes looked at
+#ifdef WITH_COUNTS
+  float tested;   // triangles
+  float entered;  // instances
+#endif
+};
+
+Ray ray_along(vec3 origin, vec3 direction)
+{
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  vec3 away = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
+  ray.inverse = 1.0 / away;
+  return ray;
+}
+
+// Where the ray enters a box, or a number beyond `farthest`.
+float entry(Ray ray, vec3 low, vec3 high, float farthest)
+{
+  vec3 first = (low - ray.origin) * ray.inverse;
+  vec3 second = (high - ray.origin) * ray.inverse;
+  vec3 near = min(first, second);
+  vec3 far = max(first, second);
+  float enter = max(max(near.x, near.y), max(near.z, 0.0));
+  // Grown by what rounding may take away.
+  float leave = min(min(far.x, far.y), min(far.z, farthest)) * 1.000001;
+  return enter <= leave ? enter : 3e38;
+}
+
+int packed_child(float link, float count)
+{
+  return (int(link) << 4) + int(count) + 1;
+}
+
+// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, unless `own` is
+// negative: a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With `any_hit` whatever is nearer
+// than `farthest` ends the walk.
+Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
+{
+  Hit hit;
+  hit.range = farthest;
+  hit.instance = -1;
+  hit.triangle = 0;
+  hit.place = vec2(0.0);
+  hit.visited = 0.0;
+#ifdef WITH_COUNTS
+  hit.tested = hit.entered = 0.0;
+#endif
+  Ray world = ray_along(origin, direction);
+  Ray ray = world;
+  int stack[STACK];
+  float entries[STACK];
+  int top = 0;
+  int outside = -1;    // stack height at which the walk leaves the mesh it is in
+  int nodes = rays_top.x;
+  int triangles = 0;
+  int instance = -1;
+  float nearest = 0.0;
+  float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
+  // Where the walk is: link and count as in a node's record, or NOWHERE, or OVER.
+  int link = 0;
+  int count = 0;
+  // (Loops inside loops, as a group of pixels runs all branches of a loop's body: it is most often among inner nodes.)
+  do {
+    do {
+      if (link == NOWHERE) {
+        // On with the nearest subtree that was put off.
+        if (top == outside) {
+          outside = -1;
+          ray = world;
+          nodes = rays_top.x;
+        }
+        if (top == 0) {
+          count = OVER;
+        }
+        else {
+          top--;
+          if (entries[top] < hit.range) {
+            link = stack[top] >> 4;
+            count = (stack[top] & 15) - 1;
+          }
+        }
+      }
+      if (count == 0 && link != NOWHERE) {
+        int node = nodes + NODE_RECORDS * link;
+        vec4 low_1 = fetch_record(rays, node);
+        vec4 high_1 = fetch_record(rays, node + 1);
+        vec4 low_2 = fetch_record(rays, node + 2);
+        vec4 high_2 = fetch_record(rays, node + 3);
+        hit.visited += 1.0;
+        float enter_1 = entry(ray, low_1.xyz, high_1.xyz, hit.range);
+        float enter_2 = entry(ray, low_2.xyz, high_2.xyz, hit.range);
+        bool swapped = enter_2 < enter_1;
+        float later = max(enter_1, enter_2);
+        if (later < 3e38) {
+          stack[top] = swapped ? packed_child(low_1.w, high_1.w) : packed_child(low_2.w, high_2.w);
+          entries[top] = later;
+          top++;
+        }
+        bool enters = min(enter_1, enter_2) < 3e38;
+        link = enters ? int(swapped ? low_2.w : low_1.w) : NOWHERE;
+        count = enters ? int(swapped ? high_2.w : high_1.w) : 0;
+      }
+    } while (count == 0);
+    if (count < 0) {
+      int record = rays_top.y + INSTANCE_RECORDS * link;
+      vec4 about = fetch_record(rays, record + 3);
+      int flags = int(about.z);
+      bool is_own = about.y > 0.5 && abs(about.y - abs(own)) < 0.5;
+      link = NOWHERE;
+      if ((flags & seen_by) != 0 && !(is_own && (flags & NEVER_SEES_ITSELF) != 0)) {
+#ifdef WITH_COUNTS
+        hit.entered += 1.0;
+#endif
+        vec4 x = fetch_record(rays, record);
+        vec4 y = fetch_record(rays, record + 1);
+        vec4 z = fetch_record(rays, record + 2);
+        vec4 regions = fetch_record(rays, record + 4);
+        vec4 start = vec4(origin, 1.0);
+        ray = ray_along(vec3(dot(x, start), dot(y, start), dot(z, start)),
+                        vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction)));
+        nearest = is_own ? about.w : 0.0;
+        bool one_sided = is_own && own > 0.0 && (flags & IS_CLOSED) != 0;
+        facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
+        instance = record;
+        nodes = REGION_UNIT * int(regions.x);
+        triangles = REGION_UNIT * int(regions.y);
+        outside = top;
+        link = 0;
+      }
+      count = 0;
+    }
+    else if (count != OVER) {
+#ifdef WITH_COUNTS
+      hit.tested += float(count);
+#endif
+      do {
+        int triangle = triangles + TRIANGLE_RECORDS * link;
+        vec3 a = fetch_record(rays, triangle).xyz;
+        vec3 ab = fetch_record(rays, triangle + 1).xyz;
+        vec3 ac = fetch_record(rays, triangle + 2).xyz;
+        // Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997)
+        vec3 p = cross(ray.direction, ac);
+        float determinant = dot(ab, p);
+        vec3 offset = ray.origin - a;
+        vec3 q = cross(offset, ab);
+        float scale = 1.0 / determinant;
+        vec2 place = vec2(dot(offset, p), dot(ray.direction, q)) * scale;
+        float range = dot(ac, q) * scale;
+        // (Comparisons with what is not a number fail.)
+        if (place.x >= -OVERLAP && place.y >= -OVERLAP && place.x + place.y <= 1.0 + OVERLAP && range > nearest &&
+            range < hit.range && determinant * facing >= 0.0) {
+          hit.range = range;
+          hit.instance = instance;
+          hit.triangle = triangle;
+          hit.place = place;
+        }
+        link++;
+        count--;
+      } while (count > 0);
+      link = NOWHERE;
+      count = any_hit && hit.instance >= 0 ? OVER : 0;
+    }
+  } while (count != OVER);
+  return hit;
+}

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Base colour of the batch's material. Needs the push constants of renderer/surfaces/materials.py and, unless PLAIN, its sampler
+// `base_image` and the interpolated `uv` and `vertex_color`.
+
+vec3 surface_color()
+{
+#ifdef PLAIN
+  return base_color;
+#else
+  vec3 color = base_color * texture(base_image, uv * uv_transform.xy + uv_transform.zw).rgb;
+  return uses_vertex_color > 0.5 ? color * vertex_color : color;
+#endif
+}
