@@ -1,10 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `auto` does in a view: the cheapest way that stays under the error asked for, and why. Pure numpy.
+"""What `auto` does in a view: for each mirror the cheapest way that stays under the error asked for, and why.
 
-A mirror that can be seen in itself, is open or bends both ways may show a point several times: there every pixel
-follows its own ray. On a closed convex mirror reflection points are as good, and cheaper where a large mirror shows few
-vertices. An object that lies in the shadow of a convex mirror, seen from the eye, is reflected nowhere.
+A mirror that can be seen in itself, is open, or bends both ways may show a point several times, and one in which
+another mirror is seen shows what that one reflects: there every pixel follows its own ray. On a closed convex mirror
+reflection points are as good where its radial map tells the mesh's normals well enough (`mirrors/map_fit.py`), and
+cheaper where a large mirror shows few vertices. What lies in the shadow of a convex mirror, seen from the eye, is
+reflected nowhere, and a mirror that shows no object at all shows the background.
+
+A choice holds until it is clearly the worse one, so that a view that moves does not flip: `KEPT_SHARE`, `KEPT_FIT`.
 """
 
 from __future__ import annotations
@@ -21,7 +25,7 @@ from .geometry.split import split_angle
 from .mirrors.mirror import Mirror
 from .settings import Settings
 
-RAYS, VERTICES = "exact", "newton"
+RAYS, VERTICES, NOTHING = "exact", "newton", "nothing"
 PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.47, 0.005
 """Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
 LAYER_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.21, 1.5, 0.7
@@ -34,40 +38,106 @@ SPLIT_TRIANGLES = 100.0
 MOST_SHARE = 1.04
 """Points are solved up to this share of what rays cost: the costs are of all that differs between the two, and known to
 a few percent (figures: `tools/measure_auto.py`)"""
-STRICTER = 0.7
+KEPT_SHARE = 1.5
+"""A way that was taken in the view before is kept until it costs so many times as much as the other"""
+STRICTER_SHARE = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
 may be off. In stills solved midpoints see to it."""
+MAP_SHARE = 0.3
+"""Share of the error asked for that the map may be off"""
+KEPT_FIT = 1.2
+"""A map that was good enough in the view before is kept up to so many times that"""
 MAPS = ((60.0, 64), (250.0, 128), (600.0, 256))
-"""Up to this radius in pixels, the texels of the mirror's map whose own error stays under a tenth of a pixel"""
+"""Up to this radius in pixels, the texels of the mirror's map to begin with"""
 FINEST_MAP = 512
+KEPT_MAP = 1.5
+"""The map of the view before is kept while the mirror is at most so many times as large as that map is for"""
+SHARPEST_SPLIT = np.radians(1.0)
+"""Where normals of one place of a mirror differ by more no map tells them apart, and none is baked to find out"""
+THINNEST_SHARE = 0.004
+"""A mirror is too thin for a map whose inner ball has less than this share of its outer one: texels seen from inside do
+not tell its rim's two sides apart at any resolution"""
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
-    """What is done in one view."""
+class MirrorChoice:
+    """What is done for one mirror in one view."""
 
+    object_name: str
     settings: Settings
     """With a method in place of `auto`"""
     why: str
     """One sentence"""
     hidden: int
-    """Instances that no mirror can show"""
+    """Instances that the mirror cannot show"""
     shown: int
-    """The others that mirrors may see"""
+    """The others"""
+    shows_nothing: bool = False
+    """The background alone"""
+
+    @property
+    def method(self) -> str:
+        """A name in the catalogue, or NOTHING."""
+        return NOTHING if self.shows_nothing else self.settings.method
 
     def as_report(self) -> dict[str, object]:
         """For `report.json` and the panel."""
         return {
-            "method": self.settings.method,
+            "mirror": self.object_name,
+            "method": self.method,
             "why": self.why,
-            "map_resolution": 0 if self.settings.method == RAYS else self.settings.map_resolution,
-            "objects": {self.settings.method: self.shown, "not reflected": self.hidden},
+            "map_resolution": self.settings.map_resolution if self.method == VERTICES else 0,
+            "objects": {self.method: self.shown, "not reflected": self.hidden},
         }
 
 
 @dataclass(frozen=True, slots=True)
+class Choice:
+    """What is done in one view, mirror by mirror."""
+
+    mirrors: tuple[MirrorChoice, ...]
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Each once, in the order of the mirrors."""
+        return tuple(dict.fromkeys(mirror.method for mirror in self.mirrors))
+
+    @property
+    def why(self) -> str:
+        """One sentence each, of mirrors that have the same once."""
+        return " ".join(dict.fromkeys(mirror.why for mirror in self.mirrors))
+
+    @property
+    def hidden(self) -> int:
+        """Instances that no mirror can show; of several mirrors the fewest that one cannot."""
+        return min((mirror.hidden for mirror in self.mirrors), default=0)
+
+    @property
+    def shown(self) -> int:
+        """The others."""
+        return max((mirror.shown for mirror in self.mirrors), default=0)
+
+    def as_report(self) -> dict[str, object]:
+        """For `report.json`: what most users want to know, and each mirror where there are several."""
+        objects: dict[str, int] = {}
+        for mirror in self.mirrors:
+            objects[mirror.method] = max(objects.get(mirror.method, 0), mirror.shown)
+        report: dict[str, object] = {
+            "method": ", ".join(self.methods) or RAYS,
+            "why": self.why,
+            "map_resolution": max(
+                (mirror.settings.map_resolution for mirror in self.mirrors if mirror.method == VERTICES), default=0
+            ),
+            "objects": objects | {"not reflected": self.hidden},
+        }
+        if len(self.mirrors) > 1:
+            report["mirrors"] = [mirror.as_report() for mirror in self.mirrors]
+        return report
+
+
+@dataclass(frozen=True, slots=True)
 class Scenery:
-    """What mirrors may see, but themselves."""
+    """What mirrors may see, mirrors apart from the rest."""
 
     centers: Float64Array
     """(instances, 3) of balls around them, world space"""
@@ -77,6 +147,10 @@ class Scenery:
     """(instances,)"""
     triangles: NDArray[np.int64]
     """(instances,)"""
+    mirror_centers: Float64Array
+    """(mirrors, 3) of balls around the mirrors themselves, in their order"""
+    mirror_radii: Float64Array
+    """(mirrors,) 0 of those that no other mirror shows"""
 
 
 def choose(
@@ -86,58 +160,139 @@ def choose(
     scenery: Scenery,
     bumpy: Sequence[str] = (),
     is_still: bool = False,
+    last: Sequence[MirrorChoice | None] = (),
 ) -> Choice:
-    """For `settings` whose method is `auto`; the maps of mirrors are not needed.
+    """For `settings` whose method is `auto`.
 
-    `bumpy`: names of mirrors with bumps, which no map has. The sub-frames of a still share one solve and
-    what splitting edges by solved midpoints costs; a view that moves has one sub-frame each, without that.
+    `bumpy`: names of mirrors with bumps, which no map has. The sub-frames of a still share one solve and what splitting
+    edges by solved midpoints costs; a view that moves has one sub-frame each, without that. `last`: what was chosen
+    for each mirror in the view before. Bakes the maps of mirrors for which reflection points would be cheaper, once for
+    each size.
     """
-    unseen = np.ones(len(scenery.radii), bool)
-    for mirror in mirrors:
-        unseen &= in_shadow(mirror, view, scenery.centers, scenery.radii)
+    before = list(last) or [None] * len(mirrors)
+    return Choice(
+        tuple(
+            _choose(
+                settings,
+                view,
+                mirror,
+                _others(index, mirror, view, scenery),
+                scenery,
+                mirror.object_name in bumpy,
+                is_still,
+                before[index],
+            )
+            for index, mirror in enumerate(mirrors)
+        )
+    )
+
+
+def _others(index: int, mirror: Mirror, view: View, scenery: Scenery) -> bool:
+    """Whether another mirror may be seen in this one."""
+    there = scenery.mirror_radii > 0.0
+    there[index] = False
+    if not there.any():
+        return False
+    return not in_shadow(mirror, view, scenery.mirror_centers[there], scenery.mirror_radii[there]).all()
+
+
+def _choose(
+    settings: Settings,
+    view: View,
+    mirror: Mirror,
+    shows_mirrors: bool,
+    scenery: Scenery,
+    is_bumpy: bool,
+    is_still: bool,
+    last: MirrorChoice | None,
+) -> MirrorChoice:
+    name = mirror.object_name
+    unseen = in_shadow(mirror, view, scenery.centers, scenery.radii)
     hidden, shown = int(unseen.sum()), int((~unseen).sum())
-    rays = replace(settings, method=RAYS)
+
+    def rays(why: str) -> MirrorChoice:
+        return MirrorChoice(name, replace(settings, method=RAYS), f"{why}: rays are followed.", hidden, shown)
+
     if settings.shadow_rays:
-        return Choice(rays, "Shadows by rays are asked for: rays are followed.", hidden, shown)
-    if bumpy:
-        return Choice(rays, f'"{bumpy[0]}" has bumps: rays are followed.', hidden, shown)
-    several = next((mirror for mirror in mirrors if not mirror.facts.never_sees_itself), None)
-    if several is not None:
-        why = f'"{several.object_name}" may show a point several times: rays are followed.'
-        return Choice(rays, why, hidden, shown)
-    if len(mirrors) > 1:
-        return Choice(rays, "Mirrors may be seen in each other: rays are followed.", hidden, shown)
-    refused = next((mirror for mirror in mirrors if mirror.refusal is not None), None)
-    if refused is not None:
-        why = f'"{refused.object_name}" has no map that reflection points could be found on: rays are followed.'
-        return Choice(rays, why, hidden, shown)
-    pixels = sum(mirror_pixels(mirror, view) for mirror in mirrors)
-    vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
-    largest = max((mirror.radius_pixels(view) for mirror in mirrors), default=1.0)
-    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER)
-    added = SPLIT_TRIANGLES / split_angle(largest, tolerance) ** 2
-    by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
-    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (EDGES_SPLIT * np.sqrt(pixels) if is_still else 0.0)
-    layers = sum(layers_around(mirror, scenery.centers[~unseen], scenery.radii[~unseen]) for mirror in mirrors)
-    by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
-    by_points += once / (settings.samples if is_still else 1)
-    share = by_points / max(by_rays, 1e-30)
-    cost = f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
-    if not mirrors or share > MOST_SHARE:
-        return Choice(rays, f"{cost}: rays are followed.", hidden, shown)
-    resolution = next((texels for radius, texels in MAPS if largest <= radius), FINEST_MAP)
+        return rays("Shadows by rays are asked for")
+    if is_bumpy:
+        return rays(f'"{name}" has bumps')
+    if not mirror.facts.never_sees_itself:
+        return rays(f'"{name}" may show a point several times')
+    if shows_mirrors:
+        return rays("Mirrors may be seen in each other")
+    if mirror.holds_eye(view, mirror.shape()):
+        return rays(f'The eye is inside of "{name}"')
+    if shown == 0:
+        return MirrorChoice(
+            name, replace(settings, method=RAYS), f'"{name}" shows the background alone.', hidden, shown, True
+        )
+    if mirror.facts.sharpest_split > SHARPEST_SPLIT:
+        return rays(f'"{name}" has edges at which its normals jump')
+    frame = mirror.shape()
+    if mirror.inner_ball[1] < THINNEST_SHARE * frame.bound:
+        return rays(f'"{name}" is too thin for a map that reflection points could be found on')
+    share, cost = _cost_share(settings, view, mirror, scenery, unseen, is_still)
+    was_solved = last is not None and last.method == VERTICES
+    kept = 1.0 if last is None or last.method == NOTHING else KEPT_SHARE if was_solved else 1.0 / KEPT_SHARE
+    if share > MOST_SHARE * kept:
+        return rays(cost)
+    reach = float((np.linalg.norm(scenery.centers - frame.center, axis=1) + scenery.radii)[~unseen].max())
+    tolerance = settings.pixel_tolerance
+    most = MAP_SHARE * tolerance * (KEPT_FIT if was_solved else 1.0)
+    resolution = _map_resolution(frame.radius_pixels(view), last if was_solved else None)
+    while True:
+        shape = mirror.shape(resolution)
+        if shape.map is None or shape.refusal is not None:
+            return rays(f'"{name}" has no map that reflection points could be found on')
+        error = shape.fit().pixel_error(view, shape.world_to_map, reach + frame.bound)
+        if error <= most:
+            break
+        # The error of a smooth shape falls with the square of a texel, that of one with kinks with a texel.
+        if resolution >= FINEST_MAP or error > 4.0 * most * (FINEST_MAP / resolution):
+            return rays(f'Its map would show "{name}" off by {error:.2g} pixels')
+        resolution *= 2
     points = replace(
         settings,
         method=VERTICES,
-        map_resolution=max(resolution, 8),
-        pixel_tolerance=max(tolerance, 0.01),
+        map_resolution=resolution,
+        pixel_tolerance=max(tolerance * (1.0 if is_still else STRICTER_SHARE), 0.01),
     )
-    return Choice(points, f"{cost}: reflection points are solved.", hidden, shown)
+    return MirrorChoice(name, points, f"{cost}: reflection points are solved.", hidden, shown)
 
 
-def layers_around(mirror: Mirror, centers: Float64Array, radii: Float64Array) -> float:
-    """About how many surfaces a mirror shows behind each other: what balls (n, 3), (n,) cover of all directions."""
-    distance = np.linalg.norm(centers - mirror.center, axis=1)
+def _cost_share(
+    settings: Settings, view: View, mirror: Mirror, scenery: Scenery, unseen: NDArray[np.bool_], is_still: bool
+) -> tuple[float, str]:
+    """What solving costs over what following rays does, and that in words."""
+    frame = mirror.shape()
+    pixels = mirror_pixels(mirror, view)
+    vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
+    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER_SHARE)
+    added = SPLIT_TRIANGLES / split_angle(frame.radius_pixels(view), tolerance) ** 2
+    by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
+    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (EDGES_SPLIT * np.sqrt(pixels) if is_still else 0.0)
+    layers = layers_around(frame.center, scenery.centers[~unseen], scenery.radii[~unseen])
+    by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
+    by_points += once / (settings.samples if is_still else 1)
+    share = by_points / max(by_rays, 1e-30)
+    return share, f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
+
+
+def _map_resolution(radius: float, last: MirrorChoice | None) -> int:
+    """Texels along an edge of the map to begin with, for a mirror of so many pixels."""
+    wanted = next((texels for most, texels in MAPS if radius <= most), FINEST_MAP)
+    if last is None:
+        return wanted
+    # A finer map than needed does no harm.
+    largest = next((most for most, texels in MAPS if texels == last.settings.map_resolution), np.inf)
+    return last.settings.map_resolution if radius <= KEPT_MAP * largest else wanted
+
+
+def layers_around(center: Float64Array, centers: Float64Array, radii: Float64Array) -> float:
+    """About how many surfaces a mirror about `center` shows behind each other: what balls (n, 3), (n,) cover of all
+    directions."""
+    distance = np.linalg.norm(centers - center, axis=1)
     sine = np.minimum(radii / np.maximum(distance, 1e-30), 1.0)
     return float(np.where(distance <= radii, 1.0, 0.5 - 0.5 * np.sqrt(1.0 - sine * sine)).sum())
 

@@ -4,12 +4,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.view import View
-from .shading.lookup import Environment
-from .vertices.solve import Pieces, SolvedChunk, VertexSolution
+from .choice import Choice
+from .mirrors.mirror import Mirror
+from .settings import Settings
+from .shown.shown import Shown
+from .vertices.solve import SolvedChunk, VertexSolution
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,26 +33,52 @@ class Diagnostic:
 
 @dataclass(frozen=True)
 class Reflection:
-    """What the mirrors show in one view, before it is drawn."""
+    """What the mirrors show in one view. It belongs to that view: nothing of it is kept in the renderer."""
 
     view: View
-    parts: tuple[tuple[SolvedChunk, ...], ...]
-    """Per mirror, where vertices are solved, its scenery with the reflection points"""
-    environments: tuple[Environment, ...] | None
-    """Per mirror the environment that stands for what it reflects; None where vertices are solved"""
+    settings: Settings
+    """What was asked for"""
+    shown: tuple[Shown, ...]
+    """Of each mirror; empty where a diagnostic view wants the mirrors' surface alone"""
     warnings: tuple[str, ...]
     """One sentence each"""
-    follows_rays: bool = False
-    """Mirror pixels follow their rays: there is nothing to solve before"""
-    is_final: bool = True
-    """Nothing is left that `reflect` would do for a view at rest alone"""
+    choice: Choice | None = None
+    """What `auto` has chosen, and why"""
+
+    @property
+    def groups(self) -> list[tuple[type[Shown], list[Shown]]]:
+        """Mirrors that show the same way, in the order of the first of each."""
+        groups: dict[type[Shown], list[Shown]] = {}
+        for shown in self.shown:
+            groups.setdefault(type(shown), []).append(shown)
+        return list(groups.items())
+
+    @property
+    def is_final(self) -> bool:
+        """Nothing is left that `reflect` would do for a view at rest alone."""
+        return all(shown.is_final for shown in self.shown)
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Catalogue names by which the mirrors are shown, in their order."""
+        return tuple(shown.method for shown in self.shown)
+
+    @property
+    def parts(self) -> tuple[tuple[SolvedChunk, ...], ...]:
+        """Per mirror, where vertices are solved, its scenery with the reflection points."""
+        return tuple(shown.parts for shown in self.shown)
 
     @property
     def solutions(self) -> tuple[VertexSolution, ...]:
         """Of all mirrors and chunks that they may show: every vertex its first image. No midpoints of split edges."""
-        return tuple(
-            part.solution
-            for parts in self.parts
-            for part in parts
-            if part.image == 0 and not isinstance(part.chunk, Pieces)
-        )
+        return tuple(solution for shown in self.shown for solution in shown.solutions)
+
+    def of(self, mirrors: Sequence[Mirror]) -> list[Shown | None]:
+        """What was shown of each of these mirrors."""
+        known = {id(shown.mirror): shown for shown in self.shown}
+        return [known.get(id(mirror)) for mirror in mirrors]
+
+    def wait(self) -> None:
+        """Return when the GPU has finished what was done before drawing."""
+        for shown in self.shown:
+            shown.wait()

@@ -73,6 +73,8 @@ def messages() -> list[str]:
         found += scene.messages
         for renderer in scene.renderers.values():
             found += renderer.warnings
+    for picture in _state.pictures.values():
+        found += picture.warnings
     return list(dict.fromkeys(found))
 
 
@@ -105,9 +107,10 @@ def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
     """Rows for the panel on an object's map; empty where there is none yet."""
     for scene in _state.scenes.values():
         for renderer in scene.renderers.values():
-            for baked in renderer.mirrors:
-                if baked.map is not None and baked.object_name == mirror.name:
-                    return [*baked.map.rows(), ("Bake Time", f"{baked.bake_ms:.0f} ms")]
+            for known in renderer.mirrors:
+                for shape in reversed(known.baked):
+                    if shape.map is not None and known.object_name == mirror.name:
+                        return [*shape.map.rows(), ("Bake Time", f"{shape.bake_ms:.0f} ms")]
     return []
 
 

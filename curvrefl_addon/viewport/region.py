@@ -16,6 +16,7 @@ import numpy as np
 from ...gpu_shaders.loader import load
 from ..diagnostic_colors import MODES, DiagnosticOptions
 from ..optics.catalogue import METHODS
+from ..renderer.choice import RAYS
 from ..renderer.device.gpu_objects import drawing_state, full_screen_triangle
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
@@ -124,14 +125,15 @@ class RegionPicture:
                 ("Failed", f"{found['unconverged']:,}"),
                 ("Iterations", f"{found['iterations']['mean']:.1f}"),
             ]
-        if not self._rows and self._reflection is not None and self._reflection.follows_rays and not self.is_coarse:
+        if not self._rows and self.methods == (RAYS,) and not self.is_coarse:
             self._rows = [("Rays", "followed"), ("Bounces", str(self.renderer.settings.bounces))]
         times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
-        choice = self.renderer.choice
+        choice = None if self._reflection is None else self._reflection.choice
         chosen = []
         if choice is not None:
+            labels = [METHODS[name].label if name in METHODS else "Nothing" for name in choice.methods]
             chosen = [
-                ("Chosen", METHODS[choice.settings.method].label),
+                ("Chosen", ", ".join(labels)),
                 ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),
             ]
         return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
@@ -139,7 +141,18 @@ class RegionPicture:
     @property
     def reason(self) -> str:
         """Why `auto` has chosen as it has, one sentence; nothing for other methods."""
-        return "" if self.renderer.choice is None else self.renderer.choice.why
+        choice = None if self._reflection is None else self._reflection.choice
+        return "" if choice is None else choice.why
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Catalogue names by which its mirrors are shown, each once."""
+        return () if self._reflection is None else tuple(dict.fromkeys(self._reflection.methods))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the picture does not show, one sentence each."""
+        return () if self._reflection is None else self._reflection.warnings
 
     def _start(
         self,
@@ -158,11 +171,10 @@ class RegionPicture:
             self._canvas.clear()
         start = perf_counter()
         is_solved = diagnostic is None or diagnostic.needs_solve
-        self._reflection = self.renderer.reflect(small, solve=is_solved, at_rest=at_rest)
+        self._reflection = self.renderer.reflect(small, solve=is_solved, last=self._reflection, at_rest=at_rest)
         self._solve_ms = self._draw_ms = 0.0
         if is_timed:
-            for solution in self._reflection.solutions:
-                solution.wait()
+            self._reflection.wait()
             self._solve_ms = 1e3 * (perf_counter() - start)
         self._divisor, self._sub_frames, self._rows = divisor, 0, []
         counters["solves"] = counters.get("solves", 0) + 1

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each pixel shows, as a depth: class over CLASS_COUNT (renderer/surfaces/pixel_classes.py). Passes that light one class only
 // are drawn at its depth and tested for equality before their shader runs, as there is no stencil.
+#include "surfaces/chosen_mirrors.glsl"
 
 void main()
 {
@@ -19,5 +20,10 @@ void main()
 #endif
 #endif
   }
+#ifdef WITH_CHOICE
+  if (kind > 0.5 && !is_chosen(kind)) {
+    shown = NOTHING;
+  }
+#endif
   gl_FragDepth = shown / CLASS_COUNT;
 }

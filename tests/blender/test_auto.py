@@ -14,8 +14,9 @@ from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, R
 from curvrefl.curvrefl_addon.renderer import choice as choices
 from curvrefl.curvrefl_addon.renderer import renderer as frame_module
 from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
+from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry import scene_geometry
-from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
 from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_texture
+from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import holds_point, is_closed
 from curvrefl.curvrefl_addon.renderer.rays import ray_scene
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import RayScene
-from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, WorldArrays
 from scenes.exactness import judge

@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, Float64Array, tangential, unit
-from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.frame import Frame
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from scenes.mirror_room import Room
 from scenes.views import look_at

@@ -10,7 +10,8 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
+from curvrefl.curvrefl_addon.renderer.frame import Frame
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera

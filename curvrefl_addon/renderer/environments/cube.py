@@ -22,13 +22,14 @@ from ...scene.view import View
 from ..device.gpu_objects import cube_texture, read_texture
 from ..geometry.chunk import Batches, Chunk
 from ..lighting.lighting import Lighting
-from ..mirrors.mirror import Mirror, faces_views
+from ..mirrors.baked_shape import BakedShape
 from ..shading.lookup import Environment
 from ..shading.shade import ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surfaces import SurfaceBuffer, draw_primary
 from ..surfaces.view_block import view_block
+from .cube_views import faces_views
 from .sphere_map import SphereMap
 
 SUB_FRAMES = 4
@@ -42,7 +43,8 @@ class EnvironmentCube:
 
     def __init__(
         self,
-        mirror: Mirror,
+        mirror: int,
+        shape: BakedShape,
         scenery: Sequence[tuple[Chunk, Batches]],
         reach: float,
         materials: Materials,
@@ -50,9 +52,10 @@ class EnvironmentCube:
         shade: ShadePass,
         resolution: int,
     ) -> None:
-        """`reach`: distance from the mirror's centre to the farthest point of the scenery, metres, or more."""
-        near = 0.05 * mirror.nearest_surface
-        self._center, self._bound = mirror.center, mirror.bound
+        """`mirror`: its number; `reach`: distance from its center to the scenery's farthest point, meters, or more."""
+        near = 0.05 * shape.nearest_surface
+        self._mirror = mirror
+        self._center, self._bound = shape.center, shape.bound
         self._views = faces_views(self._center, near, max(2.0 * reach, 10.0 * near), resolution)
         self._scenery, self._materials = scenery, materials
         self._seen = SurfaceBuffer(resolution, resolution)
@@ -74,12 +77,14 @@ class EnvironmentCube:
         which `VertexLookups` draws what it looks up."""
         if method == "environment_sphere":
             sphere = self._sphere_map(view)
-            return Environment(method, sphere.radiance, lambda: sphere.positions(self.positions()), sphere.constants)
+            return Environment(
+                method, sphere.radiance, lambda: sphere.positions(self.positions()), sphere.constants, self._mirror
+            )
         constants = {}
         if method == "environment_parallax":
             x, y, z = self._center.tolist()
             constants = {"environment_ball": (x, y, z, self.radius)}
-        return Environment(method, self.color, self.positions, constants)
+        return Environment(method, self.color, self.positions, constants, self._mirror)
 
     def positions(self) -> Any:
         """Cube texture of world positions and object_ids (0: background); made when first asked for."""

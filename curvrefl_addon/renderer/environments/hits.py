@@ -21,8 +21,8 @@ _SEEN = ("seen_position", "seen_normal", "seen_color")
 
 
 def environment_hits(seen: SurfaceBuffer, environments: Sequence[Environment], view_uniforms: Any) -> Float32Array:
-    """(h, w, 4) world position and object_id of what mirrors 1, 2, ... show, or the background's unit direction and 0;
-    all 0 off the mirrors."""
+    """(h, w, 4) world position and object_id of what the mirrors of these environments show, or the background's unit
+    direction and 0; all 0 off the mirrors."""
     target = gpu.types.GPUTexture((seen.width, seen.height), format="RGBA32F")
     frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(target,))
     # Before the frame buffer is bound: what is made only now draws, too.
@@ -30,11 +30,11 @@ def environment_hits(seen: SurfaceBuffer, environments: Sequence[Environment], v
     with drawing_state(), frame_buffer.bind():
         gpu.state.viewport_set(0, 0, seen.width, seen.height)
         frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
-        for number, (environment, texture) in enumerate(zip(environments, textures, strict=True), 1):
+        for environment, texture in zip(environments, textures, strict=True):
             shader = _hits_shader(environment.lookup)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
-            shader.uniform_float("mirror", float(number))
+            shader.uniform_float("mirror", float(environment.mirror))
             for name, buffer in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
                 shader.uniform_sampler(name, buffer)
             environment.bind(shader, texture)

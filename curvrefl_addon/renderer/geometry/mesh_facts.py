@@ -13,6 +13,7 @@ from .mesh_inside import is_closed
 from .mesh_pieces import MeshPieces, box_of, mesh_pieces
 from .solid import solid_side
 from .split import longest_edge
+from .split_normals import sharpest_split
 
 
 class MeshFacts:
@@ -37,6 +38,11 @@ class MeshFacts:
     @cached_property
     def is_closed(self) -> bool:
         return is_closed(self.mesh)
+
+    @cached_property
+    def sharpest_split(self) -> float:
+        """Largest angle, radians, between shading normals that corners of triangles have in one place."""
+        return sharpest_split(self.mesh)
 
     @property
     def never_sees_itself(self) -> bool:

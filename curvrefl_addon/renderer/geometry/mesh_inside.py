@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...scene.arrays import Float64Array, MeshArrays
 from .solid import has_no_boundary
@@ -21,10 +22,14 @@ def is_closed(mesh: MeshArrays) -> bool:
     """Whether every edge has as many triangles on one side as on the other; vertices at one place are one."""
     if len(mesh.triangles) == 0:
         return False
+    return has_no_boundary(places(mesh)[mesh.corner_vertex[mesh.triangles]].astype(np.int32))
+
+
+def places(mesh: MeshArrays) -> NDArray[np.int64]:
+    """(vertices,) numbers of the places where the vertices are: those at one place have the same."""
     low, size = mesh.positions.min(axis=0), float(np.ptp(mesh.positions, axis=0).max())
     cells = np.rint((mesh.positions - low) * (CELLS / max(size, 1e-30))).astype(np.int64)
-    _, place = np.unique((cells[:, 0] * (CELLS + 1) + cells[:, 1]) * (CELLS + 1) + cells[:, 2], return_inverse=True)
-    return has_no_boundary(place[mesh.corner_vertex[mesh.triangles]].astype(np.int32))
+    return np.unique((cells[:, 0] * (CELLS + 1) + cells[:, 1]) * (CELLS + 1) + cells[:, 2], return_inverse=True)[1]
 
 
 def holds_point(mesh: MeshArrays, point: Float64Array) -> bool:

@@ -117,7 +117,19 @@ def bake_instance(
     center: ArrayLike | None = None,
     limits: Limits | None = None,
 ) -> ReflectorMap:
-    """Bake `scene.instances[instance_index]` into cube maps of `resolution` x `resolution` texels a face.
+    """Bake `scene.instances[instance_index]`; see `bake_placed`."""
+    instance = scene.instances[instance_index]
+    return bake_placed(scene.meshes[instance.mesh], instance, resolution, center, limits)
+
+
+def bake_placed(
+    mesh: MeshArrays,
+    instance: InstanceArrays,
+    resolution: int = 128,
+    center: ArrayLike | None = None,
+    limits: Limits | None = None,
+) -> ReflectorMap:
+    """Bake a placed mesh into cube maps of `resolution` x `resolution` texels a face.
 
     The star centre is `center` (3,), in world space, or else found. Raises InputError for a resolution out of range,
     an empty or non-finite mesh, a matrix without inverse, a centre that sees nothing of the mesh, and a mesh past
@@ -127,8 +139,7 @@ def bake_instance(
         raise InputError(f"A map of {resolution} texels is out of range: choose {MIN_RESOLUTION} to {MAX_RESOLUTION}.")
     limits = limits or Limits()
     require_gpu()
-    instance = scene.instances[instance_index]
-    placed = _place(scene.meshes[instance.mesh], instance)
+    placed = _place(mesh, instance)
     corners = placed.triangle_positions()
     if (corners == corners[0, 0]).all():
         raise InputError(f'"{placed.name}" is a single point: choose a mesh with a surface as reflector.')
@@ -288,27 +299,54 @@ def _solid_angle_weights(resolution: int) -> Float64Array:
     return np.broadcast_to(weights / (6.0 * weights.sum()), (6, resolution, resolution))
 
 
-def _measure(
-    placed: _PlacedMesh, corners: Float64Array, inverted: bool, radial: Float32Array
-) -> tuple[Spread, Spread, Float32Array]:
-    """Errors of the map against the mesh's outside, at points spread evenly over its area.
+@dataclass(frozen=True, slots=True)
+class SurfaceSamples:
+    """Points spread evenly over the area of a mesh's outside."""
 
-    `corners` (triangles, 3, 3) are relative to the star centre.
-    """
+    points: Float64Array
+    """(n, 3) relative to the star center, in axes parallel to the map frame; none at the center itself"""
+    normals: Float64Array
+    """(n, 3) unit shading normals there, turned outwards"""
+
+
+def surface_samples(mesh: MeshArrays, instance: InstanceArrays, baked: ReflectorMap, count: int) -> SurfaceSamples:
+    """At most `count` points of the placed mesh that was baked, in the map frame."""
+    placed = _place(mesh, instance)
+    origin = placed.from_world(baked.center)
+    corners = placed.triangle_positions() - origin
+    crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inverted = float(np.einsum("ij,ij->", crossed, corners[:, 0])) < 0.0
+    return _samples(placed, corners, inverted, count)
+
+
+def _samples(placed: _PlacedMesh, corners: Float64Array, inverted: bool, count: int) -> SurfaceSamples:
+    """`corners` (triangles, 3, 3) are relative to the star center."""
     crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.sqrt(np.einsum("ij,ij->i", crossed, crossed))
     outward = np.einsum("ij,ij->i", crossed, corners[:, 0]) * (-1.0 if inverted else 1.0)
     areas[outward <= 0.0] = 0.0
     if not areas.any():
-        return Spread(), Spread(), np.zeros((0, 4), np.float32)
+        return SurfaceSamples(np.zeros((0, 3)), np.zeros((0, 3)))
     random = np.random.default_rng(0)
-    chosen = random.choice(len(areas), ERROR_POINTS, p=areas / areas.sum())
-    weights = random.dirichlet((1.0, 1.0, 1.0), ERROR_POINTS)
+    chosen = random.choice(len(areas), count, p=areas / areas.sum())
+    weights = random.dirichlet((1.0, 1.0, 1.0), count)
     points = np.einsum("ij,ijk->ik", weights, corners[chosen])
     normals = unit(np.einsum("ij,ijk->ik", weights, placed.normals[placed.triangles[chosen]]))
+    kept = np.linalg.norm(points, axis=1) > 0.0
+    points, normals = points[kept], normals[kept]
+    inwards = np.einsum("ij,ij->i", points, normals) < 0.0
+    return SurfaceSamples(points, np.where(inwards[:, None], -normals, normals))
+
+
+def _measure(
+    placed: _PlacedMesh, corners: Float64Array, inverted: bool, radial: Float32Array
+) -> tuple[Spread, Spread, Float32Array]:
+    """Errors of the map against the mesh's outside, at points spread evenly over its area."""
+    samples = _samples(placed, corners, inverted, ERROR_POINTS)
+    points, normals = samples.points, samples.normals
+    if len(points) == 0:
+        return Spread(), Spread(), np.zeros((0, 4), np.float32)
     radii = np.linalg.norm(points, axis=1)
-    kept = radii > 0.0
-    points, normals, radii = points[kept], normals[kept], radii[kept]
     directions = points / radii[:, None]
     map_radii, gradients = CubeMapSurface(radial).radius(directions)
     map_normals = unit(map_radii[:, None] * directions - gradients)

@@ -56,13 +56,15 @@ class PathBuffer(SurfaceBuffer):
         eye_is_inside: bool,
         goes_on: bool = True,
         with_counts: bool = False,
+        chosen: Any = None,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
         `window` holds all of their pixels. `depth` is less than 1 where there was a ray to follow, and only there is
         anything in the other textures; in `direction` and `throughput` only if it `goes_on` from here, or has come from
         a PathBuffer. `with_counts`: `direction` gets what each ray was tested against in place of its direction: nodes,
-        triangles, instances, and 1 where there is a ray.
+        triangles, instances, and 1 where there is a ray. `chosen`: record texture by mirrors' numbers, 1 of those whose
+        rays are followed; None is all.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
@@ -71,7 +73,7 @@ class PathBuffer(SurfaceBuffer):
             self._frame_buffers = {}
         if window[2] <= 0 or window[3] <= 0:
             return
-        self._find_mirrors(mirrors, window)
+        self._find_mirrors(mirrors, window, chosen)
         keeps_way = goes_on or with_counts or path is not None
         shader = _exact_shader(path is not None, self._uv is not None, keeps_way, with_counts)
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
@@ -101,15 +103,17 @@ class PathBuffer(SurfaceBuffer):
             )
         return self._frame_buffers[keeps_way]
 
-    def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window) -> None:
+    def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window, chosen: Any) -> None:
         on_path = isinstance(mirrors, PathBuffer)
-        shader = _mask_shader(on_path)
+        shader = _mask_shader(on_path, chosen is not None)
         with drawing_state("ALWAYS", depth_write=True), self._mask.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
             shader.uniform_sampler("surface_color", mirrors.color)
             if on_path:
                 shader.uniform_sampler("surface_depth", mirrors.depth)
+            if chosen is not None:
+                shader.uniform_sampler("chosen_mirrors", chosen)
             full_screen_triangle().draw(shader)
 
     def _look_up_images(self, images: list[Any], window: Window) -> None:
@@ -149,7 +153,7 @@ def declare_path(info: Any) -> None:
 
 
 @cache
-def _mask_shader(on_path: bool) -> Any:
+def _mask_shader(on_path: bool, with_choice: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.vertex_in(0, "VEC2", "pos")
     info.define("PATH_DEPTH", str(PATH_DEPTH))
@@ -157,6 +161,9 @@ def _mask_shader(on_path: bool) -> Any:
     if on_path:
         info.define("ON_PATH")
         info.sampler(1, "DEPTH_2D", "surface_depth")
+    if with_choice:
+        info.define("WITH_CHOICE")
+        info.sampler(2, "FLOAT_2D", "chosen_mirrors")
     info.depth_write("ANY")
     info.vertex_source(load("common/full_screen.vert.glsl"))
     info.fragment_source(load("rays/path_mask.frag.glsl"))

@@ -59,6 +59,7 @@ class DiagnosticPass:
         options: DiagnosticOptions,
         methods: Sequence[str],
         parts: Sequence[Sequence[SolvedChunk]] = (),
+        chosen: Any = None,
     ) -> None:
         """Add view `mode` (of `MODES`), times `weight`, to the frame buffer `target` on the pixels of mirrors.
 
@@ -66,7 +67,7 @@ class DiagnosticPass:
         reflected scene's surface buffer, or for each mirror the environment whose positions stand for it; views that
         are not in `SOLVED_MODES` do not look at it.
         `methods` are the catalogue names by which each mirror is drawn; the status view shows the vertices of `parts`,
-        per mirror.
+        per mirror. `chosen`: record texture by mirrors' numbers, 1 of those that are drawn, None for all.
         """
         if mode not in MODES:
             raise ValueError(f"no diagnostic view {mode}")
@@ -80,8 +81,8 @@ class DiagnosticPass:
         textures = [environment.positions() if environment else None for environment in environments]
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
-            for number, (environment, positions) in enumerate(zip(environments, textures, strict=True), 1):
-                shader = _shader(mode, environment.lookup if environment else "", marks is not None)
+            for environment, positions in zip(environments, textures, strict=True):
+                shader = _shader(mode, environment.lookup if environment else "", marks is not None, chosen is not None)
                 shader.bind()
                 shader.uniform_block("view", view_uniforms)
                 shader.uniform_float("weight", weight)
@@ -90,7 +91,7 @@ class DiagnosticPass:
                 # Held until the draw: a sampler is bound by reference.
                 palette = self._set_look(shader, mode, options, methods)
                 if environment is not None:
-                    shader.uniform_float("mirror", float(number))
+                    shader.uniform_float("mirror", float(environment.mirror))
                     environment.bind(shader, positions)
                 elif mode in SOLVED_MODES and isinstance(reflected, SurfaceBuffer):
                     buffers = (reflected.position, reflected.normal, reflected.color)
@@ -98,6 +99,8 @@ class DiagnosticPass:
                         shader.uniform_sampler(name, texture)
                 if marks is not None:
                     shader.uniform_sampler("marks", marks)
+                if chosen is not None:
+                    shader.uniform_sampler("chosen_mirrors", chosen)
                 full_screen_triangle().draw(shader)
                 del palette
 
@@ -222,7 +225,7 @@ class _Marks:
 
 
 @cache
-def _shader(mode: str, lookup: str, marks: bool) -> Any:
+def _shader(mode: str, lookup: str, marks: bool, with_choice: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.typedef_source(TYPEDEF)
     info.vertex_in(0, "VEC2", "pos")
@@ -254,6 +257,9 @@ def _shader(mode: str, lookup: str, marks: bool) -> Any:
     if marks:
         info.define("MARKS")
         samplers.append(("marks", "FLOAT_2D"))
+    if with_choice:
+        info.define("WITH_CHOICE")
+        samplers.append(("chosen_mirrors", "FLOAT_2D"))
     info.define(mode)
     for slot, (name, kind) in enumerate(samplers):
         info.sampler(slot, kind, name)

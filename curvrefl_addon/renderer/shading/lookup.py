@@ -41,6 +41,8 @@ class Environment:
     """Makes or finds the texture of (world position, object_id; 0 for the background) that is looked up alike"""
     constants: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     """Values of the lookup's push constants"""
+    mirror: int = 1
+    """Number of the mirror"""
 
     def bind(self, shader: Any, texture: Any) -> None:
         """Set what `declare` has declared, with one of the two textures, on a bound shader."""

@@ -65,19 +65,24 @@ class ShadePass:
         mirrors: Window | None = None,
         later: Iterator[Bounce] | None = None,
         shadows: RayScene | None = None,
+        chosen: Any = None,
+        with_others: bool = True,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
-        touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after
-        it. With `shadows`, these rays shadow what mirrors show.
+        touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
+        rays shadow what mirrors show. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
+        all; `with_others`: what is no mirror is, too.
         """
-        mirrors_only = mirrors is not None
+        mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
             return
         classes = self._classes_for(seen)
-        classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
+        classes.sort(
+            seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
+        )
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             gpu.state.viewport_set(0, 0, seen.width, seen.height)
@@ -112,10 +117,10 @@ class ShadePass:
                     shader.uniform_sampler(name, texture)
                 self._draw(shader, kind, seen, view_uniforms, weight)
             return
-        for number, environment in enumerate(reflected or (), 1):
+        for environment in reflected or ():
             shader = _environment_shader(environment.lookup, self._lighting.features)
             shader.bind()
-            shader.uniform_float("mirror", float(number))
+            shader.uniform_float("mirror", float(environment.mirror))
             environment.bind(shader, environment.radiance)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
 

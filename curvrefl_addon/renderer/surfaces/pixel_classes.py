@@ -52,10 +52,12 @@ class PixelClasses:
         reflected: SurfaceBuffer | None,
         window: Window | None = None,
         tells_mirrors: bool = False,
+        chosen: Any = None,
     ) -> None:
         """Find the class of every pixel in `window`; `reflected` has what mirrors show, if surfaces. With
-        `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces."""
-        shader = _shader(reflected is not None, tells_mirrors)
+        `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces. `chosen`: record texture by
+        mirrors' numbers, 1 of those that count; pixels of others are NOTHING, and None is all."""
+        shader = _shader(reflected is not None, tells_mirrors, chosen is not None)
         with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
             gpu.state.viewport_set(0, 0, self.width, self.height)
             shader.bind()
@@ -64,6 +66,8 @@ class PixelClasses:
                 shader.uniform_sampler("reflected_position", reflected.position)
             if reflected is not None and tells_mirrors:
                 shader.uniform_sampler("reflected_color", reflected.color)
+            if chosen is not None:
+                shader.uniform_sampler("chosen_mirrors", chosen)
             full_screen_triangle().draw(shader)
 
 
@@ -75,7 +79,7 @@ def declare_class(info: Any) -> None:
 
 
 @cache
-def _shader(shows_surfaces: bool, tells_mirrors: bool) -> Any:
+def _shader(shows_surfaces: bool, tells_mirrors: bool, with_choice: bool) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     info.vertex_in(0, "VEC2", "pos")
     info.depth_write("ANY")
@@ -89,6 +93,9 @@ def _shader(shows_surfaces: bool, tells_mirrors: bool) -> Any:
     if shows_surfaces and tells_mirrors:
         info.define("TELLS_MIRRORS")
         names.append("reflected_color")
+    if with_choice:
+        info.define("WITH_CHOICE")
+        names.append("chosen_mirrors")
     for slot, name in enumerate(names):
         info.sampler(slot, "FLOAT_2D", name)
     info.vertex_source(load("common/full_screen.vert.glsl"))

@@ -94,22 +94,22 @@ def draw_primary(
     view_uniforms: Any,
     window: Window | None = None,
     hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
-    with_reliefs: bool = False,
+    with_reliefs: Callable[[Chunk], bool] = lambda _chunk: False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
-    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. `with_reliefs`:
-    the normals of mirrors are those of their bumps and normal maps, else of the smooth surface.
+    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
+    mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface.
     """
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
         gpu.state.viewport_set(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
             reliefs = {
-                material
-                for _, batches in seen
+                (id(chunk), material)
+                for chunk, batches in seen
                 for material, _ in batches
-                if with_reliefs and materials.has_relief(material)
+                if materials.has_relief(material) and with_reliefs(chunk)
             }
             for kind in ("PLAIN", "TEXTURED", *(("RELIEF",) if reliefs else ())):
                 shader = _primary_shader(kind)
@@ -120,11 +120,11 @@ def draw_primary(
                     shader.uniform_sampler("positions", chunk.positions)
                     shader.uniform_sampler("corners", chunk.corners)
                     if kind != "RELIEF":
-                        smooth = tuple(item for item in batches if item[0] not in reliefs)
+                        smooth = tuple(item for item in batches if (id(chunk), item[0]) not in reliefs)
                         _draw_batches(shader, smooth, materials, kind == "PLAIN")
                         continue
                     for material, batch in batches:
-                        if material not in reliefs:
+                        if (id(chunk), material) not in reliefs:
                             continue
                         materials.bind(shader, material)
                         materials.bind_relief(shader, material)

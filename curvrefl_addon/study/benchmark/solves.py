@@ -20,6 +20,7 @@ from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
 from ...renderer.surfaces.surfaces import SurfaceBuffer, draw_primary, draw_reflected
 from ...renderer.surfaces.view_block import view_block
+from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...renderer.vertices.solve import PreparedSolve, SolvedChunk, VertexSolution, prepare_solve, statistics
 from ...report.repeats import timing_columns
 from ...scene.arrays import InstanceArrays
@@ -80,16 +81,18 @@ def _why_not(count: int, seconds: float) -> str:
 
 def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str, Any]:
     mirror = renderer.mirrors[0]
+    solver = MirrorSolver(mirror)
+    shape = mirror.shape(renderer.settings.map_resolution)
     own = renderer.geometry.of_instance(mirror.index)
     rows = max(round(np.sqrt(count / 2.0)), 3)
-    mesh = radial_mesh(Bumpy(SHELL_BUMPS, SHELL * mirror.bound), rows - 1, 2 * rows)
+    mesh = radial_mesh(Bumpy(SHELL_BUMPS, SHELL * shape.bound), rows - 1, 2 * rows)
     instance = InstanceArrays("shell", 9, 0, np.eye(4), (0,))
     chunk = Chunk([Placed(instance, mesh, mesh, np.zeros(len(mesh.triangles), np.int8))])
     method, settings = METHODS[renderer.settings.method], renderer.settings
 
     def prepared(turn: float, previous: VertexSolution | None = None) -> PreparedSolve:
         view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)
-        reflector = mirror.reflector(view, settings, own, materials)
+        reflector = solver.reflector(view, settings, own, materials)
         tolerance = 0.1 * settings.pixel_tolerance
         return prepare_solve(
             settings.method, view, reflector, chunk.positions, chunk.position_count, tolerance, previous
@@ -120,7 +123,7 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
 
     def draw() -> None:
         shown.clear()
-        draw_reflected(shown, seen, 1, None, parts, materials, uniforms, mirror.bound, window)
+        draw_reflected(shown, seen, 1, None, parts, materials, uniforms, shape.bound, window)
 
     return columns | time_on_gpu(draw, shown.wait, empty_ms, REPEATS, SECONDS).columns("draw")
 

@@ -13,10 +13,11 @@ import numpy as np
 from ...errors import InputError
 from ...optics.catalogue import METHODS
 from ...renderer.geometry.chunk import Chunk, Placed
-from ...renderer.mirrors.mirror import Mirror
+from ...renderer.mirrors.baked_shape import BakedShape
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
+from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.view import View
@@ -37,6 +38,8 @@ def vertex_count_steps(
     renderer = Renderer(arrays, Settings(method="environment_cube"))
     try:
         mirror = renderer.mirrors[0]
+        solver = MirrorSolver(mirror)
+        shape = mirror.shape(renderer.settings.map_resolution)
         own = renderer.geometry.of_instance(mirror.index)
         materials = Materials(arrays)
         timings: dict[str, list[Timing]] = {name: [] for name in solving}
@@ -44,7 +47,7 @@ def vertex_count_steps(
         counts = counts_up_to(largest)
         for count in counts:
             yield f"Solving {count:,} vertices"
-            chunk = _shell(mirror, count)
+            chunk = _shell(shape, count)
             times: dict[str, tuple[float, ...]] = dict.fromkeys(solving, ())
             # Method after method, and again: what else the machine does at one time would count against single ones.
             for _ in range(ROUNDS):
@@ -52,7 +55,7 @@ def vertex_count_steps(
                     if name in reasons:
                         continue
                     try:
-                        times[name] += _times(mirror, view, Settings(method=name), chunk, own, materials)
+                        times[name] += _times(solver, view, Settings(method=name), chunk, own, materials)
                     except InputError as error:
                         reasons[name] = str(error)
             for name in solving:
@@ -67,13 +70,13 @@ def vertex_count_steps(
 
 
 def _times(
-    mirror: Mirror, view: View, settings: Settings, chunk: Chunk, own: Any, materials: Materials
+    solver: MirrorSolver, view: View, settings: Settings, chunk: Chunk, own: Any, materials: Materials
 ) -> tuple[float, ...]:
     """Milliseconds of each repeat."""
 
     def solve() -> float:
         start = perf_counter()
-        for part in mirror.solve(view, settings, [(chunk, ())], own, materials, follow=False):
+        for part in solver.solve(view, settings, [(chunk, ())], own, materials)[0]:
             part.solution.wait()
         return 1e3 * (perf_counter() - start)
 
@@ -82,13 +85,13 @@ def _times(
     return tuple(repeated(solve, COUNT_REPEATS, COUNT_SECONDS))
 
 
-def _shell(mirror: Mirror, count: int) -> Chunk:
+def _shell(shape: BakedShape, count: int) -> Chunk:
     """`count` vertices all around the mirror as a chunk of its own."""
     matrix: Float64Array = np.eye(4)
-    matrix[:3, 3] = mirror.center
+    matrix[:3, 3] = shape.center
     mesh = MeshArrays(
         name="shell",
-        positions=shell_positions(count, mirror.bound),
+        positions=shell_positions(count, shape.bound),
         corner_vertex=np.arange(count, dtype=np.int32),
         corner_normals=np.zeros((count, 3), np.float32),
         corner_uv=None,

@@ -18,12 +18,14 @@ from ...optics import status
 from ...optics.screen import Screen
 from ...optics.surfaces.cube_map import CubeMapSurface, nearest_texel
 from ...renderer.device.gpu_objects import read_records
-from ...renderer.mirrors.mirror import OPEN_LIMITS, Mirror
+from ...renderer.mirrors.baked_shape import OPEN_LIMITS, BakedShape
+from ...renderer.mirrors.mirror import Mirror
 from ...renderer.mirrors.reflector_bake import bake_instance
 from ...renderer.mirrors.reflector_map import ReflectorMap
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
+from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...renderer.vertices.solve import SolvedChunk
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float64Array, SceneArrays
@@ -74,6 +76,8 @@ class VertexTruth:
         self._renderer = Renderer(arrays, Settings(method="environment_cube"))
         self._materials = Materials(arrays)
         self._judges: list[_Judge] = []
+        self._solvers: dict[int, MirrorSolver] = {}
+        """By the mirror's id"""
         self.warnings = self._renderer.warnings
 
     def free(self) -> None:
@@ -85,11 +89,13 @@ class VertexTruth:
         """Ask the oracle. Reflectors that no radial map can hold, or that hold the eye, are left out."""
         renderer, view = self._renderer, self._view
         tolerance = Settings().pixel_tolerance
-        renderer.geometry.refine([mirror.sight(view, tolerance) for mirror in renderer.mirrors])
+        resolution = renderer.settings.map_resolution
+        shapes = [(mirror, mirror.shape(resolution)) for mirror in renderer.mirrors]
+        renderer.geometry.refine([mirror.sight(view, tolerance, shape) for mirror, shape in shapes])
         self._judges = [
-            self._judge(mirror)
-            for mirror in renderer.mirrors
-            if mirror.map is not None and not mirror.holds_eye(view) and renderer.geometry.scenery(mirror.index)
+            self._judge(mirror, shape)
+            for mirror, shape in shapes
+            if shape.map is not None and not mirror.holds_eye(view, shape) and renderer.geometry.scenery(mirror.index)
         ]
 
     def measure(self, settings: Settings) -> VertexAccuracy | None:
@@ -133,20 +139,19 @@ class VertexTruth:
 
     def _solve(self, mirror: Mirror, settings: Settings) -> tuple[SolvedChunk, ...]:
         geometry = self._renderer.geometry
-        parts = mirror.solve(
+        parts, _ = self._solvers.setdefault(id(mirror), MirrorSolver(mirror)).solve(
             self._view,
             settings,
             geometry.scenery(mirror.index),
             geometry.of_instance(mirror.index),
             self._materials,
-            follow=False,
         )
         for part in parts:
             part.solution.wait()
         # What a vertex has beside its first image is not judged.
         return tuple(part for part in parts if part.image == 0)
 
-    def _judge(self, mirror: Mirror) -> _Judge:
+    def _judge(self, mirror: Mirror, shape: BakedShape) -> _Judge:
         fine = bake_instance(self._arrays, mirror.index, FINER * Settings().map_resolution, limits=OPEN_LIMITS)
         scenery = self._renderer.geometry.scenery(mirror.index)
         positions = np.concatenate([read_records(chunk.positions, chunk.position_count)[:, :3] for chunk, _ in scenery])
@@ -159,7 +164,9 @@ class VertexTruth:
         def cover(u: Float64Array) -> NDArray[np.bool_]:
             return met[nearest_texel(fine.resolution, u)]
 
-        oracle = Oracle(CubeMapSurface(fine.radial), NODES, mirror.side(self._view), cover if mirror.is_open else None)
+        oracle = Oracle(
+            CubeMapSurface(fine.radial), NODES, mirror.side(self._view, shape), cover if shape.is_open else None
+        )
         truth = oracle.reflection_points(eye, vertices)
         return _Judge(mirror, fine, chosen, truth, Screen(eye, self._view.focal_pixels))
 

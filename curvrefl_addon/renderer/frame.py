@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One picture, and what is behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..scene.arrays import Float32Array, Int32Array
+from .device.gpu_objects import read_texture
+from .reflection import Reflection
+from .vertices.solve import statistics
+
+
+class Frame:
+    """One picture and what is behind it. Arrays are copies, float32, row 0 at the bottom.
+
+    Surfaces are drawn when first asked for: until then the renderer must show the same scene.
+    """
+
+    def __init__(
+        self,
+        reflection: Reflection,
+        color: Any,
+        times_ms: dict[str, float],
+        read_surfaces: Callable[[], dict[str, Float32Array]],
+    ) -> None:
+        """`read_surfaces` draws and reads what `surfaces` holds."""
+        self.reflection = reflection
+        """What the mirrors show; the next frame of an animation may start from it"""
+        self._read_surfaces = read_surfaces
+        self.view = reflection.view
+        self.color_texture = color
+        """RGBA32F, scene-linear"""
+        self.times_ms = times_ms
+        """bake, solve, draw, frame = solve + draw"""
+        self.warnings = reflection.warnings
+        """One sentence each"""
+        self.choice = None if reflection.choice is None else reflection.choice.as_report()
+        """What `auto` has chosen, and why"""
+
+    @cached_property
+    def solve(self) -> dict[str, Any]:
+        """Counts and iterations over all mirrors, as `report.json` has them."""
+        return statistics(self.reflection.solutions)
+
+    @cached_property
+    def surfaces(self) -> dict[str, Float32Array]:
+        """Surface buffers through the pixels' centres (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
+        seen_color, reflected_position and, where vertices are solved, reflected_color. From an environment,
+        reflected_position has the direction of the background, too, with w = 0.
+
+        Raises RuntimeError where the renderer shows another state of the scene by now.
+        """
+        return self._read_surfaces()
+
+    def color(self) -> Float32Array:
+        """(h, w, 4) scene-linear picture, anti-aliased."""
+        return read_texture(self.color_texture)
+
+    def mask(self) -> Int32Array:
+        """(h, w) object_id of the reflector at the pixel's centre, 0 elsewhere."""
+        ids = np.rint(self.surfaces["seen_position"][..., 3]).astype(np.int32)
+        return np.where(self.surfaces["seen_color"][..., 3] > 0.5, ids, 0)
+
+    def reflector_position(self) -> Float32Array:
+        """(h, w, 3) world point P seen at the pixel's centre; meant for the pixels of `mask`."""
+        return self.surfaces["seen_position"][..., :3]
+
+    def reflected_position(self) -> Float32Array:
+        """(h, w, 4) world point that the mirror shows there (w = 1), or the background's unit direction (w = 0)."""
+        return self._reflected[0]
+
+    def reflected_object(self) -> Int32Array:
+        """(h, w) object_id of that point, 0 for the background."""
+        return self._reflected[1]
+
+    def iterations(self) -> Float32Array:
+        """(h, w) solver iterations, interpolated over the reflected triangles."""
+        if "reflected_color" not in self.surfaces:
+            return np.zeros((self.view.height, self.view.width), np.float32)
+        return self.surfaces["reflected_color"][..., 3]
+
+    @cached_property
+    def _reflected(self) -> tuple[Float32Array, Int32Array]:
+        mask = self.mask() > 0
+        seen, normal = self.surfaces["seen_position"][..., :3], self.surfaces["seen_normal"][..., :3]
+        eye = self.view.eye
+        to_eye = eye[:3] - seen * eye[3]
+        to_eye /= np.maximum(np.linalg.norm(to_eye, axis=-1, keepdims=True), 1e-30)
+        direction = 2.0 * (normal * to_eye).sum(-1, keepdims=True) * normal - to_eye
+        hits = self.surfaces["reflected_position"]
+        ids = np.where(mask, np.rint(hits[..., 3]), 0).astype(np.int32)
+        position = np.zeros((*mask.shape, 4), np.float32)
+        # Environment lookups say themselves in which direction they see the background.
+        found = (hits[..., :3] != 0.0).any(axis=-1, keepdims=True)
+        position[..., :3] = np.where(found, hits[..., :3], direction)
+        position[..., 3] = ids > 0
+        position[~mask] = 0.0
+        return position, ids

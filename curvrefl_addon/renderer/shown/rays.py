@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mirror whose pixels follow their own reflected rays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+from ...scene.arrays import Float32Array
+from ..device.gpu_objects import read_texture
+from ..rays.paths import Bounce
+from ..surfaces.surfaces import SurfaceBuffer
+from ..surfaces.windows import union
+from .shown import Light, Shown, SubFrame
+
+
+@dataclass(frozen=True)
+class ShownRays(Shown):
+    """Rays, from mirror to mirror."""
+
+    @classmethod
+    def draw(cls, members: Sequence[Self], sub_frame: SubFrame, of_positions: bool = False) -> SurfaceBuffer:
+        return next(_bounces(members, sub_frame, 1)).path
+
+    @classmethod
+    def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
+        stage = sub_frame.stage
+        bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
+        first = next(bounces)
+        stage.shade.add(
+            light.canvas,
+            sub_frame.targets.seen,
+            first.path,
+            sub_frame.uniforms,
+            light.weight,
+            sub_frame.window,
+            later=bounces if first.goes_on else None,
+            shadows=stage.rays() if members[0].settings.shadow_rays else None,
+            chosen=light.chosen,
+            with_others=light.with_others,
+        )
+
+    @classmethod
+    def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:
+        path = next(_bounces(members, sub_frame, 1, keeps_ways=True)).path
+        color = read_texture(path.color)
+        color[..., 3] = read_texture(path.direction)[..., 3]
+        return {"reflected_position": read_texture(path.position), "reflected_color": color}
+
+
+def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
+    """Mirrors that a ray can meet one after the other."""
+    mirrors = sub_frame.stage.mirrors
+    may_meet_another = len(mirrors) > 1 or any(not mirror.facts.never_sees_itself for mirror in mirrors)
+    return members[0].settings.bounces if may_meet_another else 1
+
+
+def _bounces(
+    members: Sequence[ShownRays], sub_frame: SubFrame, most: int, keeps_ways: bool = False, chosen: Any = None
+) -> Iterator[Bounce]:
+    """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
+
+    Each is drawn when it is asked for, into buffers that the next but one uses again. With `keeps_ways` the buffers
+    tell all they can, also of the last step. `chosen`: see `Light`.
+    """
+    stage, targets, view = sub_frame.stage, sub_frame.targets, sub_frame.view
+    seen: SurfaceBuffer = targets.seen
+    inside = any(shown.mirror.holds_eye(view, shown.mirror.shape()) for shown in members)
+    window = union([shown.mirror.window(view) for shown in members])
+    for number in range(most):
+        path = targets.path(number)
+        goes_on = number + 1 < most
+        path.follow(
+            seen,
+            stage.rays(),
+            stage.materials,
+            sub_frame.uniforms,
+            window,
+            inside,
+            goes_on or keeps_ways,
+            chosen=chosen if number == 0 else None,
+        )
+        yield Bounce(seen, path, window, goes_on)
+        seen = path

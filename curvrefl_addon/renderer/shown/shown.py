@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one mirror shows in one view, as one interface with a kind for each way to get there.
+
+A kind draws all of its mirrors in a view at once, so that many mirrors that show the same way cost as many passes as
+one: what is done for a group is a class method over the members.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+from ...scene.arrays import Float32Array
+from ...scene.view import View
+from ..geometry.scene_geometry import SceneGeometry
+from ..lighting.lighting import Lighting
+from ..mirrors.mirror import Mirror
+from ..rays.ray_scene import RayScene
+from ..settings import Settings
+from ..shading.lookup import Environment
+from ..shading.shade import ShadePass
+from ..surfaces.canvas import Canvas
+from ..surfaces.materials import Materials
+from ..surfaces.surfaces import SurfaceBuffer, Window
+from ..targets import Targets
+from ..vertices.solve import SolvedChunk, VertexSolution
+
+type Reflected = SurfaceBuffer | Sequence[Environment]
+"""The reflected scene's surface buffer, or for each mirror the environment that stands for it"""
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """What of a scene all views share."""
+
+    mirrors: Sequence[Mirror]
+    geometry: SceneGeometry
+    materials: Materials
+    lighting: Lighting
+    shade: ShadePass
+    rays: Callable[[], RayScene]
+    """The scene as rays need it, made when first asked for"""
+
+
+@dataclass(frozen=True, slots=True)
+class SubFrame:
+    """One sub-frame while it is drawn."""
+
+    stage: Stage
+    view: View
+    """Jittered"""
+    uniforms: Any
+    """View block of the same"""
+    targets: Targets
+    window: Window | None
+    """Holds all mirrors, where nothing else is drawn"""
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """Where the light of a group is added."""
+
+    canvas: Canvas
+    weight: float
+    chosen: Any = None
+    """Record texture by mirrors' numbers, 1 for those of the group; None where there is one group"""
+    with_others: bool = True
+    """The pixels that show no mirror are of this group too"""
+
+
+@dataclass(frozen=True)
+class Shown(ABC):
+    """What one mirror shows in one view, before it is drawn."""
+
+    has_reliefs: ClassVar[bool] = True
+    """The mirror's bumps and normal maps count"""
+
+    mirror: Mirror
+    settings: Settings
+    """With the method by which it is shown in place of `auto`"""
+
+    @property
+    def method(self) -> str:
+        """Name in the catalogue."""
+        return self.settings.method
+
+    @property
+    def is_final(self) -> bool:
+        """Nothing is left that would be done for a view at rest alone."""
+        return True
+
+    @property
+    def parts(self) -> tuple[SolvedChunk, ...]:
+        """Its scenery with reflection points, where vertices are solved."""
+        return ()
+
+    @property
+    def solutions(self) -> tuple[VertexSolution, ...]:
+        """Of all chunks that it may show: every vertex its first image."""
+        return ()
+
+    def wait(self) -> None:
+        """Return when the GPU has finished what was done before drawing."""
+        for solution in self.solutions:
+            solution.wait()
+
+    @classmethod
+    @abstractmethod
+    def draw(cls, members: Sequence[Self], sub_frame: SubFrame, of_positions: bool = False) -> Reflected | None:
+        """Geometry passes of these mirrors; returns what they show, None for the background alone.
+
+        `of_positions`: what is returned is asked for positions, else for light.
+        """
+
+    @classmethod
+    def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
+        """Add what `draw` has drawn, lit, to a picture."""
+        shown = cls.draw(members, sub_frame)
+        sub_frame.stage.shade.add(
+            light.canvas,
+            sub_frame.targets.seen,
+            shown,
+            sub_frame.uniforms,
+            light.weight,
+            sub_frame.window,
+            chosen=light.chosen,
+            with_others=light.with_others,
+        )
+
+    @classmethod
+    @abstractmethod
+    def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:
+        """(h, w, 4) arrays `reflected_position` and, where there are surfaces, `reflected_color`; see `Frame`."""
