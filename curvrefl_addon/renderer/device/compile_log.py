@@ -25,8 +25,8 @@ _ERROR_START = re.compile(r"gpu\.shader\s*\|\s*ERROR")
 _CONTINUED = re.compile(r"\s*\|")
 _STAGE = re.compile(r"(Vert|Frag|Compute)Shader:")
 _STAGES = {"Vert": "vertex", "Frag": "fragment", "Compute": "compute"}
-_AT_LINE = re.compile(r"(?:python_shader\.glsl|\b\d+)[:(](\d+)[:)](?:\(?\d+\)?:?)?[ :]*(.*)")
-"""As Blender translates a driver's words, or as drivers write them: `0(12) : error ..`, `0:12(5): error: ..`"""
+_AT_LINE = re.compile(r"\|\s*(?:ERROR: *)?(?:python_shader\.glsl|\d+)[:(](\d+)(?:[:(]\d+)?[:)]*[ :]*(.*)")
+"""In Blender's form, or in those of drivers: `0(12) : error ..`, `0:12(5): error: ..`, `ERROR: 0:12: ..`"""
 
 
 class CapturedOutput:
@@ -94,6 +94,6 @@ def explain(errors: list[str], sources: Mapping[str, Source]) -> str:
                 found.append(f"{file}, line {at}: {words}")
     if not found:
         # Errors of linking are at no line.
-        words = [line.rpartition("|")[2].strip() for line in errors]
+        words = [line.rpartition("|")[2].strip() for line in errors if not _ERROR_START.search(line)]
         found = [word for word in words if word] or ["the driver does not say why"]
     return "\n".join(found[:MOST_ERRORS])
