@@ -23,7 +23,7 @@ bootstrap.load_package()
 import bpy  # noqa: E402, F401
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import choice as choices  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from scenes.convex_mirrors import Case, convex_case, pixel_errors  # noqa: E402

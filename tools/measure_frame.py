@@ -35,7 +35,7 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import renderer as frame_module  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
@@ -44,7 +44,8 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.shading.shade import ShadePass  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.pixel_classes import PixelClasses  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import BackFaces, SurfaceBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.back_faces import BackFaces  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402

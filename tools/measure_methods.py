@@ -33,13 +33,15 @@ import bpy  # noqa: F401  (before gpu)
 bootstrap.load_package()
 
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import SurfaceBuffer, draw_primary, draw_reflected  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.primary import draw_primary  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.reflected import draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.study.benchmark.scenes import THINGS, deformed, hall, moved, view_of_mirror  # noqa: E402
 from footprints import Footprints  # noqa: E402

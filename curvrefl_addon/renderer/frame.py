@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..scene.arrays import Float32Array, Int32Array
-from .device.gpu_objects import read_texture
+from .device.textures import read_texture
 from .reflection import Reflection
 from .vertices.solve import statistics
 

@@ -16,7 +16,10 @@ from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.view import View
 from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
-from .device.gpu_objects import cube_texture, read_texture, record_texture, require_gpu
+from .device.context import require_gpu
+from .device.cubes import cube_texture
+from .device.records import record_texture
+from .device.textures import read_texture
 from .environments.cube import EnvironmentCube
 from .frame import Frame
 from .geometry.chunk import Batches, Chunk
@@ -38,7 +41,7 @@ from .shown.vertices import ShownVertices
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
-from .surfaces.surfaces import draw_primary
+from .surfaces.primary import draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .targets import Targets

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 
 from .environments.vertex_lookups import VertexLookups
 from .rays.paths import PathBuffer
-from .surfaces.surfaces import BackFaces, SurfaceBuffer
+from .surfaces.surface_buffer import SurfaceBuffer
+from .vertices.back_faces import BackFaces
 
 
 @dataclass

@@ -14,7 +14,7 @@ import numpy as np
 from ...errors import InputError
 from ...scene.arrays import Float64Array, InstanceArrays
 from ...scene.view import View
-from ..device.gpu_objects import cube_texture
+from ..device.cubes import cube_texture
 from ..geometry.chunk import Batches, Chunk
 from ..geometry.mesh_facts import MeshFacts
 from ..geometry.scene_geometry import CORNERS

@@ -13,7 +13,8 @@ from ...scene.arrays import Float64Array
 from ...scene.view import View
 from ..geometry.chunk import Batches, Chunk
 from ..surfaces.materials import Materials
-from ..surfaces.surfaces import SurfaceBuffer, draw_primary
+from ..surfaces.primary import draw_primary
+from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import view_block
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import read_texture
+from ..device.textures import read_texture
 from ..rays.paths import Bounce
-from ..surfaces.surfaces import SurfaceBuffer
+from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import union
 from .shown import Light, Shown, SubFrame
 

@@ -24,7 +24,8 @@ from ..shading.lookup import Environment
 from ..shading.shade import ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
-from ..surfaces.surfaces import SurfaceBuffer, Window
+from ..surfaces.surface_buffer import SurfaceBuffer
+from ..surfaces.windows import Window
 from ..targets import Targets
 from ..vertices.solve import SolvedChunk, VertexSolution
 

@@ -10,9 +10,9 @@ from typing import ClassVar, Self
 
 from ...optics.catalogue import METHODS
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import read_texture
+from ..device.textures import read_texture
 from ..mirrors.baked_shape import BakedShape
-from ..surfaces.surfaces import SurfaceBuffer
+from ..surfaces.surface_buffer import SurfaceBuffer
 from ..vertices.mirror_solver import Found
 from ..vertices.reflected import draw_reflected
 from ..vertices.solve import Pieces, SolvedChunk, VertexSolution

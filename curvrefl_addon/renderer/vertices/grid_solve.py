@@ -8,15 +8,14 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import dispatch, empty_record_texture, record_texture
+from ..device.records import empty_record_texture, record_texture
+from ..device.shaders import Piece, build_shader, dispatch, named
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
-from .solve import GROUP, VertexSolution
+from .solve import GROUP, SOLUTION, VertexSolution
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
@@ -67,12 +66,12 @@ class ChunkGrid:
 
 @cache
 def _interpolation_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("INT", "count")
-    for slot, name in enumerate(_SAMPLERS):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load("solvers/bisector_grid.comp.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "bisector grid",
+        SOLUTION,
+        Piece(
+            samplers=named("FLOAT_2D", *_SAMPLERS),
+            constants={"count": "INT"},
+            compute="solvers/bisector_grid.comp.glsl",
+        ),
+    )

@@ -1,3 +1,98 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-from ..surfaces.surfaces import draw_reflected as draw_reflected
+"""The pass of what the eye sees in a mirror whose scenery is solved: each vertex again, where it reflects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..device.shaders import Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..geometry.chunk import CHUNK
+from ..surfaces.materials import PLAIN, TEXTURED, Materials
+from ..surfaces.primary import draw_batches
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
+from ..surfaces.view_block import VIEW
+from ..surfaces.windows import Window
+from .back_faces import BackFaces
+from .solve import SolvedChunk
+
+STRETCHED_COSINE = float(np.cos(np.radians(8.0)))
+"""Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows"""
+STRETCHED_COSINE_IN_REGION = float(np.cos(np.radians(3.0)))
+"""The same for further images: near folds neighbouring vertices may be in different ones"""
+
+
+def draw_reflected(
+    target: SurfaceBuffer,
+    mirrors: SurfaceBuffer,
+    mirror: int,
+    back_faces: BackFaces | None,
+    scenery: Sequence[SolvedChunk],
+    materials: Materials,
+    view_uniforms: Any,
+    depth_scale: float,
+    window: Window,
+) -> None:
+    """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
+
+    `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth
+    range, metres; `window` (x, y, width, height) holds all of the mirror's pixels.
+    """
+    if window[2] <= 0 or window[3] <= 0:
+        return
+    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
+        set_viewport(0, 0, target.width, target.height)
+        for is_plain in (True, False):
+            shader = _reflected_shader(back_faces is not None, is_plain)
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            shader.uniform_float("mirror", float(mirror))
+            shader.uniform_float("depth_scale", depth_scale)
+            for name, texture in (
+                ("mirror_position", mirrors.position),
+                ("mirror_normal", mirrors.normal),
+                ("mirror_color", mirrors.color),
+            ):
+                shader.uniform_sampler(name, texture)
+            if back_faces is not None:
+                shader.uniform_sampler("back_faces", back_faces.distance)
+            for part in scenery:
+                shader.uniform_float("stretched", STRETCHED_COSINE if part.image == 0 else STRETCHED_COSINE_IN_REGION)
+                shader.uniform_sampler("positions", part.chunk.positions)
+                shader.uniform_sampler("corners", part.chunk.corners)
+                shader.uniform_sampler("reflection_points", part.solution.reflection_points)
+                shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
+                draw_batches(shader, part.batches, materials, is_plain)
+
+
+@cache
+def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
+    back_faces = Piece(samplers={"back_faces": "FLOAT_2D"}, defines=flags("BACK_FACES"))
+    return build_shader(
+        f"reflected {with_back_faces} {is_plain}",
+        VIEW,
+        CHUNK,
+        PLAIN if is_plain else TEXTURED,
+        SURFACE_OUTPUTS,
+        Piece(
+            samplers=named(
+                "FLOAT_2D", "reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"
+            ),
+            constants=named("FLOAT", "mirror", "depth_scale", "stretched"),
+            smooth={
+                **named("VEC3", "world_position", "world_normal", "reflection_point"),
+                "iterations": "FLOAT",
+                "rejected": "VEC2",
+            },
+            flat={"object_id": "FLOAT"},
+            writes_depth=True,
+            vertex="surfaces/reflected.vert.glsl",
+            fragment="surfaces/reflected.frag.glsl",
+        ),
+        *((back_faces,) if with_back_faces else ()),
+    )

@@ -13,27 +13,20 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gpu_shaders.loader import load
 from ...optics import status
 from ...optics.catalogue import METHODS
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
-from ...scene.arrays import Float64Array, Int32Array
+from ...scene.arrays import LARGEST_COORDINATE, Float64Array, Int32Array
 from ...scene.view import View
-from ..device.gpu_objects import (
-    cube_texture,
-    dispatch,
-    empty_index_texture,
-    empty_record_texture,
-    read_records,
-    record_texture,
-    uniform_block,
-)
+from ..device.cubes import cube_texture
+from ..device.frame_buffers import frame_buffer, wait_for
+from ..device.records import empty_index_texture, empty_record_texture, read_records, record_texture
+from ..device.shaders import Block, Image, Piece, build_shader, dispatch, named, uniform_block
 from ..geometry.chunk import Batches, Chunk
 
 GROUP = 64
@@ -114,9 +107,7 @@ class VertexSolution:
 
     def wait(self) -> None:
         """Return when the GPU has finished."""
-        target = gpu.types.GPUFrameBuffer(color_slots=(self.reflection_points,))
-        with target.bind():
-            target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        wait_for(frame_buffer(self.reflection_points))
 
 
 @dataclass(frozen=True)
@@ -340,36 +331,44 @@ def _samplers(method: str) -> list[tuple[str, str]]:
     return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
 
 
+SOLUTION = Piece(
+    images={"reflection_points": Image(), "virtual_positions": Image()},
+    defines={"LARGEST_COORDINATE": LARGEST_COORDINATE},
+    group=GROUP,
+)
+"""What shaders that fill a `VertexSolution` need"""
+_SOLVER = Piece(blocks={"solver": Block("Solver", _TYPEDEF)}, samplers={"positions": "FLOAT_2D"})
+_STRAGGLERS = Piece(
+    images={
+        "stragglers": Image("R32UI", "UINT_2D", is_read=True),
+        "straggler_count": Image("R32UI", "UINT_2D_ATOMIC", is_read=True),
+    }
+)
+
+
 @cache
 def _solver_shader(name: str, method: str) -> Any:
-    """`gpu_shaders/<name>.comp.glsl` with what `method` gives its shaders."""
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_TYPEDEF)
-    info.uniform_buf(0, "Solver", "solver")
-    info.sampler(0, "FLOAT_2D", "positions")
-    for slot, (kind, sampler) in enumerate(_samplers(method), 1):
-        info.sampler(slot, kind, sampler)
-    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
-    if METHODS[method].stragglers:
-        info.image(2, "R32UI", "UINT_2D", "stragglers", qualifiers={"READ", "WRITE"})
-        info.image(3, "R32UI", "UINT_2D_ATOMIC", "straggler_count", qualifiers={"READ", "WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load(f"solvers/{name}.comp.glsl"))
-    return gpu.shader.create_from_info(info)
+    """`gpu_shaders/solvers/<name>.comp.glsl` with what `method` gives its shaders."""
+    return build_shader(
+        f"{name} of {method}",
+        _SOLVER,
+        SOLUTION,
+        *((_STRAGGLERS,) if METHODS[method].stragglers else ()),
+        Piece(
+            samplers={sampler: kind for kind, sampler in _samplers(method)},
+            compute=f"solvers/{name}.comp.glsl",
+        ),
+    )
 
 
 @cache
 def _region_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_TYPEDEF)
-    info.uniform_buf(0, "Solver", "solver")
-    info.sampler(0, "FLOAT_2D", "positions")
-    info.sampler(1, "FLOAT_CUBE", "radial")
-    info.sampler(2, "FLOAT_CUBE", "region_masks")
-    info.sampler(3, "FLOAT_2D", "region_seeds")
-    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load("solvers/newton_region.comp.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "newton region",
+        _SOLVER,
+        SOLUTION,
+        Piece(
+            samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"},
+            compute="solvers/newton_region.comp.glsl",
+        ),
+    )

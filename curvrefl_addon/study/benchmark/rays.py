@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ...renderer.device.gpu_objects import read_texture
+from ...renderer.device.textures import read_texture
 from ...renderer.rays.paths import PathBuffer
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
-from ...renderer.surfaces.surfaces import SurfaceBuffer, draw_primary
+from ...renderer.surfaces.primary import draw_primary
+from ...renderer.surfaces.surface_buffer import SurfaceBuffer
 from ...renderer.surfaces.view_block import view_block
 from .gpu_timing import empty_wait, time_on_gpu
 from .scenes import hall, view_of_mirror

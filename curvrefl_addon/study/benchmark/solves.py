@@ -7,20 +7,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ...errors import InputError
 from ...optics.catalogue import METHODS
 from ...optics.surfaces.radial_surfaces import Bumpy
-from ...renderer.device.gpu_objects import TEXTURE_WIDTH
+from ...renderer.device.context import most_texels
+from ...renderer.device.records import TEXTURE_WIDTH
 from ...renderer.geometry.chunk import Chunk, Placed
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
-from ...renderer.surfaces.surfaces import SurfaceBuffer, draw_primary, draw_reflected
+from ...renderer.surfaces.primary import draw_primary
+from ...renderer.surfaces.surface_buffer import SurfaceBuffer
 from ...renderer.surfaces.view_block import view_block
 from ...renderer.vertices.mirror_solver import MirrorSolver
+from ...renderer.vertices.reflected import draw_reflected
 from ...renderer.vertices.solve import PreparedSolve, SolvedChunk, VertexSolution, prepare_solve, statistics
 from ...report.repeats import timing_columns
 from ...scene.arrays import InstanceArrays
@@ -71,7 +73,7 @@ def measure_solves(counts: tuple[int, ...], say: Callable[[str], None]) -> Itera
 
 
 def _why_not(count: int, seconds: float) -> str:
-    rows, most = -(-2 * count // TEXTURE_WIDTH), gpu.capabilities.max_texture_size_get()
+    rows, most = -(-2 * count // TEXTURE_WIDTH), most_texels()
     if rows > most:
         return f"the driver's textures have at most {most} rows, {rows} are needed"
     if seconds > LONGEST:

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pass of what the eye sees directly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+from ..device.shaders import Piece, build_shader, named
+from ..device.state import drawing_state, hide_faces, scissored, set_viewport
+from ..geometry.chunk import CHUNK, Batches, Chunk
+from .materials import PLAIN, RELIEF, TEXTURED, Materials
+from .surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
+from .view_block import VIEW
+from .windows import Window
+
+
+def draw_primary(
+    target: SurfaceBuffer,
+    seen: Sequence[tuple[Chunk, Batches]],
+    materials: Materials,
+    view_uniforms: Any,
+    window: Window | None = None,
+    hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
+    with_reliefs: Callable[[Chunk], bool] = lambda _chunk: False,
+) -> None:
+    """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
+
+    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
+    mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface.
+    """
+    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+        set_viewport(0, 0, target.width, target.height)
+        target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        with scissored(window):
+            reliefs = {
+                (id(chunk), material)
+                for chunk, batches in seen
+                for material, _ in batches
+                if materials.has_relief(material) and with_reliefs(chunk)
+            }
+            for kind in ("PLAIN", "TEXTURED", *(("RELIEF",) if reliefs else ())):
+                shader = _primary_shader(kind)
+                shader.bind()
+                shader.uniform_block("view", view_uniforms)
+                for chunk, batches in seen:
+                    hide_faces(hidden_faces(chunk))
+                    shader.uniform_sampler("positions", chunk.positions)
+                    shader.uniform_sampler("corners", chunk.corners)
+                    if kind != "RELIEF":
+                        smooth = tuple(item for item in batches if (id(chunk), item[0]) not in reliefs)
+                        draw_batches(shader, smooth, materials, kind == "PLAIN")
+                        continue
+                    for material, batch in batches:
+                        if (id(chunk), material) not in reliefs:
+                            continue
+                        materials.bind(shader, material)
+                        materials.bind_relief(shader, material)
+                        batch.draw(shader)
+
+
+def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: bool) -> None:
+    """Those whose materials are plain, or the others, with a bound shader for them."""
+    for material, batch in batches:
+        if materials.is_plain(material) == is_plain:
+            materials.bind(shader, material)
+            batch.draw(shader)
+
+
+@cache
+def _primary_shader(kind: str) -> Any:
+    """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
+    return build_shader(
+        f"primary {kind}",
+        VIEW,
+        CHUNK,
+        PLAIN if kind == "PLAIN" else TEXTURED,
+        *((RELIEF,) if kind == "RELIEF" else ()),
+        SURFACE_OUTPUTS,
+        Piece(
+            smooth=named("VEC3", "world_position", "world_normal"),
+            flat={"ids": "VEC2"},
+            vertex="surfaces/primary.vert.glsl",
+            fragment="surfaces/primary.frag.glsl",
+        ),
+    )

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The render targets of a geometry pass.
+
+A surface buffer holds for every pixel the surface there, unlit: world position and object, shading normal and
+material, base color. Lighting is done once per pixel afterwards (`shading/shade.py`), for what is visible only.
+"""
+
+from __future__ import annotations
+
+from ..device.frame_buffers import frame_buffer, wait_for
+from ..device.shaders import Piece, named
+from ..device.textures import depth_texture, empty_texture
+
+SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
+"""Color targets of a SurfaceBuffer"""
+
+
+class SurfaceBuffer:
+    """Render targets of one geometry pass."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.position = empty_texture(width, height)
+        """xyz world, object_id (0: nothing here)"""
+        self.normal = empty_texture(width, height)
+        """xyz unit shading normal, material index"""
+        self.color = empty_texture(width, height, "RGBA16F")
+        """Base colour; the solver's iterations (reflected), or (primary) the mirror's number, -1 of other surfaces, -2
+        of a hole in the picture, 0 where nothing is seen"""
+        self.depth = depth_texture(width, height)
+        self.frame_buffer = frame_buffer(self.position, self.normal, self.color, depth=self.depth)
+        self.width, self.height = width, height
+
+    def clear(self) -> None:
+        """Nothing anywhere."""
+        with self.frame_buffer.bind():
+            self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        wait_for(self.frame_buffer)
