@@ -11,7 +11,7 @@ Light to import: the extension is enabled, and the command line refuses bad usag
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
-from math import inf, pi
+from math import pi
 from typing import Any
 
 from .errors import InputError
@@ -116,19 +116,15 @@ class Setting:
             raise InputError(f"{said.format(value)} out of range: choose {self.range_text}.")
 
     def _holds(self, value: float) -> bool:
-        least, most = (end if end is not None else other for end, other in zip(self.hard, (-inf, inf), strict=True))
-        if self.above and value <= least:
-            return False
-        # (written so that NaN is out of every range, and infinity of those with an end there)
-        return least - _ROUNDING * _size(least) <= value <= most + _ROUNDING * _size(most)
+        least, most = self.hard
+        slack = _ROUNDING if isinstance(value, float) else 0.0
+        # (written so that NaN is out of every range)
+        is_enough = least is None or (value > least if self.above else value >= least - slack * abs(least))
+        return is_enough and (most is None or value <= most + slack * abs(most))
 
 
 def _digits(number: float) -> str:
     return str(number) if isinstance(number, int) else f"{number:g}"
-
-
-def _size(end: float) -> float:
-    return 0.0 if end in (-inf, inf) else abs(end)
 
 
 def setting(default: Any, **known: Any) -> Any:

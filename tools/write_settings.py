@@ -95,9 +95,8 @@ def _slider(item: Setting) -> str:
     if item.soft == (None, None):
         return ""
     ends = [hard if soft is None else soft for soft, hard in zip(item.soft, item.hard, strict=True)]
-    return " to ".join(
-        f"{degrees(end):g}°" if item.unit == "radians" else f"{end:g}" for end in ends if end is not None
-    )
+    shown = [f"{degrees(end):g}°" if item.unit == "radians" else f"{end:g}" for end in ends if end is not None]
+    return " to ".join(shown)
 
 
 def _where(item: Setting) -> str:

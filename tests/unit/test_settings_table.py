@@ -8,6 +8,7 @@ import subprocess
 import sys
 from dataclasses import fields, replace
 from math import inf, nan
+from types import SimpleNamespace
 from typing import Any
 
 import bootstrap
@@ -17,8 +18,25 @@ from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
-from curvrefl.curvrefl_addon.settings_table import NAMED, OF_SCENES, RENDERER, Setting
+from curvrefl.curvrefl_addon.settings_table import NAMED, OF_OBJECTS, OF_SCENES, RENDERER, Setting, value_of
 from curvrefl.curvrefl_addon.ui.choices import PRESETS
+
+SAVED_SETTINGS = {
+    *("method", "pixel_tolerance", "samples", "bounces", "map_resolution", "motion_resolution", "environment"),
+    *("environment_image", "environment_strength", "environment_rotation", "show", "stripe_count", "stripe_direction"),
+    *("is_mirror", "override", "fresnel", "tint", "ior"),
+}
+SAVED_CHOICES = {
+    "method": (
+        *("auto", "exact", "secant_star", "newton", "secant_uv", "bisector_cube", "bisector_grid", "bisector_screen"),
+        *("planar", "environment_cube", "environment_cube_vertex", "environment_sphere", "environment_parallax"),
+    ),
+    "motion_resolution": ("FULL", "HALF", "QUARTER"),
+    "environment": ("VIEWPORT", "SCENE", "IMAGE"),
+    "show": ("REFLECTION", "ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD", "ZEBRA", "LINES"),
+    "fresnel": ("METAL", "DIELECTRIC", "CONSTANT"),
+}
+"""Of version 0.1, in the order of the menus"""
 
 
 def test_the_page_of_settings_is_written_from_the_table() -> None:
@@ -37,6 +55,14 @@ def test_defaults_and_sliders_are_in_range(item: Setting) -> None:
                 item.check(end)
     assert item.name not in {"", "setting"}
     assert type(item.start) is type(item.default)
+
+
+def test_files_saved_before_find_their_settings() -> None:
+    """A file keeps properties by name, and of a menu the place."""
+    assert {item.name for item in OF_SCENES + OF_OBJECTS} >= SAVED_SETTINGS
+    for name, saved in SAVED_CHOICES.items():
+        choices = tuple(choice.name for choice in NAMED[name].choices)
+        assert choices[: len(saved)] == saved, name
 
 
 def test_presets_are_values_of_settings_of_scenes() -> None:
@@ -85,6 +111,14 @@ def test_a_range_may_have_one_end() -> None:
         strength.check(-1)
     with pytest.raises(InputError, match="A value of 4 for Gain is out of range: choose at most 3"):
         unknown.check(4)
+
+
+def test_a_choice_that_is_unknown_here_reads_as_the_start() -> None:
+    """Blender gives nothing for a place that a menu does not have."""
+    owner = SimpleNamespace(method="", samples=3, environment_image=None)
+    assert value_of(owner, NAMED["method"]) == "auto"
+    assert value_of(owner, NAMED["samples"]) == 3
+    assert value_of(owner, NAMED["environment_image"]) is None
 
 
 @pytest.mark.parametrize(
