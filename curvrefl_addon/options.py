@@ -16,7 +16,8 @@ import bpy
 from .diagnostic_colors import DiagnosticColors
 from .scene.arrays import MaterialArrays
 from .scene.blend_file import SURFACE_TYPES
-from .settings_table import OF_NEW_SCENES, OF_PREFERENCES, RENDERER, OwnPreferences, Settings, value_of
+from .setting import value_of
+from .settings_table import OF_NEW_SCENES, OF_PREFERENCES, RENDERER, OwnPreferences, Settings
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""

@@ -15,12 +15,12 @@ import bootstrap
 
 bootstrap.load_package()
 
+from curvrefl.curvrefl_addon.setting import Setting  # noqa: E402
 from curvrefl.curvrefl_addon.settings_table import (  # noqa: E402
     OF_OBJECTS,
     OF_PREFERENCES,
     OF_SCENES,
     RENDERER,
-    Setting,
 )
 
 PAGE = bootstrap.ROOT / "docs" / "settings.md"

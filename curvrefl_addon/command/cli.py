@@ -19,7 +19,8 @@ from typing import Any, NoReturn
 from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
 from ..optics.catalogue import DEFAULT_COMPARED
-from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER, Flag, Setting
+from ..setting import Flag, Setting
+from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
 from . import verbs
 from .verbs import say
 

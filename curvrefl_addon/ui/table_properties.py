@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty
 
-from ..settings_table import Setting
+from ..setting import Setting
 
 _SUBTYPES = {"pixels": "PIXEL", "radians": "ANGLE", "color": "COLOR", "direction": "DIRECTION"}
 """By unit"""

@@ -14,6 +14,7 @@ import bpy
 import pytest
 from curvrefl.curvrefl_addon import options, registration, settings_table
 from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
+from curvrefl.curvrefl_addon.setting import Choice, Setting
 from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties, table_properties
 from curvrefl.curvrefl_addon.viewport import handlers as viewport
 from curvrefl.operators.mirror_settings import CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror
@@ -162,7 +163,7 @@ def test_settings_of_a_newer_extension_are_told_of() -> None:
 
 def test_a_method_of_a_newer_extension_reads_as_automatic(tmp_path: Path) -> None:
     """Saved by an extension with one method more, in scene and preferences."""
-    later = (*settings_table.METHOD_CHOICES, settings_table.Choice("magic", "Magic", "Of a later day"))
+    later = (*settings_table.METHOD_CHOICES, Choice("magic", "Magic", "Of a later day"))
     newer = tuple(replace(item, choices=later) if item.name == "method" else item for item in settings_table.OF_SCENES)
     path = str(tmp_path / "newer.blend")
     registration.unregister()
@@ -216,7 +217,7 @@ def test_properties_have_the_ranges_and_defaults_of_the_table() -> None:
                 assert known.soft_max == pytest.approx(item.soft[1]), item.name
 
 
-def _type(item: settings_table.Setting) -> str:
+def _type(item: Setting) -> str:
     if item.start is None:
         return "POINTER"
     if item.choices:

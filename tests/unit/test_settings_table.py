@@ -18,7 +18,8 @@ from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
-from curvrefl.curvrefl_addon.settings_table import NAMED, OF_OBJECTS, OF_SCENES, RENDERER, Setting, value_of
+from curvrefl.curvrefl_addon.setting import Setting, value_of
+from curvrefl.curvrefl_addon.settings_table import NAMED, OF_OBJECTS, OF_SCENES, RENDERER
 from curvrefl.curvrefl_addon.ui.choices import PRESETS
 
 SAVED_SETTINGS = {
