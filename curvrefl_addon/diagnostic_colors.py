@@ -12,17 +12,11 @@ import numpy as np
 from .errors import InputError
 from .optics.catalogue import METHODS
 from .scene.arrays import Float32Array, Float64Array
+from .settings_table import DIAGNOSTIC_CHOICES
 
 type Color = tuple[float, float, float]
 
-MODES: dict[str, tuple[str, str]] = {
-    "ITERATIONS": ("Iterations", "How many steps the search for the reflection point took"),
-    "STATUS": ("Status", "Which vertices have a reflection, are hidden by the mirror, or were not found"),
-    "ANGLE_ERROR": ("Angle Error", "How far what is shown stands from the reflected ray of its pixel, in degrees"),
-    "METHOD": ("Method", "Which method drew what"),
-    "ZEBRA": ("Zebra Stripes", "Black and white bands around an axis, infinitely far away, to inspect the surface"),
-    "LINES": ("Line Lights", "Long thin lamps along an axis, infinitely far away, to inspect the surface"),
-}
+MODES = {choice.name: (choice.label, choice.text) for choice in DIAGNOSTIC_CHOICES}
 """Label and tooltip of each view, by the name that `DiagnosticPass.add` takes"""
 
 SOLVED_MODES = frozenset({"ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD"})

@@ -8,39 +8,34 @@ Light to import: the extension is enabled without its renderer.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import bpy
 
 from .diagnostic_colors import DiagnosticColors
 from .scene.arrays import MaterialArrays
 from .scene.blend_file import SURFACE_TYPES
-
-if TYPE_CHECKING:
-    from .renderer.settings import Settings
+from .setting import value_of
+from .settings_table import OF_NEW_SCENES, OF_PREFERENCES, RENDERER, OwnPreferences, Settings
 
 SETTINGS_VERSION = 1
 """Of `Scene.curvrefl`; a scene with a greater one was saved by a newer extension"""
-QUALITY = ("method", "pixel_tolerance", "samples", "bounces", "map_resolution", "motion_resolution")
-"""Settings of `Scene.curvrefl` whose first values are preferences"""
 PACKAGE = __package__.removesuffix(".curvrefl_addon")
 """The extension as Blender knows it, for instance bl_ext.user_default.curvrefl"""
 _DEFAULTS = DiagnosticColors()
 
 
+def _starts() -> dict[str, Any]:
+    return {item.name: item.start for item in OF_NEW_SCENES}
+
+
 @dataclass(frozen=True, slots=True)
-class Options:
+class Options(OwnPreferences):
     """What the rest of the extension reads of them."""
 
-    method: str = "auto"
-    pixel_tolerance: float = 0.5
-    samples: int = 8
-    bounces: int = 4
-    map_resolution: int = 128
-    motion_resolution: str = "HALF"
-    memory_cap: int = 2048
-    """MB"""
+    new_scenes: dict[str, Any] = field(default_factory=_starts)
+    """By name, what settings of scenes start with"""
     colors: DiagnosticColors = field(default_factory=DiagnosticColors)
 
 
@@ -55,8 +50,8 @@ def current_options() -> Options:
         # Of other ends the five stops of the default are not the way from one to the other.
         ramp = (_triple(chosen.color_low), _triple(chosen.color_high))
     return Options(
-        **{name: getattr(chosen, name) for name in QUALITY},
-        memory_cap=chosen.memory_cap,
+        **{item.name: value_of(chosen, item) for item in OF_PREFERENCES},
+        new_scenes={item.name: value_of(chosen, item) for item in OF_NEW_SCENES},
         colors=DiagnosticColors(
             converged=_triple(chosen.color_converged),
             hidden=_triple(chosen.color_hidden),
@@ -85,17 +80,8 @@ def newer_settings(scene: bpy.types.Scene) -> str:
 
 def settings_of(chosen: Any, samples: int | None = None) -> Settings:
     """How to render by `Scene.curvrefl`; `samples` in place of its own."""
-    # (Enabling the extension imports nothing of the renderer.)
-    from .renderer.settings import Settings
-
-    return Settings(
-        # (what a newer extension has saved reads as nothing here)
-        method=chosen.method or Settings().method,
-        samples=chosen.samples if samples is None else samples,
-        pixel_tolerance=chosen.pixel_tolerance,
-        map_resolution=chosen.map_resolution,
-        bounces=chosen.bounces,
-    )
+    settings = Settings(**{item.name: value_of(chosen, item) for item in RENDERER if item.panel})
+    return settings if samples is None else replace(settings, samples=samples)
 
 
 def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:

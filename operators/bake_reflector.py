@@ -8,9 +8,11 @@
 from typing import Literal
 
 import bpy
-from bpy.props import IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from ..curvrefl_addon.errors import InputError
+from ..curvrefl_addon.settings_table import NAMED
+from ..curvrefl_addon.ui.table_properties import property_of
 from .paths import output_path
 
 
@@ -24,8 +26,8 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
     reflector: StringProperty(  # type: ignore[valid-type]
         name="Reflector", description="Name of the mirror object; the active object if empty"
     )
-    resolution: IntProperty(  # type: ignore[valid-type]
-        name="Resolution", description="Texels along an edge of a cube face", default=128, min=8, max=2048
+    resolution: property_of(  # type: ignore[valid-type]
+        NAMED["map_resolution"], name="Resolution", description="Texels along an edge of a cube face"
     )
     folder: StringProperty(  # type: ignore[valid-type]
         name="Folder",

@@ -14,6 +14,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.optics.catalogue import DEFAULT_COMPARED, METHODS
 from ..curvrefl_addon.options import marked_mirrors
+from ..curvrefl_addon.settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .paths import output_path
 
 TEXT_NAME = "Curvrefl comparison"
@@ -62,13 +63,13 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         default="direct",
     )
     width: IntProperty(  # type: ignore[valid-type]
-        name="Width", description="Of the compared pictures", default=640, min=1, max=8192, subtype="PIXEL"
+        name="Width", description="Of the compared pictures", default=640, min=1, max=LARGEST_SIDE, subtype="PIXEL"
     )
     height: IntProperty(  # type: ignore[valid-type]
-        name="Height", description="Of the compared pictures", default=480, min=1, max=8192, subtype="PIXEL"
+        name="Height", description="Of the compared pictures", default=480, min=1, max=LARGEST_SIDE, subtype="PIXEL"
     )
     samples: IntProperty(  # type: ignore[valid-type]
-        name="Samples", description="Of the reference in Cycles", default=128, min=1, max=65536
+        name="Samples", description="Of the reference in Cycles", default=128, min=1, max=MOST_REFERENCE_SAMPLES
     )
     every_setting: BoolProperty(  # type: ignore[valid-type]
         name="Every Setting",

@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 import bpy
-from bpy.props import BoolProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.options import marked_mirrors
+from ..curvrefl_addon.settings_table import NAMED, STILL_SAMPLES
+from ..curvrefl_addon.ui.table_properties import property_of
 from .paths import output_path
 
 SUFFIXES = (".png", ".exr")
@@ -37,8 +39,8 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
     animation: BoolProperty(  # type: ignore[valid-type]
         name="Animation", description="All frames of the scene's range, not the present one alone", default=False
     )
-    samples: IntProperty(  # type: ignore[valid-type]
-        name="Samples", description="Pictures that are averaged against jagged edges", default=16, min=1, max=1024
+    samples: property_of(  # type: ignore[valid-type]
+        NAMED["samples"], description="Pictures that are averaged against jagged edges", default=STILL_SAMPLES
     )
     filter_glob: StringProperty(default="*.png;*.exr", options={"HIDDEN"})  # type: ignore[valid-type]
 

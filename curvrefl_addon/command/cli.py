@@ -14,19 +14,19 @@ import re
 import sys
 import traceback
 from collections.abc import Callable, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
 from ..optics.catalogue import DEFAULT_COMPARED
+from ..setting import Flag, Setting
+from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
 from . import verbs
 from .verbs import say
 
 DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 ALL_PEERS = "eevee,cycles1,cycles8,cycles64"
-MAX_SIDE = 8192
-"""Largest side of a picture in pixels"""
 MAX_FRAME = 1048574
 """Blender's own limit"""
 
@@ -89,11 +89,7 @@ def _parser() -> argparse.ArgumentParser:
         "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
     )
     _add_scene_options(render)
-    render.add_argument("--method", default="auto", metavar="M", help="how to reflect (%(default)s)")
-    render.add_argument(
-        "--samples", type=_between(1, 1024), default=16, metavar="N", help="for anti-aliasing (%(default)s)"
-    )
-    _add_shadow_rays(render)
+    _add_settings(render, "render")
     render.add_argument(
         "--passes",
         default="color",
@@ -105,13 +101,8 @@ def _parser() -> argparse.ArgumentParser:
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
     _add_scene_options(compare)
     compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
-    compare.add_argument(
-        "--sub-frames", type=_between(1, 1024), default=2, metavar="N", help="of our pictures (%(default)s)"
-    )
-    _add_shadow_rays(compare)
-    compare.add_argument(
-        "--samples", type=_between(1, 65536), default=256, metavar="N", help="of the reference (%(default)s)"
-    )
+    _add_settings(compare, "compare")
+    _add_reference_samples(compare, 256, "of the reference")
     compare.add_argument(
         "--light",
         default="direct",
@@ -135,9 +126,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     chart.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
     chart.add_argument("--method", default="all", metavar="M[,M..]", help="or all (%(default)s)")
-    chart.add_argument(
-        "--samples", type=_between(1, 65536), default=64, metavar="N", help="of the references (%(default)s)"
-    )
+    _add_reference_samples(chart, 64, "of the references")
     chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
     chart.add_argument("--peers", default=ALL_PEERS, metavar="P[,P..]", help="or none (%(default)s)")
     chart.add_argument(
@@ -193,14 +182,7 @@ def _parser() -> argparse.ArgumentParser:
     bake.set_defaults(camera=None, frame=None, resolution=None)
     bake.add_argument("file", metavar="FILE.blend")
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
-    bake.add_argument(
-        "--resolution",
-        dest="texels",
-        type=_between(8, 2048),
-        default=128,
-        metavar="N",
-        help="texels along an edge of a map (%(default)s)",
-    )
+    _add_settings(bake, "bake")
     bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
@@ -218,9 +200,58 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
 
 
-def _add_shadow_rays(parser: argparse.ArgumentParser) -> None:
+def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
+    """The verb's arguments that the table of settings knows."""
+    for item in RENDERER:
+        for flag in item.flags:
+            if flag.verb == verb:
+                _add_setting(parser, item, flag)
+
+
+def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> None:
+    default = item.flag_value(flag)
+    dest = f"{verbs.SETTING}{item.name}"
+    if isinstance(default, bool):
+        action = "store_false" if default else "store_true"
+        parser.add_argument(flag.spelling, dest=dest, action=action, help=flag.text)
+        return
     parser.add_argument(
-        "--shadow-rays", action="store_true", help="shadow what rays hit by rays, not by depth maps (exact)"
+        flag.spelling,
+        dest=dest,
+        type=_value_of(item),
+        default=default,
+        metavar=flag.metavar,
+        help=f"{flag.text} (%(default)s)",
+    )
+
+
+def _value_of(item: Setting) -> Callable[[str], Any]:
+    """The argument type of a setting's values."""
+    if isinstance(item.default, int):
+        least, most = item.hard
+        assert least is not None and most is not None, f"{item.name} is a whole number without a range"
+        return _between(int(least), int(most))
+
+    def value(text: str) -> Any:
+        if item.choices:
+            item.check(text)
+            return text
+        try:
+            item.check(float(text))
+        except (ValueError, InputError) as error:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a number in range: choose {item.range_text}") from error
+        return float(text)
+
+    return value
+
+
+def _add_reference_samples(parser: argparse.ArgumentParser, default: int, text: str) -> None:
+    parser.add_argument(
+        "--samples",
+        type=_between(1, MOST_REFERENCE_SAMPLES),
+        default=default,
+        metavar="N",
+        help=f"{text} (%(default)s)",
     )
 
 
@@ -249,6 +280,6 @@ def _resolution(text: str) -> tuple[int, int]:
     if not match:
         raise argparse.ArgumentTypeError(f"'{text}' is not a resolution like 640x480")
     width, height = int(match[1]), int(match[2])
-    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {MAX_SIDE} pixels a side")
+    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
+        raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {LARGEST_SIDE} pixels a side")
     return width, height

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, TextIO
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
+from ..settings_table import Settings
 
 if TYPE_CHECKING:
     import bpy
@@ -36,6 +37,8 @@ DEMO_SAMPLES = 64
 STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent.parent
 LAYERS = ("unit", "blender", "gui")
+SETTING = "setting_"
+"""Before the names of settings among the parsed options"""
 PASSES = ("color", "position", "object", "iterations")
 
 
@@ -48,7 +51,6 @@ def render(options: argparse.Namespace) -> int:
     """Render the file's picture, and what is behind it as passes."""
     passes = _names(options.passes, "pass")
     _known(passes, PASSES, "pass")
-    _known([options.method], list(METHODS), "method")
     reflectors = _names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
     _start_gpu()
@@ -57,12 +59,9 @@ def render(options: argparse.Namespace) -> int:
     arrays = _read_scene(scene, reflectors)
 
     from ..renderer.renderer import Renderer
-    from ..renderer.settings import Settings
     from ..report.images import save_exr, save_png
 
-    renderer = Renderer(
-        arrays, Settings(method=options.method, samples=options.samples, shadow_rays=options.shadow_rays)
-    )
+    renderer = Renderer(arrays, chosen_settings(options))
     try:
         frame = renderer.render(view)
         _warn(frame.warnings)
@@ -104,8 +103,7 @@ def compare(options: argparse.Namespace) -> int:
         samples=options.samples,
         light=options.light,
         peers=tuple(peers),
-        sub_frames=options.sub_frames,
-        shadow_rays=options.shadow_rays,
+        settings=chosen_settings(options),
     )
     scene = _open_scene(options.file, options.frame)
     width, height = _resolution(options, scene)
@@ -240,7 +238,7 @@ def bake(options: argparse.Namespace) -> int:
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
 
-    baked = bake_reflector(arrays, arrays.reflectors[0], options.texels)
+    baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
     _warn(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
@@ -350,6 +348,13 @@ def _view(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
     from ..scene.blend_file import find_camera, view_of_camera
 
     return view_of_camera(scene, find_camera(scene, options.camera), *_resolution(options, scene))
+
+
+def chosen_settings(options: argparse.Namespace) -> Settings:
+    """Those that the verb's arguments set; the others are as by default."""
+    return Settings(
+        **{name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
+    )
 
 
 def _names(text: str, what: str) -> list[str]:

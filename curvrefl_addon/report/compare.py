@@ -13,7 +13,7 @@ import json
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
 from ..scene.extract import extract_scene
 from ..scene.view import View
+from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .display import inverse_display_transform
 from .geometry_reference import render_geometry
@@ -38,8 +39,6 @@ from .measured_frame import RendererLike, frame_geometry_error, image_error, mea
 from .metrics import error_map, mask_mismatch, missing_flip
 
 DEFAULT_PEERS = ("eevee", "cycles1", "cycles8")
-LARGEST_SIDE = 8192
-MOST_SAMPLES = 65536
 
 type Progress = Callable[[str], None]
 
@@ -58,18 +57,17 @@ class Comparison:
     samples: int = 256
     light: str = "direct"
     peers: tuple[str, ...] = DEFAULT_PEERS
-    sub_frames: int = Settings().samples
-    """Of our pictures, as the next"""
-    shadow_rays: bool = False
+    settings: Settings = field(default_factory=Settings)
+    """Of our pictures; each method takes the place of theirs"""
 
     def __post_init__(self) -> None:
         if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
             raise InputError(
                 f"A resolution of {self.width}x{self.height} is out of range: choose 1 to {LARGEST_SIDE} pixels a side."
             )
-        if not 1 <= self.samples <= MOST_SAMPLES:
-            raise InputError(f"{self.samples} samples are out of range: choose 1 to {MOST_SAMPLES}.")
-        check_settings(Settings(samples=self.sub_frames))
+        if not 1 <= self.samples <= MOST_REFERENCE_SAMPLES:
+            raise InputError(f"{self.samples} samples are out of range: choose 1 to {MOST_REFERENCE_SAMPLES}.")
+        check_settings(self.settings)
         if self.light not in LIGHTS:
             raise InputError(f"Unknown light '{self.light}': choose from {', '.join(LIGHTS)}.")
         if not self.methods:
@@ -81,11 +79,11 @@ class Comparison:
 
 
 def new_renderer(comparison: Comparison) -> MakeRenderer:
-    """Makes the extension's renderers, with its default settings.
+    """Makes the extension's renderers, with the comparison's settings.
 
     In direct light Cycles follows one bounce off a mirror, and so do they.
     """
-    settings = Settings(samples=comparison.sub_frames, shadow_rays=comparison.shadow_rays)
+    settings = comparison.settings
     if comparison.light == "direct":
         settings = replace(settings, bounces=1)
     return lambda scene, method: Renderer(scene, replace(settings, method=method))

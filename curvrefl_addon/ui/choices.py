@@ -1,38 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Items of the extension's menus, and its presets."""
+"""The presets of the panel Quality."""
 
 from __future__ import annotations
 
 from typing import Any
-
-from ..diagnostic_colors import MODES
-from ..optics.catalogue import METHODS
-
-METHOD_ITEMS = [(name, method.label, f"{method.source}. Assumes: {method.assumes}") for name, method in METHODS.items()]
-MOTION_ITEMS = [
-    ("FULL", "Full", "Every pixel, also while something moves"),
-    ("HALF", "Half", "A quarter of the pixels while something moves"),
-    ("QUARTER", "Quarter", "A sixteenth of the pixels while something moves"),
-]
-ENVIRONMENT_ITEMS = [
-    (
-        "VIEWPORT",
-        "As the Viewport",
-        "The studio light in Material Preview where it is on, else the scene's world and lights",
-    ),
-    ("SCENE", "Scene", "The scene's world and lights, however the viewport is shaded"),
-    ("IMAGE", "Image", "An equirectangular image in place of the world, and the scene's lights"),
-]
-SHOW_ITEMS = [
-    ("REFLECTION", "Reflection", "What the mirrors reflect"),
-    *((name, label, description) for name, (label, description) in MODES.items()),
-]
-FRESNEL_ITEMS = [
-    ("METAL", "Metal", "Reflects the tint face on, and white at grazing angles"),
-    ("DIELECTRIC", "Dielectric", "Reflects little face on and all at grazing angles, by the index of refraction"),
-    ("CONSTANT", "Constant", "Reflects the tint at every angle"),
-]
 
 PRESETS: dict[str, tuple[str, str, dict[str, Any]]] = {
     "FAST": (

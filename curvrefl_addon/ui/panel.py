@@ -9,8 +9,9 @@ from typing import Any
 import bpy
 
 from ..diagnostic_colors import SOLVED_MODES
-from ..options import QUALITY, marked_mirrors, newer_settings
+from ..options import marked_mirrors, newer_settings
 from ..scene.blend_file import SURFACE_TYPES
+from ..settings_table import OF_SCENES
 from .choices import PRESETS, active_preset
 from .messages import draw_message, draw_rows
 
@@ -118,8 +119,9 @@ class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         settings = context.scene.curvrefl
-        for name in QUALITY:
-            layout.prop(settings, name)
+        for item in OF_SCENES:
+            if item.panel == CURVREFL_PT_quality.bl_label:
+                layout.prop(settings, item.name)
 
 
 class CURVREFL_PT_environment(_SubPanel, bpy.types.Panel):

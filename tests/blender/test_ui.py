@@ -5,13 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import bpy
 import pytest
-from curvrefl.curvrefl_addon import options, registration
-from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties
+from curvrefl.curvrefl_addon import options, registration, settings_table
+from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
+from curvrefl.curvrefl_addon.setting import Choice, Setting
+from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties, table_properties
 from curvrefl.curvrefl_addon.viewport import handlers as viewport
 from curvrefl.operators.mirror_settings import CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror
 
@@ -135,7 +139,8 @@ def test_toggle_needs_a_surface() -> None:
 
 
 def test_only_settings_that_nobody_touched_follow_the_preferences(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(properties, "current_options", lambda: options.Options(samples=3, map_resolution=64))
+    first = options.Options().new_scenes | {"samples": 3, "map_resolution": 64}
+    monkeypatch.setattr(properties, "current_options", lambda: options.Options(new_scenes=first))
     scene = bpy.context.scene
     scene.curvrefl.samples = 20
     properties.use_defaults()
@@ -154,6 +159,70 @@ def test_settings_of_a_newer_extension_are_told_of() -> None:
     sentence = options.newer_settings(scene)
     assert sentence
     assert sentence in " ".join(draw(panel.CURVREFL_PT_main, context()).texts)
+
+
+def test_a_method_of_a_newer_extension_reads_as_automatic(tmp_path: Path) -> None:
+    """Saved by an extension with one method more, in scene and preferences."""
+    later = (*settings_table.METHOD_CHOICES, Choice("magic", "Magic", "Of a later day"))
+    newer = tuple(replace(item, choices=later) if item.name == "method" else item for item in settings_table.OF_SCENES)
+    path = str(tmp_path / "newer.blend")
+    registration.unregister()
+    group: Any = type(
+        "CurvreflScene", (bpy.types.PropertyGroup,), {"__annotations__": table_properties.properties_of(newer)}
+    )
+    bpy.utils.register_class(group)
+    bpy.types.Scene.curvrefl = bpy.props.PointerProperty(type=group)
+    try:
+        bpy.context.scene.curvrefl.method = "magic"
+        bpy.context.scene.curvrefl.bounces = 7
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+    finally:
+        del bpy.types.Scene.curvrefl
+        bpy.utils.unregister_class(group)
+        registration.register()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    chosen = bpy.context.scene.curvrefl
+    assert chosen.method == ""
+    assert options.settings_of(chosen) == Settings(method="auto", samples=8, bounces=7)
+    check_settings(options.settings_of(chosen))
+
+
+def test_ends_of_the_sliders_are_in_the_renderers_range() -> None:
+    """Blender keeps 0.01 as a float32 that is less."""
+    chosen = bpy.context.scene.curvrefl
+    for extreme in (-1e6, 1e6):
+        for name in ("pixel_tolerance", "samples", "bounces", "map_resolution"):
+            setattr(chosen, name, type(getattr(chosen, name))(extreme))
+        check_settings(options.settings_of(chosen))
+
+
+def test_properties_have_the_ranges_and_defaults_of_the_table() -> None:
+    groups = (
+        (properties.CurvreflScene, settings_table.OF_SCENES),
+        (properties.CurvreflObject, settings_table.OF_OBJECTS),
+        (preferences.CurvreflPreferences, settings_table.OF_NEW_SCENES + settings_table.OF_PREFERENCES),
+    )
+    for group, settings in groups:
+        found = group.bl_rna.properties
+        for item in settings:
+            known = found[item.name]
+            assert (known.name, known.type) == (item.label, _type(item)), item.name
+            if item.choices:
+                assert [entry.identifier for entry in known.enum_items] == [choice.name for choice in item.choices]
+            if isinstance(item.start, bool | int | float | str):
+                assert known.default == pytest.approx(item.start), item.name
+            if item.hard[1] is not None:
+                assert (known.hard_min, known.hard_max) == pytest.approx(item.hard), item.name
+            if item.soft[1] is not None:
+                assert known.soft_max == pytest.approx(item.soft[1]), item.name
+
+
+def _type(item: Setting) -> str:
+    if item.start is None:
+        return "POINTER"
+    if item.choices:
+        return "ENUM"
+    return {bool: "BOOLEAN", int: "INT"}.get(type(item.start), "FLOAT")
 
 
 def _no_scene() -> Any:
