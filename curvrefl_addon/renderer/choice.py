@@ -237,7 +237,6 @@ def _choose(
     kept = 1.0 if last is None or last.method == NOTHING else KEPT_SHARE if was_solved else 1.0 / KEPT_SHARE
     if share > MOST_SHARE * kept:
         return rays(cost)
-    reach = float((np.linalg.norm(scenery.centers - frame.center, axis=1) + scenery.radii)[~unseen].max())
     tolerance = settings.pixel_tolerance
     most = MAP_SHARE * tolerance * (KEPT_FIT if was_solved else 1.0)
     resolution = _map_resolution(frame.radius_pixels(view), last if was_solved else None)
@@ -245,7 +244,7 @@ def _choose(
         shape = mirror.shape(resolution)
         if shape.map is None or shape.refusal is not None:
             return rays(f'"{name}" has no map that reflection points could be found on')
-        error = shape.fit().pixel_error(view, shape.world_to_map, reach + frame.bound)
+        error = shape.fit().pixel_error(view, shape.world_to_map, scenery.centers[~unseen], scenery.radii[~unseen])
         if error <= most:
             break
         # The error of a smooth shape falls with the square of a texel, that of one with kinks with a texel.

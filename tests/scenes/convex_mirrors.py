@@ -225,6 +225,9 @@ def _derivative(places: np.ndarray, ids: np.ndarray, axis: int) -> np.ndarray:
     """(h, w, 3) change of what is shown per pixel along an axis, from neighbors that show the same object; 0 without
     any."""
     ahead, behind = (np.roll(ids, -step, axis) == ids for step in (1, -1))
+    # (What is rolled in from the other side of the picture is no neighbor.)
+    np.moveaxis(ahead, axis, 0)[-1] = False
+    np.moveaxis(behind, axis, 0)[0] = False
     forward, backward = np.roll(places, -1, axis) - places, places - np.roll(places, 1, axis)
     count = ahead.astype(np.float64) + behind
     total = np.where(ahead[..., None], forward, 0.0) + np.where(behind[..., None], backward, 0.0)
@@ -232,12 +235,16 @@ def _derivative(places: np.ndarray, ids: np.ndarray, axis: int) -> np.ndarray:
 
 
 def _least_squares(a: np.ndarray, b: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """(n, 2) x, y that bring x a + y b nearest to `target`, all (n, 3); far away where nothing does."""
+    """(n, 2) x, y that bring x a + y b nearest to `target`, all (n, 3); far away where nothing does.
+
+    Damped: along a direction in which the picture hardly changes a place is not looked for.
+    """
     aa, ab, bb = ((p * q).sum(-1) for p, q in ((a, a), (a, b), (b, b)))
     at, bt = (a * target).sum(-1), (b * target).sum(-1)
-    determinant = aa * bb - ab * ab
-    flat = determinant <= 1e-12 * np.maximum(aa * bb, 1e-30)
-    inverse = 1.0 / np.where(flat, 1.0, determinant)
+    size = aa + bb
+    aa, bb = aa + 1e-3 * size, bb + 1e-3 * size
+    inverse = 1.0 / np.maximum(aa * bb - ab * ab, 1e-30)
     steps = np.column_stack([(bb * at - ab * bt) * inverse, (aa * bt - ab * at) * inverse])
-    steps[flat] = np.where((np.linalg.norm(target, axis=1) > 1e-9)[flat, None], np.inf, 0.0)
+    missed = np.linalg.norm(steps[:, :1] * a + steps[:, 1:] * b - target, axis=1)
+    steps[(missed > 0.2 * np.sqrt(size)) & (np.linalg.norm(target, axis=1) > 1e-6)] = np.inf
     return steps

@@ -17,6 +17,7 @@ A farther vertex moves farther, so the farthest one is taken.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.radial_surfaces import unit
@@ -27,6 +28,8 @@ from .reflector_map import ReflectorMap
 
 SAMPLES = 2048
 """Points of the mesh that are compared"""
+MOST_BALLS = 64
+"""More objects are taken as being everywhere"""
 
 
 class MapFit:
@@ -44,8 +47,9 @@ class MapFit:
         axes = np.stack([first, np.cross(normals, first)], axis=1)
         self._points, self._normals, self._axes = points, normals, axes
         self._normal_offsets = np.einsum("nki,ni->nk", axes, map_normals - normals)
+        self._facing = samples.facing
         # The tangential part of a normal that is turned by more than a right angle says too little.
-        self._is_hopeless = np.einsum("ni,ni->n", map_normals, normals) < 0.5
+        self._is_lost = np.einsum("ni,ni->n", map_normals, normals) < 0.5
         self._radius_offsets = np.abs(map_radii - radii)
         step = 2.0 * radii / baked.resolution
         slopes = []
@@ -57,52 +61,92 @@ class MapFit:
         turned = np.stack(slopes, axis=2)
         self._slopes = 0.5 * (turned + turned.transpose(0, 2, 1))
 
-    def pixel_error(self, view: View, world_to_map: Float64Array, reach: float, share: float = 0.99) -> float:
-        """The share's percentile over the mirror's pixels in `view` of how far the map moves what they show, in pixels.
+    def pixel_error(
+        self,
+        view: View,
+        world_to_map: Float64Array,
+        centers: Float64Array,
+        radii: Float64Array,
+        share: float = 0.99,
+    ) -> float:
+        """How far the map moves what the mirror shows in `view`, in pixels: the share's percentile over the mirror's
+        pixels that may show any of the balls `centers` (n, 3), world space, and `radii` (n,).
 
-        `world_to_map` is where the map is now, `reach` the distance of the farthest vertex from the mirror, meters. 0
-        where the eye sees nothing of it, infinite where the map's normals do not tell its points apart.
+        `world_to_map` is where the map is now. 0 where the eye sees none of these pixels, infinite where the map's
+        normals do not tell the mirror's points apart.
         """
         eye = world_to_map @ view.eye
         to_eye = eye[:3] - eye[3] * self._points
         away = np.linalg.norm(to_eye, axis=1)
         to_eye /= np.maximum(away, 1e-30)[:, None]
+        facing = np.einsum("ni,ni->n", to_eye, self._facing)
         cosine = np.einsum("ni,ni->n", to_eye, self._normals)
-        seen = cosine > 1e-3
-        if not seen.any():
+        seen = np.flatnonzero(facing > 0.0)
+        distance = self._distances(seen, to_eye, cosine, world_to_map, centers, radii)
+        seen, distance = seen[distance > 0.0], distance[distance > 0.0]
+        if len(seen) == 0:
             return 0.0
-        to_eye, cosine, away = to_eye[seen], cosine[seen], away[seen]
+        to_eye, cosine, away, facing = to_eye[seen], cosine[seen], away[seen], facing[seen]
         # In pixels per meter across the line of sight; an orthographic eye is infinitely far away.
-        near = 0.0 if view.is_orthographic else 1.0 / away
-        scale = view.focal_pixels * (1.0 if view.is_orthographic else near)
+        near = np.zeros(len(seen)) if view.is_orthographic else 1.0 / away
+        scale = view.focal_pixels * (np.ones(len(seen)) if view.is_orthographic else near)
         plane = np.einsum("nki,ni->nk", self._axes[seen], to_eye)
         matrix = 2.0 * cosine[:, None, None] * self._slopes[seen]
-        sum_ = (near + 1.0 / max(reach, 1e-30)) * np.ones(len(cosine))
-        matrix[:, 0, 0] += sum_ * (1.0 - plane[:, 0] ** 2)
-        matrix[:, 1, 1] += sum_ * (1.0 - plane[:, 1] ** 2)
-        across = -sum_ * plane[:, 0] * plane[:, 1]
+        curvature = near + 1.0 / distance
+        matrix[:, 0, 0] += curvature * (1.0 - plane[:, 0] ** 2)
+        matrix[:, 1, 1] += curvature * (1.0 - plane[:, 1] ** 2)
+        across = -curvature * plane[:, 0] * plane[:, 1]
         matrix[:, 0, 1] += across
         matrix[:, 1, 0] += across
         determinant = matrix[:, 0, 0] * matrix[:, 1, 1] - matrix[:, 0, 1] * matrix[:, 1, 0]
-        folded = (determinant <= 0.0) | (matrix[:, 0, 0] + matrix[:, 1, 1] <= 0.0) | self._is_hopeless[seen]
-        inverse = 1.0 / np.where(folded, 1.0, determinant)
+        # A normal that is turned away from the eye where its face is seen is no mirror's to any solver.
+        lost = (determinant <= 0.0) | (matrix[:, 0, 0] + matrix[:, 1, 1] <= 0.0) | self._is_lost[seen] | (cosine <= 0.0)
+        inverse = 1.0 / np.where(lost, 1.0, determinant)
         d = 2.0 * cosine[:, None] * self._normal_offsets[seen]
-        step = np.column_stack(
+        step = inverse[:, None] * np.column_stack(
             [
                 matrix[:, 1, 1] * d[:, 0] - matrix[:, 0, 1] * d[:, 1],
                 matrix[:, 0, 0] * d[:, 1] - matrix[:, 1, 0] * d[:, 0],
             ]
         )
-        step *= inverse[:, None]
         # What of it lies along the line of sight is not seen.
-        length = np.sqrt(np.maximum((step**2).sum(axis=1) - np.einsum("nk,nk->n", step, plane) ** 2, 0.0))
+        along = np.einsum("nk,nk->n", step, plane)
+        length = np.sqrt(np.maximum((step**2).sum(axis=1) - along**2, 0.0))
         sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
         errors = scale * (length + 2.0 * sine * self._radius_offsets[seen])
-        errors[folded] = np.inf
-        weight = cosine * scale**2 * np.ones(len(cosine))
+        # To first order no more: the angle of incidence is another one at the end of the step.
+        turned = np.linalg.norm(np.einsum("nkl,nl->nk", self._slopes[seen], step), axis=1) + near * np.abs(along)
+        errors[lost | (turned + np.linalg.norm(self._normal_offsets[seen], axis=1) > 0.5 * cosine)] = np.inf
+        weight = facing * scale**2
         order = np.argsort(errors)
         shares = np.cumsum(weight[order])
         return float(errors[order][min(np.searchsorted(shares, share * shares[-1]), len(order) - 1)])
+
+    def _distances(
+        self,
+        seen: NDArray[np.int64],
+        to_eye: Float64Array,
+        cosine: Float64Array,
+        world_to_map: Float64Array,
+        centers: Float64Array,
+        radii: Float64Array,
+    ) -> Float64Array:
+        """(seen,) distance to the farthest point of the balls that each point's reflected ray meets, 0 where none."""
+        points = self._points[seen]
+        balls = centers @ world_to_map[:3, :3].T + world_to_map[:3, 3]
+        farthest = np.zeros(len(seen))
+        if len(balls) > MOST_BALLS:
+            # As if every ray met the farthest.
+            reach = float((np.linalg.norm(balls, axis=1) + radii).max())
+            return reach + np.linalg.norm(points, axis=1)
+        rays = 2.0 * cosine[seen, None] * self._normals[seen] - to_eye[seen]
+        for center, radius in zip(balls, radii.tolist(), strict=True):
+            to_ball = center - points
+            along = np.einsum("ni,ni->n", to_ball, rays)
+            square = np.einsum("ni,ni->n", to_ball, to_ball)
+            meets = (square - along * along < radius * radius) & (along > -radius)
+            farthest[meets] = np.maximum(farthest[meets], np.sqrt(square[meets]) + radius)
+        return farthest
 
 
 def _normals(surface: CubeMapSurface, directions: Float64Array) -> tuple[Float64Array, Float64Array]:

@@ -305,6 +305,8 @@ class SurfaceSamples:
     """(n, 3) relative to the star center, in axes parallel to the map frame; none at the center itself"""
     normals: Float64Array
     """(n, 3) unit shading normals there, turned outwards"""
+    facing: Float64Array
+    """(n, 3) unit normals of the triangles there, turned outwards"""
 
 
 def surface_samples(mesh: MeshArrays, instance: InstanceArrays, baked: ReflectorMap, count: int) -> SurfaceSamples:
@@ -324,16 +326,17 @@ def _samples(placed: _PlacedMesh, corners: Float64Array, inverted: bool, count: 
     outward = np.einsum("ij,ij->i", crossed, corners[:, 0]) * (-1.0 if inverted else 1.0)
     areas[outward <= 0.0] = 0.0
     if not areas.any():
-        return SurfaceSamples(np.zeros((0, 3)), np.zeros((0, 3)))
+        return SurfaceSamples(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
     random = np.random.default_rng(0)
     chosen = random.choice(len(areas), count, p=areas / areas.sum())
     weights = random.dirichlet((1.0, 1.0, 1.0), count)
     points = np.einsum("ij,ijk->ik", weights, corners[chosen])
     normals = unit(np.einsum("ij,ijk->ik", weights, placed.normals[placed.triangles[chosen]]))
+    facing = unit(crossed[chosen]) * (-1.0 if inverted else 1.0)
     kept = np.linalg.norm(points, axis=1) > 0.0
-    points, normals = points[kept], normals[kept]
-    inwards = np.einsum("ij,ij->i", points, normals) < 0.0
-    return SurfaceSamples(points, np.where(inwards[:, None], -normals, normals))
+    points, normals, facing = points[kept], normals[kept], facing[kept]
+    inwards = np.einsum("ij,ij->i", facing, normals) < 0.0
+    return SurfaceSamples(points, np.where(inwards[:, None], -normals, normals), facing)
 
 
 def _measure(
