@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the search for a reflection point may end; the shaders use the same numbers (`status.glsl`)."""
+"""How the search for a reflection point may end; the shaders take these numbers from here (`status.glsl`)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ REFLECTED = 0
 HIDDEN = 1
 UNSOLVED = 2
 INVALID = 3
+LARGEST_COORDINATE = 1e18
+"""A vertex with a larger one is INVALID: squares of it overflow in float32"""
 
 SENTENCES = {
     REFLECTED: "A reflection point was found; eye and vertex are on the outer side there.",

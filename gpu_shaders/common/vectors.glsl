@@ -9,8 +9,7 @@ vec3 safe_unit(vec3 v)
   return length_squared > 0.0 ? v * inversesqrt(length_squared) : vec3(0.0);
 }
 
-// Squares of larger coordinates overflow.
-#define LARGEST_COORDINATE 1e18
+#from optics.status import LARGEST_COORDINATE
 
 bool is_finite(vec3 v)
 {

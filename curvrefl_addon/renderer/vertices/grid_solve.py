@@ -11,12 +11,11 @@ from typing import Any
 import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import dispatch, empty_record_texture, record_texture
+from ..device.gpu_objects import dispatch, empty_record_texture, record_texture, uniform_block
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
-from .solve import GROUP, VertexSolution
+from .solve import GROUP, VertexSolution, declare_solve, plain_block
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
@@ -47,9 +46,11 @@ class ChunkGrid:
         """Where the chunk's vertices reflect; `search` solves so many records of a texture of positions."""
         corners = search(chunk.place_points(self._sources, self.corner_count), self.corner_count)
         solution = VertexSolution(empty_record_texture(self._count), empty_record_texture(self._count), self._count)
+        # Bound by reference only: it has to outlive the dispatch.
+        uniforms = uniform_block(plain_block(self._count))
         shader = _interpolation_shader()
         shader.bind()
-        shader.uniform_int("count", self._count)
+        shader.uniform_block("solver", uniforms)
         textures = (
             self._cells,
             self._numbers,
@@ -68,11 +69,7 @@ class ChunkGrid:
 @cache
 def _interpolation_shader() -> Any:
     info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("INT", "count")
     for slot, name in enumerate(_SAMPLERS):
         info.sampler(slot, "FLOAT_2D", name)
-    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load("solvers/bisector_grid.comp.glsl"))
+    declare_solve(info, "bisector_grid")
     return gpu.shader.create_from_info(info)
