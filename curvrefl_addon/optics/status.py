@@ -8,8 +8,6 @@ REFLECTED = 0
 HIDDEN = 1
 UNSOLVED = 2
 INVALID = 3
-LARGEST_COORDINATE = 1e18
-"""A vertex with a larger one is INVALID: squares of it overflow in float32"""
 
 SENTENCES = {
     REFLECTED: "A reflection point was found; eye and vertex are on the outer side there.",

@@ -12,8 +12,8 @@ struct Bisector {
 };
 
 // A vertex behind the tangent plane takes part as its mirror image in that plane (2005, section 6.1; 2006, section
-// 5.1): the inverse search. V' = R + 2 N ((V - R) . N) - (V - R) is its image about the normal line; what the eye would
-// have to see of it lies on the other side of the plane.
+// 5.1): the inverse search. V' = R + 2 N ((V - R) . N) - (V - R) is its image about the normal line; what the eye
+// would have to see of it lies on the other side of the plane.
 vec3 seen_vertex(vec3 vertex, vec3 point, vec3 normal, bool inverse)
 {
   return inverse ? vertex - 2.0 * dot(vertex - point, normal) * normal : vertex;

@@ -4,7 +4,8 @@
 #include "solver_pieces/fermat.glsl"
 #include "solver_pieces/guess.glsl"
 #from optics.solvers.descent import DIFFERENCE, FLATTEST, LONGEST_STEP as LONGEST_NEWTON_STEP, TRIALS, SHORTENING
-#from optics.solvers.descent import SUFFICIENT, ROUNDING, CONTRACTION, SLACKENED, AT_REST, LEFT_OVER, QUADRATIC, NEARNESS
+#from optics.solvers.descent import SUFFICIENT, ROUNDING, CONTRACTION, SLACKENED, AT_REST, LEFT_OVER, QUADRATIC
+#from optics.solvers.descent import NEARNESS
 
 // (P_i . P_j - (P_i . t) (P_j . t)) / d for xx, xy, yy.
 vec3 leg_derivative(vec3 moved_1, vec3 moved_2, vec3 t, float distance_to_end)

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The end of every vertex solver, after the method's `solve` (see solver.glsl): which vertices, and where results go.
-// It comes last and not as an include, because not every graphics interface lets a function be declared before its body.
-// Needs the images `reflection_points` and `virtual_positions`; of a method with a second pass over what the first has
-// not settled also `stragglers` and `straggler_count`, with LISTS_STRAGGLERS or SETTLES_STRAGGLERS for the pass.
+// It comes last and not as an include, because not every graphics interface lets a function be declared before its
+// body. Needs the images `reflection_points` and `virtual_positions`; of a method with a second pass over what the
+// first has not settled also `stragglers` and `straggler_count`, with LISTS_STRAGGLERS or SETTLES_STRAGGLERS for the
+// pass.
 
 // reflection_points: P and status + 4 iterations. virtual_positions: where the vertex seems to be, and |PV|.
 void store(int index, Solved solved)

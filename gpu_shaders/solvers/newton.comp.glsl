@@ -8,8 +8,8 @@
 // zero
 #define MOST_AT_REST 2.0
 
-// The last frame's reflection point, in world space and as a direction, or on a convex mirror where the way to a hidden
-// vertex entered it; whether there is one.
+// The last frame's reflection point, in world space and as a direction, or on a convex mirror where the way to a
+// hidden vertex entered it; whether there is one.
 bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
 {
   world_point = before.xyz;

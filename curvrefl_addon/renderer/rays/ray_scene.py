@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...optics.status import LARGEST_COORDINATE
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from ..device.record_regions import UNIT, RecordRegions
 from ..geometry.chunk import pack_color
@@ -42,6 +41,8 @@ AT_ONCE = 500_000
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
+LARGEST_COORDINATE = 1e18
+"""As in vectors.glsl: squares of larger ones overflow"""
 OUT_OF_THE_WAY = 1e30
 """Where a box is that no ray need enter"""
 WORSE = 1.4

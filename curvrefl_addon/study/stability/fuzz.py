@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from ...optics import status
 from ...optics.catalogue import METHODS, Method
-from ...optics.status import LARGEST_COORDINATE
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...renderer.vertices.solve import VertexSolution
@@ -34,6 +33,8 @@ SPECIAL = np.array(
     ]
 )
 """Put into every batch"""
+LARGEST_COORDINATE = 1e18
+"""As in `vectors.glsl`"""
 WILD = 1.02
 """Bounding radii from the centre past which no reflection point can be"""
 
