@@ -44,7 +44,7 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         from ..curvrefl_addon.output import checked_folder, folder_to_publish
-        from ..curvrefl_addon.renderer.device.gpu_objects import GpuUnavailableError
+        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
         from ..curvrefl_addon.renderer.mirrors.reflector_bake import bake_reflector
         from ..curvrefl_addon.renderer.mirrors.reflector_files import save
         from ..curvrefl_addon.scene.blend_file import find_reflectors

@@ -54,7 +54,7 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.renderer.device.gpu_objects import GpuUnavailableError
+        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
 
         try:
             count = self._save(context)

@@ -41,7 +41,7 @@ def _gpu_missing() -> str:
     """Why there is no GPU context, or nothing when there is one."""
     if not HAS_BLENDER:
         return "this Python has no Blender (bpy)"
-    from curvrefl.curvrefl_addon.renderer.device.gpu_objects import GpuUnavailableError, require_gpu
+    from curvrefl.curvrefl_addon.renderer.device.context import GpuUnavailableError, require_gpu
 
     try:
         require_gpu()

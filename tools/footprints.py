@@ -29,30 +29,25 @@ import bpy  # noqa: F401  (before gpu)
 
 bootstrap.load_package()
 
-import gpu  # noqa: E402
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (  # noqa: E402
-    dispatch,
-    drawing_state,
-    empty_record_texture,
-    read_texture,
-    record_texture,
-    require_gpu,
-    scissored,
-)
-from curvrefl.curvrefl_addon.renderer.geometry.chunk import Chunk  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.batches import bare_batch  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.records import empty_record_texture, record_texture  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.shaders import Image, Piece, build_shader, dispatch, named  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, scissored, set_viewport  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.geometry.chunk import CHUNK, Chunk  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import SurfaceBuffer, declare_surface_outputs, draw_primary  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.surfaces.view_block import TYPEDEF, view_block  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.materials import TABLE, Materials  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.surfaces import SURFACE_OUTPUTS, SurfaceBuffer, draw_primary  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.surfaces.view_block import VIEW, view_block  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Int32Array, MeshArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.study.benchmark.scenes import hall, view_of_mirror  # noqa: E402
-from curvrefl.gpu_shaders.loader import load  # noqa: E402
 
 SHADERS = Path(__file__).resolve().parent / "footprint_shaders"
 GROUP = 64
@@ -152,7 +147,7 @@ class Footprints:
             return
         shader = _draw_shader()
         with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
-            gpu.state.viewport_set(0, 0, target.width, target.height)
+            set_viewport(0, 0, target.width, target.height)
             shader.bind()
             shader.uniform_block("view", uniforms)
             shader.uniform_float("screen", (target.width, target.height))
@@ -188,7 +183,7 @@ class Footprints:
     ) -> Any:
         """Boxes of a chunk's triangles; their number is in row `number` of the counters."""
         if number == 0:
-            self._counters = gpu.types.GPUTexture((len(COUNTED), max(len(self._known), 1)), format="R32UI")
+            self._counters = empty_texture(len(COUNTED), max(len(self._known), 1), "R32UI")
             self._counters.clear(format="UINT", value=(0,))
         chunk, topology, _ = self._known[id(corners.chunk)]
         boxes = empty_record_texture(2 * topology.triangle_count)
@@ -267,71 +262,61 @@ def _boxes_batch(count: int) -> Any:
     """A batch of at least so many times six vertices, without attributes."""
     if not _BATCH or _BATCH[0][0] < count:
         room = 1 << max(count - 1, 1).bit_length()
-        vertices = gpu.types.GPUVertBuf(format=gpu.types.GPUVertFormat(), len=6 * room)
-        _BATCH[:] = [(room, gpu.types.GPUBatch(type="TRIS", buf=vertices))]
+        _BATCH[:] = [(room, bare_batch(6 * room))]
     return _BATCH[0][1]
-
-
-def _source(name: str, *pieces: str) -> str:
-    """A shader of this tool below shared ones of the extension."""
-    return "\n".join([*(load(piece) for piece in pieces), (SHADERS / name).read_text(encoding="utf-8")])
 
 
 @cache
 def _middles_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("INT", "edge_count")
-    info.sampler(0, "FLOAT_2D", "edges")
-    info.sampler(1, "FLOAT_2D", "positions")
-    info.image(0, "RGBA32F", "FLOAT_2D", "middles", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(_source("edge_middles.comp.glsl", "common/invocation.glsl", "common/records.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "edge middles",
+        Piece(
+            constants={"edge_count": "INT"},
+            samplers=named("FLOAT_2D", "edges", "positions"),
+            images={"middles": Image()},
+            group=GROUP,
+            compute=SHADERS / "edge_middles.comp.glsl",
+        ),
+    )
 
 
 @cache
 def _bounds_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("INT", "triangle_count")
-    info.push_constant("INT", "chunk")
-    info.push_constant("VEC2", "screen")
-    info.push_constant("VEC4", "window")
-    info.push_constant("VEC4", "margins")
-    for slot, name in enumerate(("triangles", "positions", "corner_points", "middle_points")):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.image(0, "RGBA32F", "FLOAT_2D", "boxes", qualifiers={"WRITE"})
-    info.image(1, "R32UI", "UINT_2D_ATOMIC", "counters", qualifiers={"READ", "WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(
-        _source("footprint_bounds.comp.glsl", "common/invocation.glsl", "common/records.glsl", "common/status.glsl")
+    return build_shader(
+        "footprint bounds",
+        VIEW,
+        Piece(
+            constants={
+                **named("INT", "triangle_count", "chunk"),
+                "screen": "VEC2",
+                **named("VEC4", "window", "margins"),
+            },
+            samplers=named("FLOAT_2D", "triangles", "positions", "corner_points", "middle_points"),
+            images={"boxes": Image(), "counters": Image("R32UI", "UINT_2D_ATOMIC", is_read=True)},
+            group=GROUP,
+            compute=SHADERS / "footprint_bounds.comp.glsl",
+        ),
     )
-    return gpu.shader.create_from_info(info)
 
 
 @cache
 def _draw_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("VEC2", "screen")
-    info.push_constant("FLOAT", "mirror")
-    info.push_constant("FLOAT", "depth_scale")
-    info.define("OVERLAP", "2e-6")
-    names = ("boxes", "triangles", "positions", "corners", "materials")
-    for slot, name in enumerate((*names, "mirror_position", "mirror_normal", "mirror_color")):
-        info.sampler(slot, "FLOAT_2D", name)
-    interface = gpu.types.GPUStageInterfaceInfo("footprint")
-    for name in ("corner_a", "edge_b", "edge_c", "corner_numbers"):
-        interface.flat("VEC3", name)
-    interface.flat("VEC2", "about")
-    info.vertex_out(interface)
-    declare_surface_outputs(info)
-    info.depth_write("ANY")
-    info.vertex_source(_source("footprint.vert.glsl", "common/records.glsl"))
-    info.fragment_source(_source("footprint.frag.glsl", "surfaces/material_records.glsl", "surfaces/vertex_color.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "footprint",
+        VIEW,
+        CHUNK,
+        TABLE,
+        SURFACE_OUTPUTS,
+        Piece(
+            constants={"screen": "VEC2", **named("FLOAT", "mirror", "depth_scale")},
+            samplers=named("FLOAT_2D", "boxes", "triangles", "mirror_position", "mirror_normal", "mirror_color"),
+            flat={**named("VEC3", "corner_a", "edge_b", "edge_c", "corner_numbers"), "about": "VEC2"},
+            defines={"OVERLAP": 2e-6},
+            writes_depth=True,
+            vertex=SHADERS / "footprint.vert.glsl",
+            fragment=SHADERS / "footprint.frag.glsl",
+        ),
+    )
 
 
 @dataclass

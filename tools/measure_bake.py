@@ -19,7 +19,7 @@ import bootstrap  # noqa: E402
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.reflector_bake import bake_reflector  # noqa: E402
 from scenes.star_meshes import scene_of, star_mesh  # noqa: E402
 

@@ -42,7 +42,8 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_records, record_texture, require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402

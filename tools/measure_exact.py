@@ -20,7 +20,7 @@ import numpy as np
 bootstrap.load_package()
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from scenes.exactness import judge  # noqa: E402

@@ -35,7 +35,7 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import renderer as frame_module  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402

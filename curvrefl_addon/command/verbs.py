@@ -392,7 +392,7 @@ def _start_gpu() -> None:
     """Make the GPU context. Raises InputError, with how to get one, where there is none."""
     import bpy  # noqa: F401  (with the wheel, before gpu)
 
-    from ..renderer.device.gpu_objects import GpuUnavailableError, require_gpu
+    from ..renderer.device.context import GpuUnavailableError, require_gpu
 
     try:
         # EGL tries configurations that do not match and says so, at length, though all is well.

@@ -17,7 +17,9 @@ from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.view import View
 from .choice import RAYS, Choice, Scenery, choose, in_shadow
-from .device.gpu_objects import cube_texture, read_texture, require_gpu
+from .device.context import require_gpu
+from .device.cubes import cube_texture
+from .device.textures import read_texture
 from .environments.cube import EnvironmentCube
 from .environments.hits import environment_hits
 from .environments.vertex_lookups import VertexLookups

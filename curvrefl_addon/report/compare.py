@@ -18,11 +18,11 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import gpu
 
 from ..errors import InputError
 from ..optics.catalogue import DEFAULT_COMPARED, METHODS
 from ..output import checked_folder, folder_to_publish
+from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import Float32Array, SceneArrays
@@ -288,7 +288,7 @@ def _run(
     report: dict[str, Any] = {
         "resolution": [width, height],
         "blender": ".".join(str(part) for part in bpy.app.version),
-        "gpu": gpu.platform.renderer_get(),
+        "gpu": renderer_name(),
         "reference": {
             "engine": "CYCLES",
             "samples": comparison.samples,

@@ -18,6 +18,9 @@ type Float32Array = NDArray[np.float32]
 type Float64Array = NDArray[np.float64]
 type Int32Array = NDArray[np.int32]
 
+LARGEST_COORDINATE = 1e18
+"""Squares of larger ones overflow in single precision"""
+
 
 @dataclass(frozen=True, slots=True)
 class MeshArrays:

@@ -20,11 +20,12 @@ from time import monotonic
 from typing import Any
 
 import bpy
-import gpu
 from bpy.app.handlers import persistent
 
 from ..diagnostic_colors import MODES, legend_of
 from ..options import current_options, settings_of
+from ..renderer.device.frame_buffers import active_frame_buffer
+from ..renderer.device.state import viewport
 from ..renderer.shading.diagnostic_legend import draw_legend
 from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
 from .shown_scene import ViewportScene, look_of
@@ -261,7 +262,7 @@ def _switch_off() -> None:
 
 
 def _capture(context: bpy.types.Context) -> None:
-    _state.frame_buffers[context.region.as_pointer()] = gpu.state.active_framebuffer_get()
+    _state.frame_buffers[context.region.as_pointer()] = active_frame_buffer()
 
 
 def _draw(context: bpy.types.Context) -> None:
@@ -283,7 +284,7 @@ def _draw(context: bpy.types.Context) -> None:
     picture = _state.pictures.pop(region, None)
     if renderer is None:
         return
-    viewport = gpu.state.viewport_get()
+    pixels = viewport()
     if picture is None or picture.renderer is not renderer:
         picture = RegionPicture(shown, renderer)
     _state.pictures[region] = picture
@@ -292,8 +293,8 @@ def _draw(context: bpy.types.Context) -> None:
     picture.advance(view_of(context), chosen, options, now, is_timed, _state.counters)
     # Diagnostic colors must come out as they are in their legend: not through the view transform.
     if chosen.show in MODES or frame_buffer is None:
-        frame_buffer = gpu.state.active_framebuffer_get()
-    picture.composite(frame_buffer, viewport)
+        frame_buffer = active_frame_buffer()
+    picture.composite(frame_buffer, pixels)
     _draw_again(picture)
 
 

@@ -10,13 +10,13 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import bpy
-import gpu
 import numpy as np
 
-from ...gpu_shaders.loader import load
 from ..diagnostic_colors import MODES, DiagnosticOptions
 from ..optics.catalogue import METHODS
-from ..renderer.device.gpu_objects import drawing_state, full_screen_triangle
+from ..renderer.device.batches import full_screen_triangle
+from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
+from ..renderer.device.state import drawing_state, set_viewport, write_depth_again
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
@@ -103,15 +103,14 @@ class RegionPicture:
         assert self._canvas is not None
         shader = _composite_shader()
         with frame_buffer.bind():
-            gpu.state.viewport_set(*viewport)
+            set_viewport(*viewport)
             with drawing_state(blend="ALPHA_PREMULT"):
                 shader.bind()
                 shader.uniform_float("sub_frames", float(max(self._sub_frames, 1)))
                 shader.uniform_float("region", tuple(float(number) for number in viewport))
                 shader.uniform_sampler("picture", self._canvas.texture)
                 full_screen_triangle().draw(shader)
-        # What handlers before and after ours take for granted in this place.
-        gpu.state.depth_mask_set(True)
+        write_depth_again()
 
     def statistics(self) -> list[tuple[str, str]]:
         """Rows for the panel; read from the GPU once for each picture, when it rests."""
@@ -201,12 +200,13 @@ def _is_same(one: View, other: View) -> bool:
 
 @cache
 def _composite_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.push_constant("FLOAT", "sub_frames")
-    info.push_constant("VEC4", "region")
-    info.sampler(0, "FLOAT_2D", "picture")
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(load("common/composite.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "composite",
+        FULL_SCREEN,
+        Piece(
+            samplers={"picture": "FLOAT_2D"},
+            constants={"sub_frames": "FLOAT", "region": "VEC4"},
+            outputs={"color": "VEC4"},
+            fragment="common/composite.frag.glsl",
+        ),
+    )

@@ -151,18 +151,13 @@ def _forget(*_arguments: Any) -> None:
 
 
 def _draw() -> None:
-    import gpu
-    from gpu_extras.batch import batch_for_shader
+    # (Not with this module, which is there as soon as the extension is enabled.)
+    from ..renderer.device.overlays import draw_line
 
     for found in _shown:
         end = found.ray.at(found.reach) if found.hit is None else found.hit
         places = [tuple(place) for place in (found.eye, found.ray.point, end)]
-        shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-        batch = batch_for_shader(shader, "LINE_STRIP", {"pos": places})
-        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        shader.uniform_float("lineWidth", LINE_PIXELS)
-        shader.uniform_float("color", COLOR)
-        batch.draw(shader)
+        draw_line(places, LINE_PIXELS, COLOR)
 
 
 def _shading_normal(obj: bpy.types.Object, face: int, point: Float64Array) -> Float64Array:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Number of this invocation, for `dispatch` of renderer/device/gpu_objects.py.
+// Number of this invocation, for `dispatch` of renderer/device/shaders.py.
 
 int invocation()
 {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Record textures: record i of a texture TEXTURE_WIDTH (renderer/device/gpu_objects.py) wide.
+// Record textures, 1 << ROW_BITS wide (renderer/device/records.py).
 
 ivec2 texel_of_record(int index)
 {
-  return ivec2(index & 2047, index >> 11);
+  return ivec2(index & ((1 << ROW_BITS) - 1), index >> ROW_BITS);
 }
 
 vec4 fetch_record(sampler2D records, int index)

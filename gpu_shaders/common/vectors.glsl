@@ -9,9 +9,6 @@ vec3 safe_unit(vec3 v)
   return length_squared > 0.0 ? v * inversesqrt(length_squared) : vec3(0.0);
 }
 
-// Squares of larger coordinates overflow.
-#define LARGEST_COORDINATE 1e18
-
 bool is_finite(vec3 v)
 {
   return !any(isnan(v)) && all(lessThan(abs(v), vec3(LARGEST_COORDINATE)));

@@ -7,8 +7,6 @@
 
 #include "lighting/fresnel.glsl"
 
-#define GGX_TABLE_SIZE 32
-#define GGX_IOR_SLICES 16
 // Below this squared roughness squared a lobe is a mirror, which no lamp sample can hit.
 #define GGX_SINGULAR_ALPHA 7e-4
 

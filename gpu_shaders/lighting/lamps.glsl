@@ -11,10 +11,6 @@
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
 // Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py),
 // as many drivers run all branches.
-#define LAMP_POINT 0
-#define LAMP_SPOT 1
-#define LAMP_SUN 2
-#define LAMP_AREA 3
 #if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
 #define LIGHTING_NEAR_LAMPS
 #endif

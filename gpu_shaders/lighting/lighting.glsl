@@ -1,17 +1,13 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light on a surface point towards a viewer: lamps with shadows, the world with its shadows, emission.
-// Needs the samplers and the uniform block of renderer/lighting/lighting.py (Lighting.declare).
+// Needs the samplers and the uniform block of renderer/lighting/lighting.py (lighting_piece).
 //
 // lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
 //   0: number of lamps, number of world directions, 1 for a world image; 1: world colour, brightest that
 //   is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of each direction where there is
 //   no image. Without lamps or directions the first record is dark: the loops over them run at
 //   least once, as a software renderer runs the body of a `for` once more than it needs.
-#define HEADER_RECORDS 8
-#define LAMP_RECORDS 12
-#define MAX_LAMPS 32
-#define DIRECTION_RECORDS 5
 
 struct Surface {
   vec3 position;   // world space

@@ -5,8 +5,6 @@
 // octahedral: irradiance, irradiance over that of the directions, one radiance map per roughness level).
 // Records of a direction: itself and its layer of the depth maps; rows to texel x, texel y and depth; weight (its red,
 // green and blue as alpha), which without an image is that of all, in the header.
-#define WORLD_MAP_SIZE 64.0
-#define WORLD_MAP_LOBES 2
 
 vec3 world_color()
 {
@@ -63,17 +61,19 @@ vec4 world_lobe(vec3 direction, float roughness)
 #ifndef LIGHTING_IMAGE
   return vec4(world_color(), world_map(octahedral_place(direction), WORLD_MAP_LOBES).a);
 #else
-  // levels 0.2, 0.35, 0.5, 0.65, 0.8, 1.0; below the first the image itself takes over
-  float level = roughness < 0.8 ? max((roughness - 0.2) / 0.15, 0.0) : 4.0 + min((roughness - 0.8) / 0.2, 1.0);
-  float below = min(floor(level), 4.0);
+  // Levels are evenly spaced but for the last; below the first the image itself takes over.
+  float level = roughness < LOBE_LAST_BUT_ONE ?
+    max((roughness - LOBE_FIRST) / LOBE_STEP, 0.0) :
+    LOBE_STEPS + min((roughness - LOBE_LAST_BUT_ONE) / LOBE_LAST_STEP, 1.0);
+  float below = min(floor(level), LOBE_STEPS);
   vec2 place = octahedral_place(direction);
   int layer = WORLD_MAP_LOBES + int(below);
   vec4 radiance = mix(world_map(place, layer), world_map(place, layer + 1), level - below);
-  if (roughness < 0.2) {
+  if (roughness < LOBE_FIRST) {
     // the image's suns are lamps to glossy surfaces
     vec3 sharp = world_radiance(direction);
     sharp *= min(1.0, lighting_data[1].w / max(sharp.r + sharp.g + sharp.b, 1e-9));
-    radiance.rgb = mix(sharp, radiance.rgb, roughness / 0.2);
+    radiance.rgb = mix(sharp, radiance.rgb, roughness / LOBE_FIRST);
   }
   return radiance;
 #endif

@@ -12,20 +12,9 @@
 // none); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
 #include "common/records.glsl"
 
-#define STACK 64
-#define NODE_RECORDS 4
-#define INSTANCE_RECORDS 6
-#define TRIANGLE_RECORDS 4
-#define REGION_UNIT 16
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
 #define NOWHERE -1
 #define OVER 99
-// What sees an instance, and how a mirror sees itself.
-#define SEEN_IN_MIRRORS 1
-#define CASTS_SHADOWS 2
-#define NEVER_SEES_ITSELF 4
-#define IS_CLOSED 8
-#define IS_MIRRORED 16  // its matrix turns space inside out
 // Share of a triangle by which its edges overlap the neighbours', or rounding would let rays through between them.
 #define OVERLAP 2e-6
 

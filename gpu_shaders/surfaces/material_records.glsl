@@ -3,5 +3,3 @@
 // Records of a material in the sampler `materials` (renderer/surfaces/materials.py): (metallic, roughness, ior,
 // specular level); (emission, glossy only); (base color, uses vertex colors); (scale and offset of uv); (image or -1).
 #include "common/records.glsl"
-
-#define MATERIAL_RECORDS 5

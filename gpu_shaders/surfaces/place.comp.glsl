@@ -4,8 +4,6 @@
 #include "common/invocation.glsl"
 #include "common/records.glsl"
 
-#define INSTANCE_RECORDS 8
-
 void place_vertex(int index)
 {
   vec4 source = fetch_record(source_positions, index);

@@ -10,17 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import gpu
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
-    drawing_state,
-    full_screen_triangle,
-    read_texture,
-    require_gpu,
-    texture_2d,
-)
+from curvrefl.curvrefl_addon.renderer.device.batches import full_screen_triangle
+from curvrefl.curvrefl_addon.renderer.device.context import require_gpu
+from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, named
+from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
-from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting, lighting_piece
 from curvrefl.curvrefl_addon.scene.arrays import (
     InstanceArrays,
     LightArrays,
@@ -29,7 +27,7 @@ from curvrefl.curvrefl_addon.scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
-from curvrefl.gpu_shaders.loader import load
+from curvrefl.gpu_shaders.loader import Snippet
 from mathutils import Matrix, Vector
 
 
@@ -277,22 +275,23 @@ class Harness:
             "gloss": texture(gloss),
             "extra": texture(extra),
         }
-        info = gpu.types.GPUShaderCreateInfo()
-        info.vertex_in(0, "VEC2", "pos")
-        info.fragment_out(0, "VEC4", "color")
-        for slot, name in enumerate(self.textures):
-            info.sampler(slot, "FLOAT_2D", f"buffer_{name}")
-        lighting.declare(info, len(self.textures))
-        info.vertex_source(load("common/full_screen.vert.glsl"))
-        info.fragment_source(load("lighting/lighting.glsl") + _MAIN.replace("FUNCTION", function))
-        self.shader = gpu.shader.create_from_info(info)
-        self.target = gpu.types.GPUTexture((shape[1], shape[0]), format="RGBA32F")
-        self.frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(self.target,))
+        self.shader = build_shader(
+            "lighting test",
+            FULL_SCREEN,
+            lighting_piece(),
+            Piece(
+                samplers=named("FLOAT_2D", *(f"buffer_{name}" for name in self.textures)),
+                outputs={"color": "VEC4"},
+                fragment=Snippet("lighting_harness", _MAIN.replace("FUNCTION", function)),
+            ),
+        )
+        self.target = empty_texture(shape[1], shape[0])
+        self.frame_buffer = frame_buffer(self.target)
 
     def draw(self, sub_frame: int) -> None:
         self.lighting.prepare(sub_frame)
         with drawing_state(), self.frame_buffer.bind():
-            gpu.state.viewport_set(0, 0, self.target.width, self.target.height)
+            set_viewport(0, 0, self.target.width, self.target.height)
             self.shader.bind()
             for name, texture in self.textures.items():
                 self.shader.uniform_sampler(f"buffer_{name}", texture)
@@ -305,6 +304,8 @@ class Harness:
 
 
 _MAIN = """
+#include "lighting/lighting.glsl"
+
 vec3 mirror_at(Surface s, vec3 to_viewer)
 {
   float cosine = max(dot(s.normal, to_viewer), 0.0);

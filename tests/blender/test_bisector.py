@@ -13,7 +13,8 @@ from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.solvers import bisector
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
+from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.bounding_grid import bounding_grid

@@ -4,45 +4,41 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import sample_cube, texel_directions
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
-    cube_texture,
-    drawing_state,
-    full_screen_triangle,
-    read_cube,
-    read_records,
-    record_texture,
-)
+from curvrefl.curvrefl_addon.renderer.device.batches import full_screen_triangle
+from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture, read_cube
+from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
+from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader
+from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture
+from curvrefl.gpu_shaders.loader import Snippet
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
 STEPS_OF_FILTER_WEIGHTS = 256
 """GPUs need no finer ones"""
+MAIN = "void main() { color = textureLod(cube, texelFetch(directions, ivec2(gl_FragCoord.xy), 0).xyz, 0.0); }"
 
 
 def sampled_by_gpu(faces: np.ndarray, directions: np.ndarray, linear: bool = True) -> np.ndarray:
     """(m, 4) texels of the cube map in `directions` (m, 3)."""
-    import gpu
-
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.sampler(0, "FLOAT_CUBE", "cube")
-    info.sampler(1, "FLOAT_2D", "directions")
-    info.vertex_source("void main() { gl_Position = vec4(pos, 0.0, 1.0); }")
-    info.fragment_source(
-        "void main() { color = textureLod(cube, texelFetch(directions, ivec2(gl_FragCoord.xy), 0).xyz, 0.0); }"
+    shader = build_shader(
+        "cube sampling",
+        FULL_SCREEN,
+        Piece(
+            samplers={"cube": "FLOAT_CUBE", "directions": "FLOAT_2D"},
+            outputs={"color": "VEC4"},
+            fragment=Snippet("test_cube_sampling", MAIN),
+        ),
     )
-    shader: Any = gpu.shader.create_from_info(info)
     asked = record_texture(np.column_stack([directions, np.zeros(len(directions))]))
-    answer = gpu.types.GPUTexture((asked.width, asked.height), format="RGBA32F")
+    answer = empty_texture(asked.width, asked.height)
     cube = cube_texture(faces, linear=linear)
-    with gpu.types.GPUFrameBuffer(color_slots=(answer,)).bind(), drawing_state():
-        gpu.state.viewport_set(0, 0, asked.width, asked.height)
+    with frame_buffer(answer).bind(), drawing_state():
+        set_viewport(0, 0, asked.width, asked.height)
         shader.bind()
         shader.uniform_sampler("cube", cube)
         shader.uniform_sampler("directions", asked)

@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_records, record_texture
+from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture
 from curvrefl.curvrefl_addon.renderer.geometry.chunk import unpack_color
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection

@@ -22,13 +22,11 @@ from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import (
-    cube_texture,
-    indexed_batch,
-    read_texture,
-    record_texture,
-    texture_2d,
-)
+from curvrefl.curvrefl_addon.renderer.device.batches import indexed_batch
+from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
+from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
+from curvrefl.curvrefl_addon.renderer.device.records import record_texture
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.shading.diagnostic_legend import draw_layout, layout
@@ -121,10 +119,8 @@ def drawn(
     weights: tuple[float, ...] = (1.0,),
 ) -> np.ndarray:
     """(h, w, 4) picture of one view."""
-    import gpu
-
-    color = gpu.types.GPUTexture((view.width, view.height), format="RGBA32F")
-    canvas = gpu.types.GPUFrameBuffer(color_slots=(color,))
+    color = empty_texture(view.width, view.height)
+    canvas = frame_buffer(color)
     with canvas.bind():
         canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
     diagnostics = DiagnosticPass(COLORS)

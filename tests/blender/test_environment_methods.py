@@ -18,7 +18,8 @@ from curvrefl.curvrefl_addon.optics.environment import (
 )
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import nearest_texel, sample_cube
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_cube, read_texture
+from curvrefl.curvrefl_addon.renderer.device.cubes import read_cube
+from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_texture
+from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import holds_point, is_closed
 from curvrefl.curvrefl_addon.renderer.rays import ray_scene

@@ -15,7 +15,8 @@ from curvrefl.curvrefl_addon.optics.solvers import newton_region
 from curvrefl.curvrefl_addon.optics.surfaces import curvature_regions
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
+from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.renderer import Frame, Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.device.textures import read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import FEATURES
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer, union
 from curvrefl.curvrefl_addon.renderer.settings import Settings

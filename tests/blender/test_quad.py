@@ -6,14 +6,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import full_screen_triangle, read_texture, texture_2d
-from curvrefl.gpu_shaders.loader import load
+from curvrefl.curvrefl_addon.renderer.device.batches import full_screen_triangle
+from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, named
+from curvrefl.curvrefl_addon.renderer.device.state import set_viewport
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
+from curvrefl.gpu_shaders.loader import Snippet
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
 SIZE = 8
 MAIN = """
-#include "quad.glsl"
+#include "lighting/quad.glsl"
 
 void main()
 {
@@ -29,21 +33,19 @@ void main()
 
 def drawn(values: np.ndarray, places: np.ndarray, facings: np.ndarray) -> np.ndarray:
     """(h, w, 4): sums of the first two values over the quad, number in the quad, whether it is one surface."""
-    import gpu
-
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    for slot, name in enumerate(("values", "places", "facings")):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(MAIN.replace('#include "quad.glsl"', load("lighting/quad.glsl")))
-    shader = gpu.shader.create_from_info(info)
+    shader = build_shader(
+        "quad",
+        FULL_SCREEN,
+        Piece(
+            samplers=named("FLOAT_2D", "values", "places", "facings"),
+            outputs={"color": "VEC4"},
+            fragment=Snippet("test_quad", MAIN),
+        ),
+    )
     textures = [texture_2d(array.astype(np.float32)) for array in (values, places, facings)]
-    target = gpu.types.GPUTexture((SIZE, SIZE), format="RGBA32F")
-    frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(target,))
-    with frame_buffer.bind():
-        gpu.state.viewport_set(0, 0, SIZE, SIZE)
+    target = empty_texture(SIZE, SIZE)
+    with frame_buffer(target).bind():
+        set_viewport(0, 0, SIZE, SIZE)
         shader.bind()
         for name, texture in zip(("values", "places", "facings"), textures, strict=True):
             shader.uniform_sampler(name, texture)

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import read_records
+from curvrefl.curvrefl_addon.renderer.device.records import read_records
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import CHUNK_TRIANGLES, SceneGeometry, Sight
 from curvrefl.curvrefl_addon.renderer.geometry.split import has_long_edges
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays

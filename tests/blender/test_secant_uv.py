@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.optics.solvers import secant_uv
 from curvrefl.curvrefl_addon.optics.solvers.secant_uv import SampledMap
 from curvrefl.curvrefl_addon.optics.surfaces import sphere
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import record_texture
+from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
     MOST_OVERLAP,
     ParametricMap,

@@ -11,7 +11,8 @@ from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.solvers import secant_star
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
-from curvrefl.curvrefl_addon.renderer.device.gpu_objects import cube_texture, record_texture
+from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
+from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices, statistics
 from scenes.views import look_at
 

@@ -445,7 +445,8 @@ def fresh_shaders() -> None:
 @situation
 def shader_compile_failure() -> Steps:
     fresh_shaders()
-    with patch.object(extension("gpu_shaders.loader"), "_expand", lambda _name, _found: "This is not a shader.\n"):
+    broken = [("This is not a shader.", ("broken.glsl", 1))]
+    with patch.object(extension("gpu_shaders.loader"), "_expand", lambda _part, _seen: broken):
         bpy.context.window_manager.curvrefl_enabled = True
         yield CAUSED
     fresh_shaders()

@@ -56,7 +56,7 @@ def engine_draws() -> bool:
 
 
 def capture(name: str) -> None:
-    read = extension("curvrefl_addon.renderer.device.gpu_objects").read_texture
+    read = extension("curvrefl_addon.renderer.device.textures").read_texture
     places = []
     for number, region in enumerate(regions()):
         picture = pictures()[region.as_pointer()]

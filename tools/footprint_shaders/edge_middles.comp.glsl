@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Middles of edges: records of `positions` at the two ends that a record of `edges` names.
+#include "common/invocation.glsl"
+#include "common/records.glsl"
 
 void main()
 {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does this pixel's own reflected ray meet the triangle? Depth is the distance. Outputs as reflected.frag.glsl.
+#include "surfaces/material_records.glsl"
+#include "surfaces/vertex_color.glsl"
 
 void main()
 {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The boxes of footprint_bounds, six vertices each, with what a fragment needs of the triangle inside.
+#include "common/records.glsl"
 
 void main()
 {

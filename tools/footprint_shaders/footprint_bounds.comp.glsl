@@ -7,6 +7,9 @@
 // Of a box in `boxes`: (centre, half axis), (other half axis, triangle, 0); pixels.
 // `margins`: share of what edges bend that a box is grown by, pixels more, pixels more of triangles that cross the
 // horizon, share of their size. `window`: lowest and highest pixel edge of the mirror's window.
+#include "common/invocation.glsl"
+#include "common/records.glsl"
+#include "common/status.glsl"
 
 #define CORNERS 3
 #define POINTS 6

@@ -7,13 +7,13 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
 from ...errors import InputError
 from ...scene.arrays import Float32Array
-from .gpu_objects import TEXTURE_WIDTH, dispatch, empty_record_texture, padded_count, record_texture
+from .context import most_texels
+from .records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
+from .shaders import Image, Piece, build_shader, dispatch
 
 UNIT = 16
 """Regions begin at multiples of so many records: a float holds the quotient exactly"""
@@ -23,7 +23,7 @@ _GROUP = 64
 
 
 class RecordRegions:
-    """Regions of a record texture (see `gpu_objects.record_texture`)."""
+    """Regions of a record texture (see `record_texture`)."""
 
     def __init__(self) -> None:
         self.texture = empty_record_texture(1)
@@ -85,7 +85,7 @@ class RecordRegions:
     def _grow(self, size: int) -> None:
         wanted = int((self._capacity + size) * SPARE)
         rows = -(-wanted // TEXTURE_WIDTH)
-        most = gpu.capabilities.max_texture_size_get()
+        most = most_texels()
         if rows > most:
             rows = -(-(self._capacity + size) // TEXTURE_WIDTH)
         if rows > most:
@@ -124,10 +124,13 @@ def _copy(source: Any, first: int, target: Any, start: int, count: int) -> None:
 
 @cache
 def _copy_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("IVEC4", "range")
-    info.sampler(0, "FLOAT_2D", "source")
-    info.image(0, "RGBA32F", "FLOAT_2D", "target", qualifiers={"WRITE"})
-    info.local_group_size(_GROUP, 1)
-    info.compute_source(load("common/copy_records.comp.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "copy records",
+        Piece(
+            constants={"range": "IVEC4"},
+            samplers={"source": "FLOAT_2D"},
+            images={"target": Image()},
+            group=_GROUP,
+            compute="common/copy_records.comp.glsl",
+        ),
+    )

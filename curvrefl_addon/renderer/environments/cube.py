@@ -13,13 +13,13 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ...optics.environment import environment_radius
 from ...scene.arrays import Float32Array
 from ...scene.view import View
-from ..device.gpu_objects import cube_texture, read_texture
+from ..device.cubes import cube_texture, empty_cube
+from ..device.textures import read_texture
 from ..geometry.chunk import Batches, Chunk
 from ..lighting.lighting import Lighting
 from ..mirrors.mirror import Mirror, faces_views
@@ -58,9 +58,8 @@ class EnvironmentCube:
         self._seen = SurfaceBuffer(resolution, resolution)
         self._positions: Any = None
         self._sphere: SphereMap | None = None
-        self.color: Any = gpu.types.GPUTexture(resolution, is_cubemap=True, format="RGBA32F")
+        self.color: Any = empty_cube(resolution)
         """Scene-linear radiance by world direction"""
-        self.color.filter_mode(True)
         for face, view in enumerate(self._views):
             canvas = Canvas(self.color, face)
             canvas.clear()

@@ -8,14 +8,15 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-import gpu
-
-from ....gpu_shaders.loader import load
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import drawing_state, full_screen_triangle, read_texture
-from ..shading.lookup import Environment, declare
+from ..device.batches import full_screen_triangle
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import empty_texture, read_texture
+from ..shading.lookup import Environment, lookup_piece
 from ..surfaces.surfaces import SurfaceBuffer
-from ..surfaces.view_block import TYPEDEF
+from ..surfaces.view_block import VIEW
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 
@@ -23,13 +24,13 @@ _SEEN = ("seen_position", "seen_normal", "seen_color")
 def environment_hits(seen: SurfaceBuffer, environments: Sequence[Environment], view_uniforms: Any) -> Float32Array:
     """(h, w, 4) world position and object_id of what mirrors 1, 2, ... show, or the background's unit direction and 0;
     all 0 off the mirrors."""
-    target = gpu.types.GPUTexture((seen.width, seen.height), format="RGBA32F")
-    frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(target,))
+    picture = empty_texture(seen.width, seen.height)
+    target = frame_buffer(picture)
     # Before the frame buffer is bound: what is made only now draws, too.
     textures = [environment.positions() for environment in environments]
-    with drawing_state(), frame_buffer.bind():
-        gpu.state.viewport_set(0, 0, seen.width, seen.height)
-        frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
+    with drawing_state(), target.bind():
+        set_viewport(0, 0, seen.width, seen.height)
+        target.clear(color=(0.0, 0.0, 0.0, 0.0))
         for number, (environment, texture) in enumerate(zip(environments, textures, strict=True), 1):
             shader = _hits_shader(environment.lookup)
             shader.bind()
@@ -39,21 +40,21 @@ def environment_hits(seen: SurfaceBuffer, environments: Sequence[Environment], v
                 shader.uniform_sampler(name, buffer)
             environment.bind(shader, texture)
             full_screen_triangle().draw(shader)
-    return read_texture(target)
+    return read_texture(picture)
 
 
 @cache
 def _hits_shader(lookup: str) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("FLOAT", "mirror")
-    info.define("SHOWS_SCENE")
-    for slot, name in enumerate(_SEEN):
-        info.sampler(slot, "FLOAT_2D", name)
-    source = declare(info, lookup, len(_SEEN))
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(source + load("environments/environment_hits.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        f"hits {lookup}",
+        VIEW,
+        FULL_SCREEN,
+        lookup_piece(lookup),
+        Piece(
+            samplers=named("FLOAT_2D", *_SEEN),
+            constants={"mirror": "FLOAT"},
+            outputs={"color": "VEC4"},
+            defines=flags("SHOWS_SCENE"),
+            fragment="environments/environment_hits.frag.glsl",
+        ),
+    )

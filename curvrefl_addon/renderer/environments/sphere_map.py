@@ -12,12 +12,13 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import gpu
-
-from ....gpu_shaders.loader import load
 from ...optics.environment import axis_frame
 from ...scene.arrays import Float64Array
-from ..device.gpu_objects import drawing_state, full_screen_triangle
+from ..device.batches import full_screen_triangle
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import empty_texture
 
 _FRAME = ("environment_right", "environment_up", "environment_axis")
 
@@ -46,12 +47,11 @@ class SphereMap:
 
 
 def _draw(cube: Any, constants: dict[str, tuple[float, ...]], resolution: int, linear: bool) -> Any:
-    texture = gpu.types.GPUTexture((resolution, resolution), format="RGBA32F")
-    texture.filter_mode(linear)
+    texture = empty_texture(resolution, resolution, linear=linear)
     texture.extend_mode("EXTEND")
     shader = _map_shader()
-    with drawing_state(), gpu.types.GPUFrameBuffer(color_slots=(texture,)).bind():
-        gpu.state.viewport_set(0, 0, resolution, resolution)
+    with drawing_state(), frame_buffer(texture).bind():
+        set_viewport(0, 0, resolution, resolution)
         shader.bind()
         shader.uniform_float("map_size", float(resolution))
         for name, value in constants.items():
@@ -63,13 +63,13 @@ def _draw(cube: Any, constants: dict[str, tuple[float, ...]], resolution: int, l
 
 @cache
 def _map_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.push_constant("FLOAT", "map_size")
-    for name in _FRAME:
-        info.push_constant("VEC3", name)
-    info.sampler(0, "FLOAT_CUBE", "environment")
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(load("environments/environment_sphere_map.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "sphere map",
+        FULL_SCREEN,
+        Piece(
+            samplers={"environment": "FLOAT_CUBE"},
+            constants={"map_size": "FLOAT", **named("VEC3", *_FRAME)},
+            outputs={"color": "VEC4"},
+            fragment="environments/environment_sphere_map.frag.glsl",
+        ),
+    )

@@ -13,25 +13,27 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
-from ..device.gpu_objects import drawing_state, record_texture
-from ..geometry.chunk import Batches, Chunk
+from ..device.batches import bare_batch
+from ..device.frame_buffers import frame_buffer
+from ..device.records import record_texture
+from ..device.shaders import Piece, build_shader, flags
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import depth_texture, empty_texture
+from ..geometry.chunk import CHUNK, Batches, Chunk
 from ..shading.lookup import Environment
 from ..surfaces.surfaces import SurfaceBuffer
-from ..surfaces.view_block import TYPEDEF
+from ..surfaces.view_block import VIEW
 
 
 class VertexLookups:
     """Render target of what mirrors' vertices have looked up."""
 
     def __init__(self, width: int, height: int) -> None:
-        self._picture = gpu.types.GPUTexture((width, height), format="RGBA32F")
-        self._picture.filter_mode(False)
-        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
-        self._frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self._picture,))
+        self._picture = empty_texture(width, height)
+        self._depth = depth_texture(width, height)
+        self._frame_buffer = frame_buffer(self._picture, depth=self._depth)
         self._corners: dict[int, tuple[Chunk, Any, Any]] = {}
         self.width, self.height = width, height
 
@@ -53,7 +55,7 @@ class VertexLookups:
         # Before the frame buffer is bound: what is made only now draws, too.
         cubes = [known.positions() if of_positions else known.radiance for _, _, known in mirrors]
         with drawing_state("LESS_EQUAL", depth_write=True), self._frame_buffer.bind():
-            gpu.state.viewport_set(0, 0, self.width, self.height)
+            set_viewport(0, 0, self.width, self.height)
             self._frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
@@ -86,32 +88,28 @@ class VertexLookups:
             triangles = mirror.drawn.triangles
             records = np.zeros((len(triangles), 4), np.float32)
             records[:, :3] = triangles
-            vertices = gpu.types.GPUVertBuf(format=gpu.types.GPUVertFormat(), len=3 * len(triangles))
-            batch = gpu.types.GPUBatch(type="TRIS", buf=vertices)
-            known = self._corners[id(chunk)] = (chunk, record_texture(records), batch)
+            known = self._corners[id(chunk)] = (chunk, record_texture(records), bare_batch(3 * len(triangles)))
         return known[1:]
 
 
 @cache
 def _vertex_shader(nearest_corner: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("FLOAT", "mirror")
-    info.fragment_out(0, "VEC4", "color")
-    names = ["positions", "corners", "mirror_color"]
-    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_environment_{'corner' if nearest_corner else 'vertex'}")
-    if nearest_corner:
-        info.define("NEAREST_CORNER")
-        names.append("triangles")
-        interface.flat("INT", "triangle")
-        interface.smooth("VEC3", "weights")
-    else:
-        interface.smooth("VEC4", "looked_up")
-    for slot, name in enumerate(names):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.sampler(len(names), "FLOAT_CUBE", "environment")
-    info.vertex_out(interface)
-    info.vertex_source(load("environments/environment_vertex.vert.glsl"))
-    info.fragment_source(load("environments/environment_vertex.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    corner = Piece(
+        samplers={"triangles": "FLOAT_2D"},
+        defines=flags("NEAREST_CORNER"),
+        flat={"triangle": "INT"},
+        smooth={"weights": "VEC3"},
+    )
+    return build_shader(
+        f"environment {'corner' if nearest_corner else 'vertex'}",
+        VIEW,
+        CHUNK,
+        corner if nearest_corner else Piece(smooth={"looked_up": "VEC4"}),
+        Piece(
+            samplers={"mirror_color": "FLOAT_2D", "environment": "FLOAT_CUBE"},
+            constants={"mirror": "FLOAT"},
+            outputs={"color": "VEC4"},
+            vertex="environments/environment_vertex.vert.glsl",
+            fragment="environments/environment_vertex.frag.glsl",
+        ),
+    )

@@ -3,7 +3,7 @@
 """Some instances of a scene as one set of triangles on the GPU: object space and matrices up, world space there.
 
 A *position* is a vertex of a placed mesh; the solver works on positions. A *corner* adds normal and UV; triangles
-index corners. On the GPU all live in record textures (see `gpu_objects`), and vertex shaders fetch them by
+index corners. On the GPU all live in record textures (see `device/records.py`), and vertex shaders fetch them by
 gl_VertexID = corner index (`geometry.glsl`), so one set serves every pass. A compute pass (`place.comp.glsl`) makes
 the world-space records: when an instance moves, its matrix is all that is uploaded.
 """
@@ -15,20 +15,22 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gpu_shaders.loader import load
 from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
-from ..device.gpu_objects import dispatch, empty_record_texture, indexed_batch, padded_count, record_texture
+from ..device.batches import indexed_batch
+from ..device.records import empty_record_texture, padded_count, record_texture
+from ..device.shaders import Image, Piece, build_shader, dispatch, named
 from .mesh_pieces import is_count
 
 HOLDOUT = -1
 """Material index of what cuts a hole into the picture"""
 INSTANCE_RECORDS = 8
-"""Per instance: rows of the matrix, of the normals' matrix, (object_id, mirror number, 0, 0), 0; as in place.comp"""
+"""Per instance: rows of the matrix, of the normals' matrix, (object_id, mirror number, 0, 0), 0"""
 GROUP = 64
+CHUNK = Piece(samplers=named("FLOAT_2D", "positions", "corners"))
+"""What `geometry.glsl` needs of a chunk"""
 MOST_RANGES = 8
 """More moved instances than these are placed all in one dispatch"""
 
@@ -239,12 +241,14 @@ def pack_color(color: Float32Array) -> Float32Array:
 
 @cache
 def _place_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("IVEC4", "range")
-    for slot, name in enumerate(("source_positions", "source_corners", "instances")):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.image(0, "RGBA32F", "FLOAT_2D", "positions", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "corners", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load("surfaces/place.comp.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "place",
+        Piece(
+            constants={"range": "IVEC4"},
+            samplers=named("FLOAT_2D", "source_positions", "source_corners", "instances"),
+            images={"positions": Image(), "corners": Image()},
+            defines={"INSTANCE_RECORDS": INSTANCE_RECORDS},
+            group=GROUP,
+            compute="surfaces/place.comp.glsl",
+        ),
+    )

@@ -17,11 +17,11 @@ import numpy as np
 from ...scene.arrays import Float32Array, Float64Array
 
 TABLE_SIZE = 32
-"""Steps of roughness and of the viewer's cosine, both 0..1; as GGX_TABLE_SIZE in ggx.glsl"""
+"""Steps of roughness and of the viewer's cosine, both 0..1"""
 IOR_SLICES = 16
-"""Steps of sqrt((ior - 1) / (ior + 1)), 0..1; as GGX_IOR_SLICES in ggx.glsl"""
-
-
+"""Steps of sqrt((ior - 1) / (ior + 1)), 0..1"""
+GGX_DEFINES = {"GGX_TABLE_SIZE": TABLE_SIZE, "GGX_IOR_SLICES": IOR_SLICES}
+"""What `ggx.glsl` knows of the table"""
 TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
 """`integrate_ggx()` in half precision, by tools/make_ggx_table.py: integrating would take seconds of every start"""
 

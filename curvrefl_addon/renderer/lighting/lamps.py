@@ -11,11 +11,17 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays
 
 LAMP_RECORDS = 12
-"""vec4 records per lamp, as in lamps.glsl"""
+"""vec4 records per lamp"""
 MAX_LAMPS = 32
 """Uniform blocks hold 16 KiB everywhere"""
 SPOT, SUN, AREA, POINT = 1, 2, 3, 0
 KINDS = {"POINT": POINT, "SPOT": SPOT, "SUN": SUN, "AREA": AREA}
+LAMP_DEFINES = {
+    "LAMP_RECORDS": LAMP_RECORDS,
+    "MAX_LAMPS": MAX_LAMPS,
+    **{f"LAMP_{name}": number for name, number in KINDS.items()},
+}
+"""What `lamps.glsl` knows of them"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,26 +11,25 @@ from __future__ import annotations
 
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
-from ..device.gpu_objects import buffer_of, texture_2d, uniform_block
+from ..device.shaders import Block, Piece, flags, named, uniform_block
+from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
-from .ggx import ggx_table
-from .lamps import LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
+from .ggx import GGX_DEFINES, ggx_table
+from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
-from .world import world_light
+from .world import WORLD_DEFINES, world_light
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
 MAX_DIRECTIONS = 32
 """World directions of one sub-frame"""
 DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
-"""vec4 records of the uniform block; as in lighting.glsl"""
-SAMPLER_COUNT = 5
+"""vec4 records of the uniform block"""
 MANY_TRIANGLES = 300_000
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
 """Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
@@ -47,6 +46,26 @@ FEATURES: Features = frozenset(
 )
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
+
+
+def lighting_piece(features: Features = FEATURES) -> Piece:
+    """What `lighting.glsl` needs; with the `features` of a scene, what it has beyond them is left out."""
+    return Piece(
+        samplers={
+            **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
+            "lighting_world_maps": "FLOAT_2D_ARRAY",
+            **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
+        },
+        blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
+        defines={
+            **flags(*sorted(features)),
+            "HEADER_RECORDS": HEADER_RECORDS,
+            "DIRECTION_RECORDS": DIRECTION_RECORDS,
+            **LAMP_DEFINES,
+            **WORLD_DEFINES,
+            **GGX_DEFINES,
+        },
+    )
 
 
 class Lighting:
@@ -150,24 +169,6 @@ class Lighting:
             found.add("LIGHTING_WORLD")
         return frozenset(found)
 
-    @staticmethod
-    def declare(info: Any, first_sampler: int, features: Features = FEATURES) -> None:
-        """Add SAMPLER_COUNT samplers from slot `first_sampler`, the uniform block in slot 1 and defines to a
-        GPUShaderCreateInfo; with the `features` of a scene, what `lighting.glsl` has beyond them is left out."""
-        for name in sorted(features):
-            info.define(name)
-        for index, (kind, name) in enumerate(
-            (
-                ("DEPTH_2D_ARRAY", "lighting_lamp_depth"),
-                ("DEPTH_2D_ARRAY", "lighting_world_depth"),
-                ("FLOAT_2D_ARRAY", "lighting_world_maps"),
-                ("FLOAT_2D", "lighting_world_image"),
-                ("FLOAT_2D", "lighting_ggx"),
-            )
-        ):
-            info.sampler(first_sampler + index, kind, name)
-        info.uniform_buf(1, "vec4", f"lighting_data[{DATA_RECORDS}]")
-
     def prepare(self, sub_frame: int) -> None:
         """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
 
@@ -250,10 +251,7 @@ class Lighting:
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
         light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         self._world_light, self._world_is_lit = light, lit
-        maps = light.maps
-        self._world_textures = gpu.types.GPUTexture(
-            (maps.shape[2], maps.shape[1]), layers=len(maps), format="RGBA32F", data=buffer_of(maps)
-        )
+        self._world_textures = texture_layers(light.maps)
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
         else:

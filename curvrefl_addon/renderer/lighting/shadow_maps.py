@@ -8,12 +8,13 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
 from ...scene.arrays import Float64Array
-from ..device.gpu_objects import drawing_state
+from ..device.frame_buffers import frame_buffer, layer_of
+from ..device.shaders import Piece, build_shader
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import depth_layers
 from ..geometry.scene_geometry import SceneGeometry
 from .shadow_views import SceneExtent, ShadowView
 
@@ -79,7 +80,7 @@ class ShadowMaps:
         size = (self.resolution if views else 1, max(len(views), 1))
         if self.texture is None or size != self._size:
             self._size = size
-            self.texture = gpu.types.GPUTexture((size[0], size[0]), layers=size[1], format="DEPTH_COMPONENT32F")
+            self.texture = depth_layers(*size)
             self.texture.filter_mode(False)
         self.forget()
 
@@ -95,11 +96,11 @@ class ShadowMaps:
         shader = shadow_depth_shader()
         for layer in missing:
             view = self.views[layer]
-            target = gpu.types.GPUFrameBuffer(depth_slot={"texture": self.texture, "layer": layer})
+            target = frame_buffer(depth=layer_of(self.texture, layer))
             with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
-                gpu.state.viewport_set(0, 0, self.resolution, self.resolution)
+                set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
-                gpu.state.viewport_set(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
+                set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
                 shader.bind()
                 shader.uniform_float("world_to_clip", _matrix(view))
                 shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
@@ -143,11 +144,13 @@ def window_rows(view: ShadowView, resolution: int) -> Float64Array:
 
 @cache
 def shadow_depth_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.sampler(0, "FLOAT_2D", "positions")
-    info.push_constant("MAT4", "world_to_clip")
-    info.push_constant("VEC3", "bias")
-    info.depth_write("ANY")
-    info.vertex_source(load("lighting/shadow_depth.vert.glsl"))
-    info.fragment_source(load("lighting/shadow_depth.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "shadow depth",
+        Piece(
+            samplers={"positions": "FLOAT_2D"},
+            constants={"world_to_clip": "MAT4", "bias": "VEC3"},
+            writes_depth=True,
+            vertex="lighting/shadow_depth.vert.glsl",
+            fragment="lighting/shadow_depth.frag.glsl",
+        ),
+    )

@@ -19,9 +19,21 @@ from ...scene.arrays import Float32Array, Float64Array, WorldArrays
 from .ggx import own_lobe
 
 MAP_SIZE = 64
-"""Texels along an octahedral map, as WORLD_MAP_SIZE in world_light.glsl"""
+"""Texels along an octahedral map"""
 ROUGHNESS_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8, 1.0)
-"""Of the maps of the glossy lobe, as in world_light.glsl"""
+"""Of the maps of the glossy lobe: evenly spaced but for the last"""
+LOBE_LAYER = 2
+"""First layer of the glossy lobe's maps"""
+WORLD_DEFINES = {
+    "WORLD_MAP_SIZE": float(MAP_SIZE),
+    "WORLD_MAP_LOBES": LOBE_LAYER,
+    "LOBE_FIRST": ROUGHNESS_LEVELS[0],
+    "LOBE_STEP": round(ROUGHNESS_LEVELS[1] - ROUGHNESS_LEVELS[0], 6),
+    "LOBE_STEPS": float(len(ROUGHNESS_LEVELS) - 2),
+    "LOBE_LAST_BUT_ONE": ROUGHNESS_LEVELS[-2],
+    "LOBE_LAST_STEP": round(ROUGHNESS_LEVELS[-1] - ROUGHNESS_LEVELS[-2], 6),
+}
+"""What `world_light.glsl` knows of the maps"""
 SMALLEST_PATCH = np.radians(1.5)
 
 
@@ -42,7 +54,7 @@ class WorldLight:
 
 
 def lobe_window(cosine: np.ndarray) -> np.ndarray:
-    """How much a direction's shadow counts for a glossy lobe at this cosine to it; as in world_light.glsl.
+    """How much a direction's shadow counts for a glossy lobe at this cosine to it, here and in the shader.
 
     Wide enough (half at 33 degrees) to hold several of the directions, whatever the lobe.
     """
@@ -76,7 +88,7 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     layers = np.stack([irradiance, np.clip(ratio, 0.0, 4.0), *lobes])
     window = lobe_window(normals @ directions[draws].T.astype(np.float32)) @ weights.sum(axis=1)
     maps = np.ones((len(layers), MAP_SIZE, MAP_SIZE, 4), np.float32)
-    maps[2:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
+    maps[LOBE_LAYER:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
     _last[:] = [(world, count, light)]

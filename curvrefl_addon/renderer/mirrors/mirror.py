@@ -17,7 +17,7 @@ from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.curvature_regions import curvature_regions
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.view import View
-from ..device.gpu_objects import cube_texture
+from ..device.cubes import cube_texture
 from ..geometry.chunk import Batches, Chunk
 from ..geometry.mesh_facts import MeshFacts
 from ..geometry.mesh_inside import holds_point

@@ -12,18 +12,22 @@ from collections.abc import Sequence
 from functools import cache, cached_property
 from typing import Any
 
-import gpu
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gpu_shaders.loader import load
 from ...errors import InputError
 from ...optics.solvers.secant_uv import SampledMap
 from ...optics.surfaces.cube_map import texel_directions
 from ...optics.surfaces.radial_surfaces import unit
 from ...optics.surfaces.star_center import solid_angles
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays
-from ..device.gpu_objects import cube_texture, drawing_state, require_gpu, texture_2d
+from ..device.batches import vertex_batch
+from ..device.context import require_gpu
+from ..device.cubes import cube_texture
+from ..device.frame_buffers import frame_buffer, read_colors
+from ..device.shaders import Piece, build_shader, named
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import empty_texture, texture_2d
 from .cube_raster import CubeRaster
 from .reflector_map import percent
 
@@ -217,28 +221,15 @@ def _is_pole(corner_vertex: Int32Array, uv: Float64Array, axis: int) -> NDArray[
 def _draw(attributes: list[Float64Array], triangles: Int32Array, resolution: int) -> list[Float32Array]:
     """Position, normal, du and dv, each (resolution, resolution, 4), of the mesh drawn in its UV map."""
     names = ("uv", "position", "normal", "du", "dv")
-    layout = gpu.types.GPUVertFormat()
-    for name, values in zip(names, attributes, strict=True):
-        layout.attr_add(id=name, comp_type="F32", len=values.shape[1], fetch_mode="FLOAT")
-    vertices = gpu.types.GPUVertBuf(format=layout, len=len(attributes[0]))
-    for name, values in zip(names, attributes, strict=True):
-        vertices.attr_fill(name, np.ascontiguousarray(values, np.float32))
-    elements = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, np.int32))
-    batch = gpu.types.GPUBatch(type="TRIS", buf=vertices, elem=elements)
-    targets = [gpu.types.GPUTexture((resolution, resolution), format="RGBA32F") for _ in range(4)]
-    frame_buffer = gpu.types.GPUFrameBuffer(color_slots=tuple(targets))
-    layers = []
-    with frame_buffer.bind(), drawing_state():
-        gpu.state.viewport_set(0, 0, resolution, resolution)
-        frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
+    batch = vertex_batch(dict(zip(names, attributes, strict=True)), triangles)
+    target = frame_buffer(*(empty_texture(resolution, resolution) for _ in range(4)))
+    with target.bind(), drawing_state():
+        set_viewport(0, 0, resolution, resolution)
+        target.clear(color=(0.0, 0.0, 0.0, 0.0))
         shader = _shader()
         shader.bind()
         batch.draw(shader)
-        for slot in range(4):
-            buffer = frame_buffer.read_color(0, 0, resolution, resolution, 4, slot, "FLOAT")
-            buffer.dimensions = resolution * resolution * 4
-            layers.append(np.array(buffer, np.float32).reshape(resolution, resolution, 4))
-    return layers
+        return [read_colors(target, resolution, resolution, slot) for slot in range(4)]
 
 
 def _joins(values: Float64Array, hit: NDArray[np.bool_], axis: int) -> bool:
@@ -355,16 +346,13 @@ def _directions(
 
 @cache
 def _shader() -> Any:
-    varyings = gpu.types.GPUStageInterfaceInfo("parametric_bake")
-    for name in ("map_position", "map_normal", "map_du", "map_dv"):
-        varyings.smooth("VEC3", name)
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "uv")
-    for slot, name in enumerate(("position", "normal", "du", "dv"), 1):
-        info.vertex_in(slot, "VEC3", name)
-    info.vertex_out(varyings)
-    for slot, name in enumerate(("surface_point", "surface_normal", "surface_du", "surface_dv")):
-        info.fragment_out(slot, "VEC4", name)
-    info.vertex_source(load("bake/parametric_bake.vert.glsl"))
-    info.fragment_source(load("bake/parametric_bake.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "parametric bake",
+        Piece(
+            inputs={"uv": "VEC2", **named("VEC3", "position", "normal", "du", "dv")},
+            smooth=named("VEC3", "map_position", "map_normal", "map_du", "map_dv"),
+            outputs=named("VEC4", "surface_point", "surface_normal", "surface_du", "surface_dv"),
+            vertex="bake/parametric_bake.vert.glsl",
+            fragment="bake/parametric_bake.frag.glsl",
+        ),
+    )

@@ -14,15 +14,13 @@ from ...optics.surfaces.cube_holes import fill_holes
 from ...optics.surfaces.cube_map import CubeMapSurface, texel_directions
 from ...optics.surfaces.radial_surfaces import unit
 from ...optics.surfaces.star_center import find_star_center
-from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
-from ..device.gpu_objects import require_gpu
+from ...scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from ..device.context import require_gpu
 from .cube_raster import CubeRaster
 from .reflector_map import ReflectorMap, Spread, percent
 
 MIN_RESOLUTION = 8
 MAX_RESOLUTION = 2048
-LARGEST_COORDINATE = 1e18
-"""Squares of larger ones overflow in float32"""
 LEAST_COSINE = 0.05
 """Between direction and shading normal; at flatter angles the gradient is clamped to its length there (20 r)"""
 SAME_HIT = 1e-3

@@ -12,19 +12,20 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-import gpu
-
-from ....gpu_shaders.loader import load
-from ..device.gpu_objects import drawing_state, full_screen_triangle, scissored
-from ..surfaces.materials import Materials
-from ..surfaces.surfaces import SurfaceBuffer, Window, declare_surface_outputs
-from ..surfaces.view_block import TYPEDEF
-from .ray_scene import RayScene
+from ..device.batches import full_screen_triangle
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..device.textures import empty_texture
+from ..surfaces.materials import TABLE, Materials
+from ..surfaces.surfaces import SURFACE_OUTPUTS, SurfaceBuffer, Window
+from ..surfaces.view_block import VIEW
+from .ray_scene import RAYS, RayScene
 
 PATH_DEPTH = 0.5
 """Of pixels whose rays are followed; exact in any depth buffer"""
 IMAGES_AT_ONCE = 8
-"""As in exact_images.frag.glsl"""
+"""Base color images that one pass looks up"""
 
 
 class PathBuffer(SurfaceBuffer):
@@ -33,18 +34,16 @@ class PathBuffer(SurfaceBuffer):
 
     def __init__(self, width: int, height: int) -> None:
         super().__init__(width, height)
-        self.direction = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        self.direction = empty_texture(width, height)
         """xyz unit direction of the ray, nodes of hierarchies that it met"""
-        self.throughput = gpu.types.GPUTexture((width, height), format="RGBA16F")
+        self.throughput = empty_texture(width, height, "RGBA16F")
         """Product of the mirrors' reflectance on the way"""
-        for texture in (self.direction, self.throughput):
-            texture.filter_mode(False)
-        self._mask = gpu.types.GPUFrameBuffer(depth_slot=self.depth)
+        self._mask = frame_buffer(depth=self.depth)
         self._uv: Any = None
         """uv of the base color image and its number, -1 for none; made where there are images"""
         self._frame_buffers: dict[bool, Any] = {}
         """With direction and throughput, or without"""
-        self._color_alone = gpu.types.GPUFrameBuffer(depth_slot=self.depth, color_slots=(self.color,))
+        self._color_alone = frame_buffer(self.color, depth=self.depth)
 
     def follow(
         self,
@@ -66,8 +65,7 @@ class PathBuffer(SurfaceBuffer):
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
-            self._uv = gpu.types.GPUTexture((self.width, self.height), format="RGBA32F")
-            self._uv.filter_mode(False)
+            self._uv = empty_texture(self.width, self.height)
             self._frame_buffers = {}
         if window[2] <= 0 or window[3] <= 0:
             return
@@ -75,7 +73,7 @@ class PathBuffer(SurfaceBuffer):
         keeps_way = goes_on or with_counts or path is not None
         shader = _exact_shader(path is not None, self._uv is not None, keeps_way, with_counts)
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
-            gpu.state.viewport_set(0, 0, self.width, self.height)
+            set_viewport(0, 0, self.width, self.height)
             shader.bind()
             rays.bind(shader)
             shader.uniform_sampler("materials", materials.table)
@@ -96,16 +94,14 @@ class PathBuffer(SurfaceBuffer):
             textures = [self.position, self.normal, self.color]
             textures += [self._uv] if self._uv is not None else []
             textures += [self.direction, self.throughput] if keeps_way else []
-            self._frame_buffers[keeps_way] = gpu.types.GPUFrameBuffer(
-                depth_slot=self.depth, color_slots=tuple(textures)
-            )
+            self._frame_buffers[keeps_way] = frame_buffer(*textures, depth=self.depth)
         return self._frame_buffers[keeps_way]
 
     def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window) -> None:
         on_path = isinstance(mirrors, PathBuffer)
         shader = _mask_shader(on_path)
         with drawing_state("ALWAYS", depth_write=True), self._mask.bind(), scissored(window):
-            gpu.state.viewport_set(0, 0, self.width, self.height)
+            set_viewport(0, 0, self.width, self.height)
             shader.bind()
             shader.uniform_sampler("surface_color", mirrors.color)
             if on_path:
@@ -117,7 +113,7 @@ class PathBuffer(SurfaceBuffer):
         for first in range(0, len(images), IMAGES_AT_ONCE):
             shader = _images_shader()
             with drawing_state("EQUAL", blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
-                gpu.state.viewport_set(0, 0, self.width, self.height)
+                set_viewport(0, 0, self.width, self.height)
                 shader.bind()
                 shader.uniform_int("first_image", first)
                 shader.uniform_sampler("path_uv", self._uv)
@@ -141,68 +137,63 @@ class Bounce:
     """Another step follows the rays off mirrors that were hit"""
 
 
-def declare_path(info: Any) -> None:
-    """Make a shader's full-screen triangle stand where PathBuffers have followed rays; test depth for equality."""
-    info.vertex_in(0, "VEC2", "pos")
-    info.define("PATH_DEPTH", str(PATH_DEPTH))
-    info.vertex_source(load("rays/full_screen_of_paths.vert.glsl"))
+ON_PATHS = Piece(
+    inputs={"pos": "VEC2"}, defines={"PATH_DEPTH": PATH_DEPTH}, vertex="rays/full_screen_of_paths.vert.glsl"
+)
+"""A full-screen triangle where PathBuffers have followed rays; test depth for equality"""
 
 
 @cache
 def _mask_shader(on_path: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.define("PATH_DEPTH", str(PATH_DEPTH))
-    info.sampler(0, "FLOAT_2D", "surface_color")
-    if on_path:
-        info.define("ON_PATH")
-        info.sampler(1, "DEPTH_2D", "surface_depth")
-    info.depth_write("ANY")
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(load("rays/path_mask.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    path = Piece(samplers={"surface_depth": "DEPTH_2D"}, defines=flags("ON_PATH"))
+    return build_shader(
+        "path mask",
+        FULL_SCREEN,
+        Piece(
+            samplers={"surface_color": "FLOAT_2D"},
+            defines={"PATH_DEPTH": PATH_DEPTH},
+            writes_depth=True,
+            fragment="rays/path_mask.frag.glsl",
+        ),
+        *((path,) if on_path else ()),
+    )
 
 
 @cache
 def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    declare_path(info)
-    if with_counts:
-        info.define("WITH_COUNTS")
-    RayScene.declare(info, 0)
-    names = ["materials", "mirror_position", "mirror_normal", "mirror_color"]
-    if on_path:
-        info.define("ON_PATH")
-        names += ["path_direction", "path_throughput"]
-    else:
-        info.typedef_source(TYPEDEF)
-        info.uniform_buf(0, "ViewBlock", "view")
-        info.push_constant("FLOAT", "eye_side")
-    for slot, name in enumerate(names, 1):
-        info.sampler(slot, "FLOAT_2D", name)
-    declare_surface_outputs(info)
-    slot = 3
-    if with_images:
-        info.define("WITH_IMAGES")
-        info.fragment_out(slot, "VEC4", "uv_out")
-        slot += 1
-    if keeps_way:
-        info.define("KEEPS_WAY")
-        info.fragment_out(slot, "VEC4", "direction_out")
-        info.fragment_out(slot + 1, "VEC4", "throughput_out")
-    info.fragment_source(load("rays/exact.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
+    eye = Piece(constants={"eye_side": "FLOAT"})
+    images = Piece(outputs={"uv_out": "VEC4"}, defines=flags("WITH_IMAGES"))
+    kept = Piece(outputs=named("VEC4", "direction_out", "throughput_out"), defines=flags("KEEPS_WAY"))
+    return build_shader(
+        "exact",
+        ON_PATHS,
+        RAYS,
+        TABLE,
+        Piece(
+            samplers=named("FLOAT_2D", "mirror_position", "mirror_normal", "mirror_color"),
+            defines=flags("WITH_COUNTS") if with_counts else {},
+            fragment="rays/exact.frag.glsl",
+        ),
+        *((way,) if on_path else (VIEW, eye)),
+        SURFACE_OUTPUTS,
+        *((images,) if with_images else ()),
+        *((kept,) if keeps_way else ()),
+    )
 
 
 @cache
 def _images_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.define("IMAGES", str(IMAGES_AT_ONCE))
-    declare_path(info)
-    info.fragment_out(0, "VEC4", "color")
-    info.push_constant("INT", "first_image")
-    info.sampler(0, "FLOAT_2D", "path_uv")
-    for slot in range(IMAGES_AT_ONCE):
-        info.sampler(1 + slot, "FLOAT_2D", f"image_{slot}")
-    info.fragment_source(load("rays/exact_images.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
+    cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))
+    return build_shader(
+        "exact images",
+        ON_PATHS,
+        Piece(
+            samplers=named("FLOAT_2D", "path_uv", *names),
+            constants={"first_image": "INT"},
+            defines={"IMAGES": IMAGES_AT_ONCE, "IMAGE_CASES": cases},
+            outputs={"color": "VEC4"},
+            fragment="rays/exact_images.frag.glsl",
+        ),
+    )

@@ -19,18 +19,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
+from ...scene.arrays import (
+    LARGEST_COORDINATE,
+    Float32Array,
+    Float64Array,
+    InstanceArrays,
+    Int32Array,
+    MeshArrays,
+    SceneArrays,
+)
 from ..device.record_regions import UNIT, RecordRegions
+from ..device.shaders import Piece
 from ..geometry.chunk import pack_color
 from ..geometry.mesh_facts import MeshFactsCache
 from .hierarchy import Boxes, Hierarchy, HierarchyBuild, build, build_all, build_all_quickly
 
 SEEN_IN_MIRRORS, CASTS_SHADOWS, NEVER_SEES_ITSELF, IS_CLOSED, IS_MIRRORED = 1, 2, 4, 8, 16
-"""As in ray_walk.glsl"""
+"""What sees an instance, how a mirror sees itself, and whether its matrix turns space inside out"""
+NODE_RECORDS = 4
 INSTANCE_RECORDS = 6
 TRIANGLE_RECORDS = 4
 STACK = 64
-"""As in ray_walk.glsl: levels of the top and the deepest mesh together"""
+"""Levels of the top and the deepest mesh together"""
+RAYS = Piece(
+    samplers={"rays": "FLOAT_2D"},
+    constants={"rays_top": "IVEC4"},
+    defines={
+        "STACK": STACK,
+        "NODE_RECORDS": NODE_RECORDS,
+        "INSTANCE_RECORDS": INSTANCE_RECORDS,
+        "TRIANGLE_RECORDS": TRIANGLE_RECORDS,
+        "REGION_UNIT": UNIT,
+        "SEEN_IN_MIRRORS": SEEN_IN_MIRRORS,
+        "CASTS_SHADOWS": CASTS_SHADOWS,
+        "NEVER_SEES_ITSELF": NEVER_SEES_ITSELF,
+        "IS_CLOSED": IS_CLOSED,
+        "IS_MIRRORED": IS_MIRRORED,
+    },
+)
+"""What `ray_walk.glsl` needs"""
 OWN_RANGE = 1e-4
 """A ray that leaves a mirror does not see it nearer than this share of its size"""
 FEW = 4096
@@ -41,8 +68,6 @@ AT_ONCE = 500_000
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
-LARGEST_COORDINATE = 1e18
-"""As in vectors.glsl: squares of larger ones overflow"""
 OUT_OF_THE_WAY = 1e30
 """Where a box is that no ray need enter"""
 WORSE = 1.4
@@ -119,15 +144,9 @@ class RayScene:
         self._build: tuple[_MeshRays, HierarchyBuild] | None = None
 
     def bind(self, shader: Any) -> None:
-        """Set what ray_walk.glsl needs on a bound shader that has called `declare`."""
+        """Set what `RAYS` names on a bound shader."""
         shader.uniform_sampler("rays", self.regions.texture)
         shader.uniform_int("rays_top", self._top_places)
-
-    @staticmethod
-    def declare(info: Any, slot: int) -> None:
-        """Add the sampler and the push constant of ray_walk.glsl to a GPUShaderCreateInfo."""
-        info.sampler(slot, "FLOAT_2D", "rays")
-        info.push_constant("IVEC4", "rays_top")
 
     def follow(self, scene: SceneArrays, numbers: Mapping[int, int]) -> None:
         """Show a state of the scene; `numbers`: mirrors (1, 2, ...) by the index of their instance.

@@ -5,16 +5,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import blf
 import bpy
-import gpu
 import mathutils
-import numpy as np
 
 from ...diagnostic_colors import Color, Legend, ramp_colors
-from ...scene.arrays import Float32Array
+from ..device.overlays import draw_boxes
+from ..device.state import blended
 
 FONT = 0
 TEXT, PADDING, MARGIN, GAP = 11.0, 10.0, 16.0, 6.0
@@ -96,37 +94,16 @@ def layout(legend: Legend, right: float, bottom: float, scale: float = 1.0) -> L
 
 def draw_layout(placed: Layout, scale: float = 1.0) -> None:
     """Draw with the matrices of a POST_PIXEL handler: one unit is a pixel."""
-    batch = _boxes([(placed.panel, _PANEL)] + [(box, _on_screen(color)) for box, color in placed.colors])
-    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-    gpu.state.blend_set("ALPHA")
-    try:
-        shader.bind()
-        batch.draw(shader)
+    with blended("ALPHA"):
+        draw_boxes([(placed.panel, _PANEL)] + [(box, _on_screen(color)) for box, color in placed.colors])
         blf.size(FONT, TEXT * scale)
         blf.color(FONT, *_INK)
         for x, y, text in placed.texts:
             blf.position(FONT, x, y, 0.0)
             blf.draw(FONT, text)
-    finally:
-        gpu.state.blend_set("NONE")
 
 
 def _on_screen(color: Color) -> tuple[float, float, float, float]:
     """sRGB, as Blender's own shaders take colors."""
     encoded = mathutils.Color(color).from_scene_linear_to_srgb()
     return (encoded.r, encoded.g, encoded.b, 1.0)
-
-
-def _boxes(boxes: list[tuple[_Box, tuple[float, float, float, float]]]) -> Any:
-    """One batch of two triangles per box."""
-    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]], np.float32)
-    places = np.array([box for box, _ in boxes], np.float32)
-    positions: Float32Array = (places[:, None, :2] + corners * places[:, None, 2:]).reshape(-1, 2)
-    colors = np.repeat(np.array([color for _, color in boxes], np.float32), 6, axis=0)
-    form = gpu.types.GPUVertFormat()
-    form.attr_add(id="pos", comp_type="F32", len=2, fetch_mode="FLOAT")
-    form.attr_add(id="color", comp_type="F32", len=4, fetch_mode="FLOAT")
-    vertices = gpu.types.GPUVertBuf(format=form, len=len(positions))
-    vertices.attr_fill("pos", np.ascontiguousarray(positions))
-    vertices.attr_fill("color", np.ascontiguousarray(colors))
-    return gpu.types.GPUBatch(type="TRIS", buf=vertices)

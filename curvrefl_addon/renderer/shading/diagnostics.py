@@ -11,10 +11,8 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
 from ...diagnostic_colors import (
     MODES,
     RAMP_TEXELS,
@@ -25,11 +23,17 @@ from ...diagnostic_colors import (
     ramp_colors,
 )
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import drawing_state, full_screen_triangle, record_texture, texture_2d
+from ..device.batches import bare_batch, full_screen_triangle
+from ..device.frame_buffers import frame_buffer
+from ..device.records import record_texture
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from ..device.state import drawing_state, points_sized_by_shader, set_viewport
+from ..device.textures import depth_texture, empty_texture, texture_2d
+from ..geometry.chunk import CHUNK
 from ..surfaces.surfaces import SurfaceBuffer
-from ..surfaces.view_block import TYPEDEF
+from ..surfaces.view_block import VIEW
 from ..vertices.solve import SolvedChunk
-from .lookup import Environment, declare
+from .lookup import Environment, lookup_piece
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
@@ -79,7 +83,7 @@ class DiagnosticPass:
         # Before the frame buffer is bound: what is made only now draws, too.
         textures = [environment.positions() if environment else None for environment in environments]
         with drawing_state(blend="ADDITIVE_PREMULT"), target.bind():
-            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            set_viewport(0, 0, seen.width, seen.height)
             for number, (environment, positions) in enumerate(zip(environments, textures, strict=True), 1):
                 shader = _shader(mode, environment.lookup if environment else "", marks is not None)
                 shader.bind()
@@ -146,7 +150,7 @@ class DiagnosticPass:
         if marks is None or (marks.width, marks.height) != (seen.width, seen.height):
             marks = self._marks = _Marks(seen.width, seen.height)
         with drawing_state("LESS_EQUAL", depth_write=True), marks.frame_buffer.bind():
-            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            set_viewport(0, 0, seen.width, seen.height)
             marks.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             for mirror, chunks in enumerate(parts, 1):
                 for chunk in (part for part in chunks if part.image == 0):
@@ -185,8 +189,7 @@ class DiagnosticPass:
         if count == 0:
             return
         if self._points[0] < count:
-            vertices = gpu.types.GPUVertBuf(format=gpu.types.GPUVertFormat(), len=count)
-            self._points = count, gpu.types.GPUBatch(type="POINTS", buf=vertices)
+            self._points = count, bare_batch(count, "POINTS")
         shader = _vertices_shader()
         shader.bind()
         shader.uniform_block("view", view_uniforms)
@@ -203,104 +206,94 @@ class DiagnosticPass:
             ("reflected_position", reflected.position),
         ):
             shader.uniform_sampler(name, texture)
-        gpu.state.program_point_size_set(True)
-        try:
+        with points_sized_by_shader():
             self._points[1].draw_range(shader, elem_start=0, elem_count=count)
-        finally:
-            gpu.state.program_point_size_set(False)
 
 
 class _Marks:
     """Render target of what lies over the status view."""
 
     def __init__(self, width: int, height: int) -> None:
-        self.color = gpu.types.GPUTexture((width, height), format="RGBA16F")
-        self.color.filter_mode(False)
-        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
-        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.color,))
+        self.color = empty_texture(width, height, "RGBA16F")
+        self._depth = depth_texture(width, height)
+        self.frame_buffer = frame_buffer(self.color, depth=self._depth)
         self.width, self.height = width, height
+
+
+_FRAGMENTS = {
+    "ITERATIONS": "ramp",
+    "ANGLE_ERROR": "ramp",
+    "STATUS": "palette",
+    "METHOD": "palette",
+    "ZEBRA": "stripes",
+    "LINES": "stripes",
+}
+"""Kind of shader by the view"""
+_OF_MIRROR = (
+    VIEW,
+    FULL_SCREEN,
+    Piece(samplers=named("FLOAT_2D", *_SEEN), constants={"weight": "FLOAT"}, outputs={"color": "VEC4"}),
+)
+_OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
+_MARK = (VIEW, Piece(constants={"mirror": "FLOAT"}, outputs={"mark": "VEC4"}))
 
 
 @cache
 def _shader(mode: str, lookup: str, marks: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("FLOAT", "weight")
-    samplers = [(name, "FLOAT_2D") for name in _SEEN]
+    pieces = [*_OF_MIRROR, Piece(defines=flags(mode))]
     if mode in SOLVED_MODES:
-        info.define("SHOWS_SCENE")
+        pieces.append(Piece(defines=flags("SHOWS_SCENE")))
         if mode != "ANGLE_ERROR":
-            info.push_constant("VEC3", "background")
-        if lookup:
-            info.push_constant("FLOAT", "mirror")
-        else:
-            samplers += [(name, "FLOAT_2D") for name in _REFLECTED]
-    if mode in ("ITERATIONS", "ANGLE_ERROR"):
-        info.push_constant("VEC2", "range")
-        samplers.append(("ramp", "FLOAT_2D"))
-        source = "diagnostics/diagnostic_ramp.frag.glsl"
-    elif mode in ("STATUS", "METHOD"):
-        samplers.append(("palette", "FLOAT_2D"))
-        source = "diagnostics/diagnostic_palette.frag.glsl"
+            pieces.append(Piece(constants={"background": "VEC3"}))
+        pieces += [Piece(constants={"mirror": "FLOAT"}), lookup_piece(lookup)] if lookup else [_OF_REFLECTED]
+    look = _FRAGMENTS[mode]
+    if look == "ramp":
+        pieces.append(Piece(samplers={"ramp": "FLOAT_2D"}, constants={"range": "VEC2"}))
+    elif look == "palette":
+        pieces.append(Piece(samplers={"palette": "FLOAT_2D"}))
     else:
-        for name in (*_AXES[mode], "dark", "bright"):
-            info.push_constant("VEC3", name)
-        info.push_constant("FLOAT", "count")
-        info.push_constant("FLOAT", "duty")
-        source = "diagnostics/diagnostic_stripes.frag.glsl"
+        pieces.append(
+            Piece(constants={**named("VEC3", *_AXES[mode], "dark", "bright"), **named("FLOAT", "count", "duty")})
+        )
     if marks:
-        info.define("MARKS")
-        samplers.append(("marks", "FLOAT_2D"))
-    info.define(mode)
-    for slot, (name, kind) in enumerate(samplers):
-        info.sampler(slot, kind, name)
-    # Views of the surface alone do not look anything up.
-    lookup_source = declare(info, lookup, len(samplers)) if lookup else ""
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(lookup_source + load(source))
-    return gpu.shader.create_from_info(info)
+        pieces.append(Piece(samplers={"marks": "FLOAT_2D"}, defines=flags("MARKS")))
+    pieces.append(Piece(fragment=f"diagnostics/diagnostic_{look}.frag.glsl"))
+    return build_shader(f"diagnostic {mode}", *pieces)
 
 
 @cache
 def _vertices_shader() -> Any:
-    info = _marks_info()
-    for name in ("reflected_color", "hidden_color", "failed_color"):
-        info.push_constant("VEC3", name)
-    info.push_constant("FLOAT", "point_size")
-    names = ("reflection_points", "virtual_positions", "mirror_position", "mirror_color", "reflected_position")
-    for slot, name in enumerate(names):
-        info.sampler(slot, "FLOAT_2D", name)
-    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_diagnostic_vertices")
-    for kind, name in (("VEC3", "reflection_point"), ("FLOAT", "length_to_vertex"), ("FLOAT", "vertex_status")):
-        interface.flat(kind, name)
-    info.vertex_out(interface)
-    info.vertex_source(load("diagnostics/diagnostic_vertices.vert.glsl"))
-    info.fragment_source(load("diagnostics/diagnostic_vertices.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "diagnostic vertices",
+        *_MARK,
+        Piece(
+            samplers=named(
+                "FLOAT_2D",
+                "reflection_points",
+                "virtual_positions",
+                "mirror_position",
+                "mirror_color",
+                "reflected_position",
+            ),
+            constants={**named("VEC3", "reflected_color", "hidden_color", "failed_color"), "point_size": "FLOAT"},
+            flat={"reflection_point": "VEC3", **named("FLOAT", "length_to_vertex", "vertex_status")},
+            vertex="diagnostics/diagnostic_vertices.vert.glsl",
+            fragment="diagnostics/diagnostic_vertices.frag.glsl",
+        ),
+    )
 
 
 @cache
 def _failed_shader() -> Any:
-    info = _marks_info()
-    info.push_constant("VEC3", "failed_color")
-    names = ("positions", "corners", "reflection_points", "virtual_positions", "mirror_color")
-    for slot, name in enumerate(names):
-        info.sampler(slot, "FLOAT_2D", name)
-    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_diagnostic_failed")
-    interface.smooth("VEC2", "failed")
-    info.vertex_out(interface)
-    info.vertex_source(load("diagnostics/diagnostic_failed.vert.glsl"))
-    info.fragment_source(load("diagnostics/diagnostic_failed.frag.glsl"))
-    return gpu.shader.create_from_info(info)
-
-
-def _marks_info() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("FLOAT", "mirror")
-    info.fragment_out(0, "VEC4", "mark")
-    return info
+    return build_shader(
+        "diagnostic failed",
+        *_MARK,
+        CHUNK,
+        Piece(
+            samplers=named("FLOAT_2D", "reflection_points", "virtual_positions", "mirror_color"),
+            constants={"failed_color": "VEC3"},
+            smooth={"failed": "VEC2"},
+            vertex="diagnostics/diagnostic_failed.vert.glsl",
+            fragment="diagnostics/diagnostic_failed.frag.glsl",
+        ),
+    )

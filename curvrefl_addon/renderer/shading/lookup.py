@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ....gpu_shaders.loader import load
+from ..device.shaders import Piece, flags, named
 
 _SAMPLERS = {
     "environment_cube": "FLOAT_CUBE",
@@ -23,8 +23,8 @@ _SAMPLERS = {
 }
 """Kind of the sampler `environment` by the lookup"""
 _CONSTANTS = {
-    "environment_sphere": (("environment_right", "VEC3"), ("environment_up", "VEC3"), ("environment_axis", "VEC3")),
-    "environment_parallax": (("environment_ball", "VEC4"),),
+    "environment_sphere": named("VEC3", "environment_right", "environment_up", "environment_axis"),
+    "environment_parallax": {"environment_ball": "VEC4"},
 }
 """Push constants of lookups that have some"""
 
@@ -43,16 +43,17 @@ class Environment:
     """Values of the lookup's push constants"""
 
     def bind(self, shader: Any, texture: Any) -> None:
-        """Set what `declare` has declared, with one of the two textures, on a bound shader."""
+        """Set what `lookup_piece` names, with one of the two textures, on a bound shader."""
         shader.uniform_sampler("environment", texture)
         for name, value in self.constants.items():
             shader.uniform_float(name, value)
 
 
-def declare(info: Any, lookup: str, slot: int) -> str:
-    """Add a lookup's define ENVIRONMENT, sampler and push constants to a GPUShaderCreateInfo; returns its source."""
-    info.define("ENVIRONMENT")
-    info.sampler(slot, _SAMPLERS[lookup], "environment")
-    for name, kind in _CONSTANTS.get(lookup, ()):
-        info.push_constant(kind, name)
-    return load(f"environments/{lookup}.glsl")
+def lookup_piece(lookup: str) -> Piece:
+    """A lookup's define ENVIRONMENT, sampler, push constants and GLSL."""
+    return Piece(
+        samplers={"environment": _SAMPLERS[lookup]},
+        constants=_CONSTANTS.get(lookup, {}),
+        defines=flags("ENVIRONMENT"),
+        fragment=f"environments/{lookup}.glsl",
+    )

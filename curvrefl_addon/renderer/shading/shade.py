@@ -8,20 +8,19 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import Any
 
-import gpu
-
-from ....gpu_shaders.loader import load
 from ...scene.arrays import SceneArrays
-from ..device.gpu_objects import drawing_state, full_screen_triangle, scissored
-from ..lighting.lighting import SAMPLER_COUNT, Features, Lighting
-from ..rays.paths import Bounce, declare_path
-from ..rays.ray_scene import RayScene
+from ..device.batches import full_screen_triangle
+from ..device.shaders import Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..rays.paths import ON_PATHS, Bounce
+from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.canvas import Canvas
-from ..surfaces.materials import Materials
-from ..surfaces.pixel_classes import PixelClass, PixelClasses, declare_class
+from ..surfaces.materials import TABLE, Materials
+from ..surfaces.pixel_classes import CLASS, PixelClass, PixelClasses
 from ..surfaces.surfaces import SurfaceBuffer, Window
-from ..surfaces.view_block import TYPEDEF
-from .lookup import Environment, declare
+from ..surfaces.view_block import VIEW
+from .lookup import Environment, lookup_piece
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
@@ -80,7 +79,7 @@ class ShadePass:
         classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None)
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
-            gpu.state.viewport_set(0, 0, seen.width, seen.height)
+            set_viewport(0, 0, seen.width, seen.height)
             self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows)
             self._add_front(seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
@@ -150,7 +149,7 @@ class ShadePass:
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
-            gpu.state.viewport_set(0, 0, path.width, path.height)
+            set_viewport(0, 0, path.width, path.height)
             shader.bind()
             if shadows is not None and RAY_SHADOWS in features:
                 shadows.bind(shader)
@@ -186,76 +185,62 @@ class ShadePass:
         return self._classes[size]
 
 
-def _info() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(TYPEDEF)
-    info.vertex_in(0, "VEC2", "pos")
-    info.fragment_out(0, "VEC4", "color")
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.push_constant("FLOAT", "weight")
-    info.sampler(0, "FLOAT_2D", "materials")
-    for slot, name in enumerate(_SEEN, 1):
-        info.sampler(slot, "FLOAT_2D", name)
-    declare_class(info)
-    return info
+_LIGHT = Piece(constants={"weight": "FLOAT"}, outputs={"color": "VEC4"})
+_OF_SEEN = (VIEW, CLASS, TABLE, Piece(samplers=named("FLOAT_2D", *_SEEN)), _LIGHT)
+"""Pieces of shaders that light a class of pixels of the buffers that the eye sees"""
+_OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 
 
-def _declare_lighting(info: Any, slot: int, features: Features) -> None:
+def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
     """With the rays that shadow, where these are among the features."""
-    Lighting.declare(info, slot, features)
-    if RAY_SHADOWS in features:
-        RayScene.declare(info, slot + SAMPLER_COUNT)
+    return (lighting_piece(features), *((RAYS,) if RAY_SHADOWS in features else ()))
 
 
 @cache
 def _shade_shader(kind: PixelClass, features: Features) -> Any:
     """For a class of pixels, without environments."""
-    info = _info()
-    info.define(f"SHADES_{kind.name}")
-    used = 4
-    if kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-        for slot, name in enumerate(_REFLECTED, used):
-            info.sampler(slot, "FLOAT_2D", name)
-        used += len(_REFLECTED)
-    _declare_lighting(info, used, features)
-    info.fragment_source(load("lighting/shade.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
+    return build_shader(
+        f"shade {kind.name}",
+        *_OF_SEEN,
+        *((_OF_REFLECTED,) if shows_surface else ()),
+        *_lighting_pieces(features),
+        Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
+    )
 
 
 @cache
 def _environment_shader(lookup: str, features: Features) -> Any:
     """For mirrors that show an environment, with the name of its lookup."""
-    info = _info()
-    info.push_constant("FLOAT", "mirror")
-    source = declare(info, lookup, 4)
-    Lighting.declare(info, 5, features)
-    info.fragment_source(source + load("lighting/shade.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        f"shade {lookup}",
+        *_OF_SEEN,
+        lookup_piece(lookup),
+        lighting_piece(features),
+        Piece(constants={"mirror": "FLOAT"}, fragment="lighting/shade.frag.glsl"),
+    )
 
 
 @cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    declare_path(info)
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.fragment_out(0, "VEC4", "color")
-    info.push_constant("FLOAT", "weight")
-    if goes_on:
-        info.define("GOES_ON")
-    names = ("materials", *_PATH, *_REFLECTED)
-    for slot, name in enumerate(names):
-        info.sampler(slot, "FLOAT_2D", name)
-    _declare_lighting(info, len(names), features)
-    info.fragment_source(load("lighting/shade_path.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "shade path",
+        ON_PATHS,
+        VIEW,
+        TABLE,
+        Piece(samplers=named("FLOAT_2D", *_PATH)),
+        _OF_REFLECTED,
+        _LIGHT,
+        *_lighting_pieces(features),
+        Piece(defines=flags("GOES_ON") if goes_on else {}, fragment="lighting/shade_path.frag.glsl"),
+    )
 
 
 @cache
 def _front_shader(has_base: bool, features: Features) -> Any:
-    info = _info()
-    if has_base:
-        info.define("MIRROR_BASE")
-    Lighting.declare(info, 4, features)
-    info.fragment_source(load("lighting/shade_front.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "shade front",
+        *_OF_SEEN,
+        lighting_piece(features),
+        Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),
+    )

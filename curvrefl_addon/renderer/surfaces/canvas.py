@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import gpu
+from ..device.frame_buffers import frame_buffer, layer_of, wait_for
+from ..device.textures import empty_texture
 
 MOST_DEPTHS = 4
 """Frame buffers that are kept"""
@@ -18,15 +19,14 @@ class Canvas:
     def __init__(self, texture: Any, face: int | None = None) -> None:
         """`face`: of a cube map."""
         self.texture = texture
-        self._slot = texture if face is None else {"texture": texture, "layer": face}
-        self.frame_buffer = gpu.types.GPUFrameBuffer(color_slots=(self._slot,))
+        self._slot = texture if face is None else layer_of(texture, face)
+        self.frame_buffer = frame_buffer(self._slot)
         self._with_depth: list[tuple[Any, Any]] = []
 
     @classmethod
     def of_size(cls, width: int, height: int, linear: bool = False) -> Canvas:
         """An empty picture; `linear`: how its texels are to be looked up."""
-        texture = gpu.types.GPUTexture((width, height), format="RGBA32F")
-        texture.filter_mode(linear)
+        texture = empty_texture(width, height, linear=linear)
         texture.extend_mode("EXTEND")
         canvas = cls(texture)
         canvas.clear()
@@ -39,14 +39,13 @@ class Canvas:
 
     def wait(self) -> None:
         """Return when the GPU has finished."""
-        with self.frame_buffer.bind():
-            self.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        wait_for(self.frame_buffer)
 
     def with_depth(self, depth: Any) -> Any:
         """Frame buffer of the picture and a depth texture of its size."""
-        for known, frame_buffer in self._with_depth:
+        for known, target in self._with_depth:
             if known is depth:
-                return frame_buffer
-        frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=(self._slot,))
-        self._with_depth = [*self._with_depth[1 - MOST_DEPTHS :], (depth, frame_buffer)]
-        return frame_buffer
+                return target
+        target = frame_buffer(self._slot, depth=depth)
+        self._with_depth = [*self._with_depth[1 - MOST_DEPTHS :], (depth, target)]
+        return target

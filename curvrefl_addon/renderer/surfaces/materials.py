@@ -9,11 +9,29 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import ImageArrays, MaterialArrays, SceneArrays
-from ..device.gpu_objects import record_texture, texture_2d
+from ..device.records import record_texture
+from ..device.shaders import Piece, flags, named
+from ..device.textures import texture_2d
 from ..geometry.chunk import HOLDOUT
 
 RECORDS = 5
-"""Per material, as in material_records.glsl"""
+"""Per material"""
+TABLE = Piece(samplers={"materials": "FLOAT_2D"}, defines={"MATERIAL_RECORDS": RECORDS})
+"""What `material_records.glsl` needs: `Materials.table`"""
+PLAIN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"}, defines=flags("PLAIN"))
+"""What `surface_color.glsl` needs for materials without an image, UV and vertex colour to interpolate"""
+TEXTURED = Piece(
+    constants={"base_color": "VEC3", "material": "FLOAT", "uv_transform": "VEC4", "uses_vertex_color": "FLOAT"},
+    samplers={"base_image": "FLOAT_2D"},
+    smooth={"uv": "VEC2", "vertex_color": "VEC3"},
+)
+"""The same for the others"""
+RELIEF = Piece(
+    constants=named("VEC4", "relief", "relief_transform"),
+    samplers={"relief_image": "FLOAT_2D"},
+    defines=flags("RELIEF"),
+)
+"""What `relief.glsl` needs"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
 
 
@@ -47,21 +65,6 @@ class Materials:
     def _of(self, index: int) -> MaterialArrays:
         return _HOLDOUT if index == HOLDOUT else self._materials[index]
 
-    @staticmethod
-    def declare(info: Any, sampler: int, is_plain: bool) -> None:
-        """What `surface_color.glsl` needs, in a shader's create info; `sampler` is the slot of the base image.
-
-        With `is_plain` for materials of that kind: without an image, UV and vertex colour to interpolate.
-        """
-        info.push_constant("VEC3", "base_color")
-        info.push_constant("FLOAT", "material")
-        if is_plain:
-            info.define("PLAIN")
-            return
-        info.push_constant("VEC4", "uv_transform")
-        info.push_constant("FLOAT", "uses_vertex_color")
-        info.sampler(sampler, "FLOAT_2D", "base_image")
-
     def is_plain(self, index: int) -> bool:
         """Whether a material is the same everywhere."""
         material = self._of(index)
@@ -71,15 +74,8 @@ class Materials:
         """Whether its normals are bent."""
         return self._of(index).relief is not None
 
-    @staticmethod
-    def declare_relief(info: Any, sampler: int) -> None:
-        """What `relief.glsl` needs."""
-        info.push_constant("VEC4", "relief")
-        info.push_constant("VEC4", "relief_transform")
-        info.sampler(sampler, "FLOAT_2D", "relief_image")
-
     def bind_relief(self, shader: Any, index: int) -> None:
-        """Set what `declare_relief` declared."""
+        """Set what `RELIEF` names."""
         relief = self._of(index).relief
         assert relief is not None
         shader.uniform_float("relief", (float(relief.is_bump), relief.strength, relief.distance, 0.0))
@@ -87,7 +83,7 @@ class Materials:
         shader.uniform_sampler("relief_image", self._images[relief.image][1])
 
     def bind(self, shader: Any, index: int) -> None:
-        """Set what `declare` declared to material `index` on the bound shader, one for its kind (`is_plain`)."""
+        """Set a bound shader with `PLAIN` or `TEXTURED`, as the material is (`is_plain`), to material `index`."""
         material = self._of(index)
         shader.uniform_float("base_color", material.base_color)
         shader.uniform_float("material", float(index))

@@ -12,10 +12,11 @@ from enum import IntEnum
 from functools import cache
 from typing import Any
 
-import gpu
-
-from ....gpu_shaders.loader import load
-from ..device.gpu_objects import drawing_state, full_screen_triangle, scissored
+from ..device.batches import full_screen_triangle
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags
+from ..device.state import drawing_state, scissored, set_viewport
+from ..device.textures import depth_texture
 from .surfaces import SurfaceBuffer, Window
 
 CLASS_COUNT = 8
@@ -41,9 +42,9 @@ class PixelClasses:
     """Targets of the size of a picture."""
 
     def __init__(self, width: int, height: int) -> None:
-        self.depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
+        self.depth = depth_texture(width, height)
         """The classes"""
-        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self.depth)
+        self.frame_buffer = frame_buffer(depth=self.depth)
         self.width, self.height = width, height
 
     def sort(
@@ -57,7 +58,7 @@ class PixelClasses:
         `tells_mirrors` its alpha is the number of a mirror, or 0 for other surfaces."""
         shader = _shader(reflected is not None, tells_mirrors)
         with drawing_state("ALWAYS", depth_write=True), self.frame_buffer.bind(), scissored(window):
-            gpu.state.viewport_set(0, 0, self.width, self.height)
+            set_viewport(0, 0, self.width, self.height)
             shader.bind()
             shader.uniform_sampler("seen_color", seen.color)
             if reflected is not None:
@@ -67,30 +68,28 @@ class PixelClasses:
             full_screen_triangle().draw(shader)
 
 
-def declare_class(info: Any) -> None:
-    """Make a shader's full-screen triangle stand at the depth of the push constant `pixel_class`."""
-    info.push_constant("FLOAT", "pixel_class")
-    info.define("CLASS_COUNT", f"{CLASS_COUNT}.0")
-    info.vertex_source(load("surfaces/full_screen_of_class.vert.glsl"))
+CLASS = Piece(
+    inputs={"pos": "VEC2"},
+    constants={"pixel_class": "FLOAT"},
+    defines={"CLASS_COUNT": float(CLASS_COUNT)},
+    vertex="surfaces/full_screen_of_class.vert.glsl",
+)
+"""A full-screen triangle at the depth of the push constant `pixel_class`"""
 
 
 @cache
 def _shader(shows_surfaces: bool, tells_mirrors: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.vertex_in(0, "VEC2", "pos")
-    info.depth_write("ANY")
-    info.define("CLASS_COUNT", f"{CLASS_COUNT}.0")
-    for kind in PixelClass:
-        info.define(kind.name, f"{kind.value}.0")
-    names = ["seen_color"]
-    if shows_surfaces:
-        info.define("SHOWS_SURFACES")
-        names.append("reflected_position")
-    if shows_surfaces and tells_mirrors:
-        info.define("TELLS_MIRRORS")
-        names.append("reflected_color")
-    for slot, name in enumerate(names):
-        info.sampler(slot, "FLOAT_2D", name)
-    info.vertex_source(load("common/full_screen.vert.glsl"))
-    info.fragment_source(load("surfaces/pixel_classes.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    surfaces = Piece(samplers={"reflected_position": "FLOAT_2D"}, defines=flags("SHOWS_SURFACES"))
+    mirrors = Piece(samplers={"reflected_color": "FLOAT_2D"}, defines=flags("TELLS_MIRRORS"))
+    return build_shader(
+        "pixel classes",
+        FULL_SCREEN,
+        Piece(
+            samplers={"seen_color": "FLOAT_2D"},
+            defines={"CLASS_COUNT": float(CLASS_COUNT), **{kind.name: float(kind) for kind in PixelClass}},
+            writes_depth=True,
+            fragment="surfaces/pixel_classes.frag.glsl",
+        ),
+        *((surfaces,) if shows_surfaces else ()),
+        *((mirrors,) if shows_surfaces and tells_mirrors else ()),
+    )

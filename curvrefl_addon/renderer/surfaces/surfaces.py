@@ -12,15 +12,16 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
-from ....gpu_shaders.loader import load
-from ..device.gpu_objects import drawing_state, scissored
-from ..geometry.chunk import Batches, Chunk
+from ..device.frame_buffers import frame_buffer, wait_for
+from ..device.shaders import Piece, build_shader, flags, named
+from ..device.state import drawing_state, hide_faces, scissored, set_viewport
+from ..device.textures import depth_texture, empty_texture
+from ..geometry.chunk import CHUNK, Batches, Chunk
 from ..vertices.solve import SolvedChunk
-from .materials import Materials
-from .view_block import TYPEDEF
+from .materials import PLAIN, RELIEF, TEXTURED, Materials
+from .view_block import VIEW
 
 STRETCHED = float(np.cos(np.radians(8.0)))
 """Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows"""
@@ -29,25 +30,23 @@ STRETCHED_IN_REGION = float(np.cos(np.radians(3.0)))
 
 type Window = tuple[int, int, int, int]
 """x, y, width and height of pixels"""
+SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
+"""Color targets of a SurfaceBuffer"""
 
 
 class SurfaceBuffer:
     """Render targets of one geometry pass."""
 
     def __init__(self, width: int, height: int) -> None:
-        self.position = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        self.position = empty_texture(width, height)
         """xyz world, object_id (0: nothing here)"""
-        self.normal = gpu.types.GPUTexture((width, height), format="RGBA32F")
+        self.normal = empty_texture(width, height)
         """xyz unit shading normal, material index"""
-        self.color = gpu.types.GPUTexture((width, height), format="RGBA16F")
+        self.color = empty_texture(width, height, "RGBA16F")
         """Base colour; the solver's iterations (reflected), or (primary) the mirror's number, -1 of other surfaces, -2
         of a hole in the picture, 0 where nothing is seen"""
-        self.depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
-        for texture in (self.position, self.normal, self.color):
-            texture.filter_mode(False)
-        self.frame_buffer = gpu.types.GPUFrameBuffer(
-            depth_slot=self.depth, color_slots=(self.position, self.normal, self.color)
-        )
+        self.depth = depth_texture(width, height)
+        self.frame_buffer = frame_buffer(self.position, self.normal, self.color, depth=self.depth)
         self.width, self.height = width, height
 
     def clear(self) -> None:
@@ -57,18 +56,16 @@ class SurfaceBuffer:
 
     def wait(self) -> None:
         """Return when the GPU has finished."""
-        with self.frame_buffer.bind():
-            self.frame_buffer.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        wait_for(self.frame_buffer)
 
 
 class BackFaces:
     """Distance from the eye to a reflector's nearest back face, 0 where there is none."""
 
     def __init__(self, width: int, height: int) -> None:
-        self.distance = gpu.types.GPUTexture((width, height), format="R32F")
-        self.distance.filter_mode(False)
-        self._depth = gpu.types.GPUTexture((width, height), format="DEPTH_COMPONENT32F")
-        self.frame_buffer = gpu.types.GPUFrameBuffer(depth_slot=self._depth, color_slots=(self.distance,))
+        self.distance = empty_texture(width, height, "R32F")
+        self._depth = depth_texture(width, height)
+        self.frame_buffer = frame_buffer(self.distance, depth=self._depth)
         self.width, self.height = width, height
 
     def draw(self, surface: tuple[Chunk, Batches], view_uniforms: Any) -> None:
@@ -76,8 +73,8 @@ class BackFaces:
         chunk, batches = surface
         shader = _back_faces_shader()
         with drawing_state("LESS_EQUAL", depth_write=True), self.frame_buffer.bind():
-            gpu.state.viewport_set(0, 0, self.width, self.height)
-            gpu.state.face_culling_set("FRONT")
+            set_viewport(0, 0, self.width, self.height)
+            hide_faces("FRONT")
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
@@ -102,7 +99,7 @@ def draw_primary(
     the normals of mirrors are those of their bumps and normal maps, else of the smooth surface.
     """
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
-        gpu.state.viewport_set(0, 0, target.width, target.height)
+        set_viewport(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
             reliefs = {
@@ -116,7 +113,7 @@ def draw_primary(
                 shader.bind()
                 shader.uniform_block("view", view_uniforms)
                 for chunk, batches in seen:
-                    gpu.state.face_culling_set(hidden_faces(chunk))
+                    hide_faces(hidden_faces(chunk))
                     shader.uniform_sampler("positions", chunk.positions)
                     shader.uniform_sampler("corners", chunk.corners)
                     if kind != "RELIEF":
@@ -158,7 +155,7 @@ def draw_reflected(
     if window[2] <= 0 or window[3] <= 0:
         return
     with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
-        gpu.state.viewport_set(0, 0, target.width, target.height)
+        set_viewport(0, 0, target.width, target.height)
         for is_plain in (True, False):
             shader = _reflected_shader(back_faces is not None, is_plain)
             shader.bind()
@@ -182,87 +179,63 @@ def draw_reflected(
                 _draw_batches(shader, part.batches, materials, is_plain)
 
 
-def _colors(is_plain: bool) -> tuple[tuple[str, str], ...]:
-    """What is interpolated for the base colour."""
-    return () if is_plain else (("VEC2", "uv"), ("VEC3", "vertex_color"))
-
-
-def declare_surface_outputs(info: Any) -> None:
-    """Color targets of a SurfaceBuffer, in a GPUShaderCreateInfo."""
-    info.fragment_out(0, "VEC4", "surface_position")
-    info.fragment_out(1, "VEC4", "surface_normal")
-    info.fragment_out(2, "VEC4", "surface_color_out")
-
-
-def _geometry_inputs(info: Any) -> None:
-    info.typedef_source(TYPEDEF)
-    info.uniform_buf(0, "ViewBlock", "view")
-    info.sampler(0, "FLOAT_2D", "positions")
-    info.sampler(1, "FLOAT_2D", "corners")
-
-
 @cache
 def _primary_shader(kind: str) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
-    is_plain = kind == "PLAIN"
-    info = gpu.types.GPUShaderCreateInfo()
-    _geometry_inputs(info)
-    Materials.declare(info, 2, is_plain)
-    if kind == "RELIEF":
-        info.define("RELIEF")
-        Materials.declare_relief(info, 3)
-    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_primary_{kind}")
-    for kind, name in (("VEC3", "world_position"), ("VEC3", "world_normal"), *_colors(is_plain)):
-        interface.smooth(kind, name)
-    interface.flat("VEC2", "ids")
-    info.vertex_out(interface)
-    declare_surface_outputs(info)
-    info.vertex_source(load("surfaces/primary.vert.glsl"))
-    info.fragment_source(load("surfaces/primary.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        f"primary {kind}",
+        VIEW,
+        CHUNK,
+        PLAIN if kind == "PLAIN" else TEXTURED,
+        *((RELIEF,) if kind == "RELIEF" else ()),
+        SURFACE_OUTPUTS,
+        Piece(
+            smooth=named("VEC3", "world_position", "world_normal"),
+            flat={"ids": "VEC2"},
+            vertex="surfaces/primary.vert.glsl",
+            fragment="surfaces/primary.frag.glsl",
+        ),
+    )
 
 
 @cache
 def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    _geometry_inputs(info)
-    Materials.declare(info, 2, is_plain)
-    info.push_constant("FLOAT", "mirror")
-    info.push_constant("FLOAT", "depth_scale")
-    info.push_constant("FLOAT", "stretched")
-    names = ["reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"]
-    if with_back_faces:
-        info.define("BACK_FACES")
-        names.append("back_faces")
-    for slot, name in enumerate(names, 3):
-        info.sampler(slot, "FLOAT_2D", name)
-    interface = gpu.types.GPUStageInterfaceInfo(f"curvrefl_reflected_{with_back_faces}_{is_plain}")
-    for kind, name in (
-        ("VEC3", "world_position"),
-        ("VEC3", "world_normal"),
-        *_colors(is_plain),
-        ("FLOAT", "iterations"),
-        ("VEC3", "reflection_point"),
-        ("VEC2", "rejected"),
-    ):
-        interface.smooth(kind, name)
-    interface.flat("FLOAT", "object_id")
-    info.vertex_out(interface)
-    declare_surface_outputs(info)
-    info.depth_write("ANY")
-    info.vertex_source(load("surfaces/reflected.vert.glsl"))
-    info.fragment_source(load("surfaces/reflected.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    back_faces = Piece(samplers={"back_faces": "FLOAT_2D"}, defines=flags("BACK_FACES"))
+    return build_shader(
+        f"reflected {with_back_faces} {is_plain}",
+        VIEW,
+        CHUNK,
+        PLAIN if is_plain else TEXTURED,
+        SURFACE_OUTPUTS,
+        Piece(
+            samplers=named(
+                "FLOAT_2D", "reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"
+            ),
+            constants=named("FLOAT", "mirror", "depth_scale", "stretched"),
+            smooth={
+                **named("VEC3", "world_position", "world_normal", "reflection_point"),
+                "iterations": "FLOAT",
+                "rejected": "VEC2",
+            },
+            flat={"object_id": "FLOAT"},
+            writes_depth=True,
+            vertex="surfaces/reflected.vert.glsl",
+            fragment="surfaces/reflected.frag.glsl",
+        ),
+        *((back_faces,) if with_back_faces else ()),
+    )
 
 
 @cache
 def _back_faces_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    _geometry_inputs(info)
-    interface = gpu.types.GPUStageInterfaceInfo("curvrefl_back_faces")
-    interface.smooth("VEC3", "world_position")
-    info.vertex_out(interface)
-    info.fragment_out(0, "FLOAT", "eye_distance")
-    info.vertex_source(load("surfaces/back_faces.vert.glsl"))
-    info.fragment_source(load("surfaces/back_faces.frag.glsl"))
-    return gpu.shader.create_from_info(info)
+    return build_shader(
+        "back faces",
+        VIEW,
+        CHUNK,
+        Piece(
+            smooth={"world_position": "VEC3"},
+            outputs={"eye_distance": "FLOAT"},
+            vertex="surfaces/back_faces.vert.glsl",
+            fragment="surfaces/back_faces.frag.glsl",
+        ),
+    )

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...scene.view import View
-from ..device.gpu_objects import uniform_block
+from ..device.shaders import Block, Piece, uniform_block
 
-TYPEDEF = "struct ViewBlock { mat4 world_to_view; mat4 view_to_clip; mat4 clip_to_world; vec4 eye; };"
+_TYPEDEF = "struct ViewBlock { mat4 world_to_view; mat4 view_to_clip; mat4 clip_to_world; vec4 eye; };"
+VIEW = Piece(blocks={"view": Block("ViewBlock", _TYPEDEF)})
 _BLOCK = np.dtype(
     [("world_to_view", "f4", (4, 4)), ("view_to_clip", "f4", (4, 4)), ("clip_to_world", "f4", (4, 4)), ("eye", "f4", 4)]
 )

@@ -13,12 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.arrays import Float32Array, Float64Array, Int32Array
+from ...scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, Int32Array
 
 SEARCH_STEPS = 12
 """Halvings of the interval of cell sizes; the number of corners is a step function of the size"""
-LARGEST_COORDINATE = 1e18
-"""As in `vectors.glsl`"""
 MOST_CELLS = 1 << 10
 """Along an axis"""
 CORNERS = np.array([[k & 1, (k >> 1) & 1, k >> 2] for k in range(8)])

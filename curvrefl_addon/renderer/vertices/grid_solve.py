@@ -8,14 +8,14 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ...scene.arrays import Float32Array
-from ..device.gpu_objects import dispatch, empty_record_texture, record_texture, uniform_block
+from ..device.records import empty_record_texture, record_texture
+from ..device.shaders import Piece, dispatch, named, uniform_block
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
-from .solve import GROUP, VertexSolution, declare_solve, plain_block
+from .solve import GROUP, VertexSolution, build_solver, plain_block
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
@@ -68,8 +68,4 @@ class ChunkGrid:
 
 @cache
 def _interpolation_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    for slot, name in enumerate(_SAMPLERS):
-        info.sampler(slot, "FLOAT_2D", name)
-    declare_solve(info, "bisector_grid")
-    return gpu.shader.create_from_info(info)
+    return build_solver("bisector_grid", "bisector grid", Piece(samplers=named("FLOAT_2D", *_SAMPLERS)))

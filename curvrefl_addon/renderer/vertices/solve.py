@@ -14,27 +14,20 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
-import gpu
 import numpy as np
 from numpy.typing import NDArray
 
-from ....gpu_shaders.loader import load
 from ...optics import status
 from ...optics.catalogue import METHODS
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
-from ...scene.arrays import Float64Array, Int32Array
+from ...scene.arrays import LARGEST_COORDINATE, Float64Array, Int32Array
 from ...scene.view import View
-from ..device.gpu_objects import (
-    cube_texture,
-    dispatch,
-    empty_index_texture,
-    empty_record_texture,
-    read_records,
-    record_texture,
-    uniform_block,
-)
+from ..device.cubes import cube_texture
+from ..device.frame_buffers import frame_buffer, wait_for
+from ..device.records import empty_index_texture, empty_record_texture, read_records, record_texture
+from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
 from ..device.uniform_struct import glsl_struct
 from ..geometry.chunk import Batches, Chunk
 
@@ -122,9 +115,7 @@ class VertexSolution:
 
     def wait(self) -> None:
         """Return when the GPU has finished."""
-        target = gpu.types.GPUFrameBuffer(color_slots=(self.reflection_points,))
-        with target.bind():
-            target.read_color(0, 0, 1, 1, 4, 0, "FLOAT")
+        wait_for(frame_buffer(self.reflection_points))
 
 
 @dataclass(frozen=True)
@@ -355,41 +346,41 @@ def plain_block(count: int) -> np.ndarray:
     return block
 
 
-def declare_solve(info: Any, name: str) -> None:
-    """Give a GPUShaderCreateInfo what all solves have, and as source the method's `solve` in what calls it."""
-    info.typedef_source(glsl_struct("Solver", _BLOCK))
-    info.uniform_buf(0, "Solver", "solver")
-    info.image(0, "RGBA32F", "FLOAT_2D", "reflection_points", qualifiers={"WRITE"})
-    info.image(1, "RGBA32F", "FLOAT_2D", "virtual_positions", qualifiers={"WRITE"})
-    info.local_group_size(GROUP, 1)
-    info.compute_source(load(f"solvers/{name}.comp.glsl") + load("solver_pieces/solver_main.glsl"))
-
-
 def _samplers(method: str) -> list[tuple[str, str]]:
     return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
+
+
+_SOLVE = Piece(
+    images={"reflection_points": Image(), "virtual_positions": Image()},
+    blocks={"solver": Block("Solver", glsl_struct("Solver", _BLOCK))},
+    defines={"LARGEST_COORDINATE": LARGEST_COORDINATE},
+    group=GROUP,
+)
+_POSITIONS = Piece(samplers={"positions": "FLOAT_2D"})
+_MAIN = Piece(compute="solver_pieces/solver_main.glsl")
+_STRAGGLERS = Piece(
+    images={
+        "stragglers": Image("R32UI", "UINT_2D", is_read=True),
+        "straggler_count": Image("R32UI", "UINT_2D_ATOMIC", is_read=True),
+    }
+)
+
+
+def build_solver(name: str, label: str, *pieces: Piece) -> Any:
+    """The shader around `solve` of `gpu_shaders/solvers/<name>.comp.glsl`, which needs these pieces."""
+    return build_shader(label, _SOLVE, *pieces, Piece(compute=f"solvers/{name}.comp.glsl"), _MAIN)
 
 
 @cache
 def _solver_shader(name: str, method: str) -> Any:
     """`gpu_shaders/solvers/<name>.comp.glsl` with what `method` gives its shaders."""
-    info = gpu.types.GPUShaderCreateInfo()
-    info.sampler(0, "FLOAT_2D", "positions")
-    for slot, (kind, sampler) in enumerate(_samplers(method), 1):
-        info.sampler(slot, kind, sampler)
+    pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(method)})]
     if METHODS[method].stragglers:
-        info.define("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS")
-        info.image(2, "R32UI", "UINT_2D", "stragglers", qualifiers={"READ", "WRITE"})
-        info.image(3, "R32UI", "UINT_2D_ATOMIC", "straggler_count", qualifiers={"READ", "WRITE"})
-    declare_solve(info, name)
-    return gpu.shader.create_from_info(info)
+        pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
+    return build_solver(name, f"{name} of {method}", *pieces)
 
 
 @cache
 def _region_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.sampler(0, "FLOAT_2D", "positions")
-    info.sampler(1, "FLOAT_CUBE", "radial")
-    info.sampler(2, "FLOAT_CUBE", "region_masks")
-    info.sampler(3, "FLOAT_2D", "region_seeds")
-    declare_solve(info, "newton_region")
-    return gpu.shader.create_from_info(info)
+    maps = Piece(samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"})
+    return build_solver("newton_region", "newton region", _POSITIONS, maps)

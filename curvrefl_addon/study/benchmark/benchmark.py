@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...output import write_whole
+from ...renderer.device.context import platform_facts
 from ...report.table import NO_NUMBER, aligned, number
 from .rays import measure_rays
 from .solves import STATES, measure_solves
@@ -44,7 +45,7 @@ def measure_benchmark(
     benchmark.json and benchmark.txt in `folder` are written anew with each row, so that a run that is stopped leaves
     what it has.
     """
-    report: dict[str, Any] = {"device": _device(), "limits": asdict(limits), "solves": [], "rays": []}
+    report: dict[str, Any] = {"device": platform_facts(), "limits": asdict(limits), "solves": [], "rays": []}
     solves = measure_solves(_up_to(VERTEX_COUNTS, vertices), say)
     rays = measure_rays(_up_to(TRIANGLE_COUNTS, triangles), say)
     for name, rows, states in (("solves", solves, STATES), ("rays", rays, ("quick", "best"))):
@@ -181,15 +182,3 @@ def _what(row: dict[str, Any]) -> str:
 def _up_to(counts: tuple[int, ...], most: int) -> tuple[int, ...]:
     """Those below `most`, and `most` itself."""
     return (*(count for count in counts if count < most), most)
-
-
-def _device() -> dict[str, str]:
-    import gpu
-
-    platform = gpu.platform
-    return {
-        "renderer": platform.renderer_get(),
-        "vendor": platform.vendor_get(),
-        "version": platform.version_get(),
-        "backend": platform.backend_type_get(),
-    }

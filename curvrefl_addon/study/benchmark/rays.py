@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ...renderer.device.gpu_objects import read_texture
+from ...renderer.device.textures import read_texture
 from ...renderer.rays.paths import PathBuffer
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings

@@ -7,13 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import gpu
 import numpy as np
 
 from ...errors import InputError
 from ...optics.catalogue import METHODS
 from ...optics.surfaces.radial_surfaces import Bumpy
-from ...renderer.device.gpu_objects import TEXTURE_WIDTH
+from ...renderer.device.context import most_texels
+from ...renderer.device.records import TEXTURE_WIDTH
 from ...renderer.geometry.chunk import Chunk, Placed
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
@@ -70,7 +70,7 @@ def measure_solves(counts: tuple[int, ...], say: Callable[[str], None]) -> Itera
 
 
 def _why_not(count: int, seconds: float) -> str:
-    rows, most = -(-2 * count // TEXTURE_WIDTH), gpu.capabilities.max_texture_size_get()
+    rows, most = -(-2 * count // TEXTURE_WIDTH), most_texels()
     if rows > most:
         return f"the driver's textures have at most {most} rows, {rows} are needed"
     if seconds > LONGEST:

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import bpy
-import gpu
 
 from ...output import folder_to_publish
+from ...renderer.device.context import renderer_name
 from ...report.compare import Comparison, Step
 from ...scene.blend_file import find_camera, open_blend, view_of_camera
 from .chart_data import read_scene, scene_steps, step_count
@@ -136,7 +136,7 @@ def _counted[T](steps: Generator[str, None, T], first: int, count: int, prefix: 
 
 def _write(charts: Charts, comparison: Comparison, folder: Path) -> None:
     write_csv(rows(charts.marks), folder / "chart.csv")
-    machine = f"{gpu.platform.renderer_get()}, Blender {bpy.app.version_string}"
+    machine = f"{renderer_name()}, Blender {bpy.app.version_string}"
     judged = f"against Cycles with {comparison.samples} samples of {comparison.light} light; lower left is better"
     if has_matplotlib():
         draw_chart(charts.marks, f"Time against error {judged}\n{machine}", folder)

@@ -14,7 +14,9 @@ from ...optics.catalogue import METHODS
 from ...optics.fermat import sample
 from ...optics.surfaces.cube_map import texel_directions
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
-from ...renderer.device.gpu_objects import cube_texture, record_texture, require_gpu
+from ...renderer.device.context import require_gpu
+from ...renderer.device.cubes import cube_texture
+from ...renderer.device.records import record_texture
 from ...renderer.geometry.chunk import Batches, Chunk, Placed
 from ...renderer.mirrors.mirror_plane import Plane, facing_plane, flat_parts
 from ...renderer.mirrors.parametric_map import bake_parametric

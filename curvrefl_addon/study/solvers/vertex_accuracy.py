@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...optics import status
 from ...optics.screen import Screen
 from ...optics.surfaces.cube_map import CubeMapSurface, nearest_texel
-from ...renderer.device.gpu_objects import read_records
+from ...renderer.device.records import read_records
 from ...renderer.mirrors.mirror import OPEN_LIMITS, Mirror
 from ...renderer.mirrors.reflector_bake import bake_instance
 from ...renderer.mirrors.reflector_map import ReflectorMap

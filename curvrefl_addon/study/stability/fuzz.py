@@ -15,6 +15,7 @@ from ...optics.catalogue import METHODS, Method
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...renderer.vertices.solve import VertexSolution
+from ...scene.arrays import LARGEST_COORDINATE
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import StudyReflector
 from ..solvers.study_surfaces import STUDIES
@@ -33,8 +34,6 @@ SPECIAL = np.array(
     ]
 )
 """Put into every batch"""
-LARGEST_COORDINATE = 1e18
-"""As in `vectors.glsl`"""
 WILD = 1.02
 """Bounding radii from the centre past which no reflection point can be"""
 

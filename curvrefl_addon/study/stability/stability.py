@@ -17,10 +17,10 @@ from time import perf_counter
 from typing import Any
 
 import bpy
-import gpu
 import numpy as np
 
 from ...output import checked_folder, folder_to_publish
+from ...renderer.device.context import renderer_name
 from ..solvers.solver_table import readable, solver_table, write_csv
 from .fuzz import fuzz
 from .motion import measure_motion
@@ -52,7 +52,7 @@ def measure_stability(output: Path | str, vertices: int, triples: int, progress:
             fuzzed = fuzz(triples, progress=progress)
         write_csv(rows, folder / "solver_table.csv")
         (folder / "solver_table.txt").write_text(readable(rows, refusals), encoding="utf-8")
-        blender, device = ".".join(str(part) for part in bpy.app.version), gpu.platform.renderer_get()
+        blender, device = ".".join(str(part) for part in bpy.app.version), renderer_name()
         report = {
             "blender": blender,
             "gpu": device,

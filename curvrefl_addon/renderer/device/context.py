@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The GPU itself: whether there is one, what it is called and what it can hold."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import gpu
+
+from .probe import headless_gpu_fails
+
+
+class GpuUnavailableError(RuntimeError):
+    """No GL context can be had; the message says how to get one."""
+
+
+def require_gpu() -> None:
+    """Make sure that a GPU context is there, also in background.
+
+    Raises GpuUnavailableError with one sentence for the user.
+    """
+    import bpy
+
+    if not bpy.app.background:
+        if not gpu.capabilities.compute_shader_support_get():
+            raise GpuUnavailableError("the graphics driver has no compute shaders: update it")
+        return
+    reason = _why_no_headless_gpu()
+    if not reason:
+        try:
+            gpu.init()
+        except SystemError as error:
+            reason = str(error)
+    if reason:
+        raise GpuUnavailableError(
+            f"no OpenGL 4.3 context could be made ({reason}): install a GPU driver with EGL or Mesa's software "
+            "renderer (Debian: libgl1 libegl1 libgl1-mesa-dri)"
+        )
+
+
+@cache
+def _why_no_headless_gpu() -> str:
+    """Asked once: later the context is there, or will not come."""
+    return headless_gpu_fails()
+
+
+def renderer_name() -> str:
+    """What the driver calls the GPU."""
+    return gpu.platform.renderer_get()
+
+
+def platform_facts() -> dict[str, str]:
+    """Of GPU, driver, and the graphics interface that Blender uses."""
+    return {
+        "renderer": renderer_name(),
+        "vendor": gpu.platform.vendor_get(),
+        "version": gpu.platform.version_get(),
+        "backend": gpu.platform.backend_type_get(),
+    }
+
+
+def most_texels() -> int:
+    """Greatest width and height of a texture."""
+    return gpu.capabilities.max_texture_size_get()

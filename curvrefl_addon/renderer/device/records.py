@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Record textures: lists of vec4 as 2D textures, as there are no storage buffers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...scene.arrays import Float32Array
+from .textures import empty_texture, read_texture, texture_2d
+
+ROW_BITS = 11
+"""Known to every shader, as a power of two is found with a shift and a mask"""
+TEXTURE_WIDTH = 1 << ROW_BITS
+"""Width of record textures"""
+
+
+def record_texture(records: np.ndarray) -> Any:
+    """RGBA32F texture, TEXTURE_WIDTH wide, of (n, 4) records; record i is at (i % width, i / width)."""
+    count = padded_count(len(records))
+    if count != len(records):
+        padded = np.empty((count, 4), np.float32)
+        padded[: len(records)] = records
+        padded[len(records) :] = 0.0
+        records = padded
+    return texture_2d(records.reshape(-1, TEXTURE_WIDTH, 4))
+
+
+def padded_count(count: int) -> int:
+    """Records in the whole rows that hold so many, at least one row."""
+    return max(-(-count // TEXTURE_WIDTH), 1) * TEXTURE_WIDTH
+
+
+def empty_record_texture(count: int) -> Any:
+    """As `record_texture`, unfilled, to be written by a compute shader."""
+    return empty_texture(TEXTURE_WIDTH, padded_count(count) // TEXTURE_WIDTH)
+
+
+def empty_index_texture(count: int) -> Any:
+    """R32UI texture, TEXTURE_WIDTH wide, of so many numbers, to be written by a compute shader."""
+    return empty_texture(TEXTURE_WIDTH, padded_count(count) // TEXTURE_WIDTH, "R32UI")
+
+
+def read_records(texture: Any, count: int) -> Float32Array:
+    """(count, 4) records of a record texture; waits for the GPU."""
+    return read_texture(texture).reshape(-1, 4)[:count]
