@@ -222,7 +222,8 @@ def _draw(attributes: list[Float64Array], triangles: Int32Array, resolution: int
     """Position, normal, du and dv, each (resolution, resolution, 4), of the mesh drawn in its UV map."""
     names = ("uv", "position", "normal", "du", "dv")
     batch = vertex_batch(dict(zip(names, attributes, strict=True)), triangles)
-    target = frame_buffer(*(empty_texture(resolution, resolution) for _ in range(4)))
+    textures = [empty_texture(resolution, resolution) for _ in range(4)]
+    target = frame_buffer(*textures)
     with target.bind(), drawing_state():
         set_viewport(0, 0, resolution, resolution)
         target.clear(color=(0.0, 0.0, 0.0, 0.0))
