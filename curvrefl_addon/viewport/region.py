@@ -137,6 +137,12 @@ class RegionPicture:
         return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
 
     @property
+    def methods(self) -> tuple[str, ...]:
+        """Names in the catalogue of the methods that the mirrors are drawn with: where `auto` chooses, what it chose"""
+        choice = self.renderer.choice
+        return (self.renderer.settings.method if choice is None else choice.settings.method,)
+
+    @property
     def reason(self) -> str:
         """Why `auto` has chosen as it has, one sentence; nothing for other methods."""
         return "" if self.renderer.choice is None else self.renderer.choice.why

@@ -40,6 +40,8 @@ SLIVER = 1e-6
 """A triangle with this share of the largest one's area"""
 INSIDE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
+MOST_EYES = 8
+"""Places of the eye of which it is remembered whether a mirror holds them"""
 OPEN_LIMITS = Limits(holes=0.6)
 """Of the maps of open mirrors, for methods that take them"""
 OPEN = 0.02
@@ -86,6 +88,8 @@ class Mirror:
         self._regions: RegionTextures | None = None
         self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
         self._before: dict[int, tuple[Chunk, int, VertexSolution]] = {}
+        self._held: dict[bytes, bool] = {}
+        """By the eye in object space: whether the mesh holds it"""
 
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where the map has to be baked anew for that."""
@@ -194,12 +198,23 @@ class Mirror:
         if distance >= self.bound:
             return False
         if self.map is None:
-            place = np.linalg.solve(self._instance.matrix, view.eye)[:3]
-            return self.facts.is_closed and holds_point(self.facts.mesh, place)
+            return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.eye)[:3])
         if distance == 0.0:
             return True
         radius, _ = CubeMapSurface(self.map.radial).radius(eye[None] / distance)
         return distance < float(radius[0])
+
+    def _mesh_holds(self, eye: Float64Array) -> bool:
+        """Whether the closed mesh holds a point (3,), object space.
+
+        All triangles are looked at for that: once for all sub-frames of a view, also where a few viewports take turns.
+        """
+        key = eye.tobytes()
+        if key not in self._held:
+            while len(self._held) >= MOST_EYES:
+                del self._held[next(iter(self._held))]
+            self._held[key] = holds_point(self.facts.mesh, eye)
+        return self._held[key]
 
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""
