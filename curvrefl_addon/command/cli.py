@@ -206,9 +206,7 @@ def _parser() -> argparse.ArgumentParser:
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
     build.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
 
-    check = verb(
-        "check", verbs.check, "Check the source by reading it: lint, types, imports, sizes, spelling."
-    )
+    check = verb("check", verbs.check, "Check the source by reading it: lint, types, imports, sizes, spelling.")
     check.add_argument("checks", nargs="*", metavar="CHECK", help="all of them where none is named")
 
     images = verb("images", verbs.images, "Make the pictures of the documents anew, in docs/images.")
