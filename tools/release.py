@@ -30,27 +30,27 @@ _VERSION = re.compile(rf"{_NUMBER}\.{_NUMBER}\.{_NUMBER}")
 _MANIFEST_LINE = re.compile(r'^version = "([^"]*)"$', re.MULTILINE)
 
 
-def release(version: str, output: Path, tag: bool = False, images: bool = False, root: Path = ROOT) -> Path:
+def release(version: str, output: Path, tag: bool = False, images: bool = False) -> Path:
     """Set the version, close the changelog's section, check, pack into `output`; with `tag` commit and tag.
 
     With `images` the pictures of the documents are made anew. Returns the pack. Raises InputError, with nothing
     changed, for a version that cannot be released and for a source with changes of its own or that fails its checks.
     """
-    texts = {name: (root / name).read_text(encoding="utf-8") for name in (MANIFEST, CHANGELOG)}
+    texts = {name: (ROOT / name).read_text(encoding="utf-8") for name in (MANIFEST, CHANGELOG)}
     _require_version(version, texts)
-    _require_clean(root, version)
+    _require_clean(version)
     if tag:
-        _require_identity(root)
+        _require_identity()
     texts = {MANIFEST: with_version(texts[MANIFEST], version), CHANGELOG: closed(texts[CHANGELOG], version)}
-    with _changed(root, texts), folder_to_publish(output) as folder:
+    with _changed(texts), folder_to_publish(output) as folder:
         package = _checked_and_packed(folder)
         if images:
             import make_images
 
             make_images.make(list(make_images.IMAGES))
         if tag:
-            _git(root, "commit", "--quiet", "--all", "--message", f"Version {version}")
-            _git(root, "tag", f"v{version}")
+            _git("commit", "--quiet", "--all", "--message", f"Version {version}")
+            _git("tag", f"v{version}")
     return output / package
 
 
@@ -84,10 +84,10 @@ def _numbers(version: str) -> list[int]:
     return [int(number) for number in version.split(".")]
 
 
-def _require_clean(root: Path, version: str) -> None:
+def _require_clean(version: str) -> None:
     try:
-        changes = _git(root, "status", "--porcelain")
-        tags = _git(root, "tag", "--list", f"v{version}")
+        changes = _git("status", "--porcelain")
+        tags = _git("tag", "--list", f"v{version}")
     except (OSError, subprocess.CalledProcessError) as error:
         raise InputError("A release needs a git repository, and git: make it in a clone of the source.") from error
     if changes:
@@ -96,28 +96,28 @@ def _require_clean(root: Path, version: str) -> None:
         raise InputError(f"There is a tag v{version} already: choose a higher version.")
 
 
-def _require_identity(root: Path) -> None:
+def _require_identity() -> None:
     try:
-        _git(root, "var", "GIT_COMMITTER_IDENT")
+        _git("var", "GIT_COMMITTER_IDENT")
     except subprocess.CalledProcessError as error:
         raise InputError("git does not know who commits: set user.name and user.email first.") from error
 
 
-def _git(root: Path, *arguments: str) -> str:
-    return subprocess.run(["git", *arguments], cwd=root, check=True, capture_output=True, text=True).stdout.strip()
+def _git(*arguments: str) -> str:
+    return subprocess.run(["git", *arguments], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
 
 
 @contextmanager
-def _changed(root: Path, texts: dict[str, str]) -> Iterator[None]:
+def _changed(texts: dict[str, str]) -> Iterator[None]:
     """The files with these texts, which they lose again where something fails."""
-    before = {name: (root / name).read_text(encoding="utf-8") for name in texts}
+    before = {name: (ROOT / name).read_text(encoding="utf-8") for name in texts}
     try:
         for name, text in texts.items():
-            write_whole(root / name, text)
+            write_whole(ROOT / name, text)
         yield
     except BaseException:
         for name, text in before.items():
-            write_whole(root / name, text)
+            write_whole(ROOT / name, text)
         raise
 
 

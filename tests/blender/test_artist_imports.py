@@ -16,6 +16,4 @@ def test_an_artists_session_imports_no_study() -> None:
     names = json.loads(line.removeprefix("IMPORTED "))
     assert "curvrefl.curvrefl_addon.viewport.handlers" in names
     assert "curvrefl.operators.compare_with_cycles" in names
-    assert [
-        name for name in names if name.startswith(("curvrefl.curvrefl_addon.study", "curvrefl.curvrefl_addon.report"))
-    ] == []
+    assert [name for name in names if name.startswith("curvrefl.curvrefl_addon.study")] == []
