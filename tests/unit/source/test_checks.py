@@ -45,7 +45,7 @@ def test_misspelled_words_are_named_in_names_too(tmp_path: Path) -> None:
     pytest.importorskip("codespell_lib")
     write(tmp_path, spelling.MORE, (source.ROOT / spelling.MORE).read_text())
     # (written in parts: this file is checked as well)
-    british = ("base_col" + "our = 1", "class Neighb" + "ours:", "# te" + "h end", "# neighb" + "ourhood")
+    british = ("base_col" + "our = 1", "class Neighb" + "ours:", "# recie" + "ved", "# neighb" + "ourhood")
     write(tmp_path, "curvrefl_addon/a.py", "\n".join([*british, "return {'CANCELLED'}", "textureLod = arange"]))
     found = spelling.violations(tmp_path)
     assert [line.split()[0] for line in found] == [f"curvrefl_addon/a.py:{number}:" for number in (1, 2, 3, 4)]
