@@ -189,8 +189,8 @@ def convex_case(seed: int, most_pixels: int = 1 << 30) -> Case:
 
 
 def pixel_errors(frame: Frame, exact: Frame) -> np.ndarray:
-    """(n,) for each pixel of the mirror, how many pixels away the exact picture shows the same point of the same object,
-    at most WINDOW; 0 where both show the background.
+    """(n,) for each pixel of the mirror, how many pixels away the exact picture shows the same point of the same
+    object, at most WINDOW; 0 where both show the background.
 
     Around each pixel the exact picture is taken as linear: its derivatives across two pixels say where, in pixels, it
     shows a point near the one that it shows there. What lies beyond an object's outline is off by how far that is.
