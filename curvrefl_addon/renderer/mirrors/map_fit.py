@@ -23,7 +23,7 @@ from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays
 from ...scene.view import View
-from .reflector_bake import SurfaceSamples, surface_samples
+from .placed_mesh import SurfaceSamples, surface_samples
 from .reflector_map import ReflectorMap
 
 SAMPLES = 2048
