@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import colorsys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -23,6 +24,8 @@ SOLVED_MODES = frozenset({"ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD"})
 """The views of what the mirror shows; the others need the mirror's surface alone"""
 
 RAMP_TEXELS = 256
+GOLDEN_RATIO = 0.618034
+"""Turns from one hue to the next: no two of a row of such hues fall together"""
 _METHOD_PALETTE: tuple[Color, ...] = (
     (0.010, 0.235, 0.520),
     (0.800, 0.330, 0.010),
@@ -116,8 +119,11 @@ def view_axis(name: str, world_to_view: Float64Array) -> tuple[float, float, flo
 
 
 def method_color(name: str) -> Color:
-    """The catalogue method's own color."""
-    return _METHOD_PALETTE[list(METHODS).index(name) % len(_METHOD_PALETTE)]
+    """The catalogue method's own color; hues that lie apart follow where the palette ends."""
+    place = list(METHODS).index(name)
+    if place < len(_METHOD_PALETTE):
+        return _METHOD_PALETTE[place]
+    return colorsys.hsv_to_rgb(place * GOLDEN_RATIO % 1.0, 0.75, 0.55)
 
 
 def ramp_colors(stops: Sequence[Color], count: int = RAMP_TEXELS) -> Float32Array:

@@ -5,6 +5,9 @@
 
 A line ``#include "folder/piece.glsl"`` is replaced by that file's text, once per shader, so that pieces can include
 what they need without guards. Blender's own shader compiler knows no includes.
+
+A line ``#from optics.status import REFLECTED, HIDDEN as OUT_OF_SIGHT`` becomes one ``#define`` for each of the numbers
+that it names in a module of ``curvrefl_addon``: what Python and a shader share is written in Python alone.
 """
 
 from __future__ import annotations
@@ -12,12 +15,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 __all__ = ["Part", "Snippet", "Source", "load"]
 
 _FOLDER = Path(__file__).resolve().parent
 _INCLUDE = re.compile(r'#include "([a-z0-9_]+/[a-z0-9_]+(?:\.[a-z]+)?\.glsl)"\s*')
+_CONSTANTS = re.compile(r"#from ([a-z0-9_.]+) import (.+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +40,7 @@ type _Line = tuple[str, tuple[str, int]]
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Text of a shader with its includes in place."""
+    """Text of a shader with its includes, and the numbers it takes from Python, in place."""
 
     text: str
     places: tuple[tuple[str, int], ...]
@@ -46,7 +51,8 @@ class Source:
 def load(*parts: Part) -> Source:
     """These parts, one after the other.
 
-    Raises FileNotFoundError when a file or one of its includes does not exist.
+    Raises FileNotFoundError when a file or one of its includes does not exist, ImportError or AttributeError when a
+    module or a number does not, and TypeError for what is no number.
     """
     seen: set[Part] = set()
     lines = [line for part in parts for line in _expand(part, seen)]
@@ -61,9 +67,23 @@ def _expand(part: Part, seen: set[Part]) -> list[_Line]:
         name, text = str(part), (_FOLDER / part).read_text(encoding="utf-8")
     lines: list[_Line] = []
     for number, line in enumerate(text.removesuffix("\n").split("\n"), 1):
-        match = _INCLUDE.fullmatch(line)
-        if match is None:
+        if include := _INCLUDE.fullmatch(line):
+            if include.group(1) not in seen:
+                lines += _expand(include.group(1), seen)
+        elif constants := _CONSTANTS.fullmatch(line):
+            lines += [(define, (name, number)) for define in _defines(*constants.groups())]
+        else:
             lines.append((line, (name, number)))
-        elif match.group(1) not in seen:
-            lines += _expand(match.group(1), seen)
     return lines
+
+
+def _defines(module_name: str, names: str) -> list[str]:
+    module = import_module(f"..curvrefl_addon.{module_name}", __package__)
+    defines = []
+    for item in names.split(","):
+        name, _, name_here = item.strip().partition(" as ")
+        value = getattr(module, name)
+        if type(value) not in (int, float):
+            raise TypeError(f"{module.__name__}.{name} is no number that a shader could take, but {value!r}.")
+        defines.append(f"#define {name_here or name} {value!r}")
+    return defines

@@ -89,6 +89,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
+        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
         from ..curvrefl_addon.report.compare import compare_open_scene
         from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
         from ..curvrefl_addon.study.charts.chart import chart_open_scene
@@ -99,7 +100,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
             output = output_path(self.output, "a folder for the report")
             measure = chart_open_scene if self.every_setting else compare_open_scene
             result = measure(scene, view_layer, self._reflector_names(context), self._comparison(), output)
-        except (InputError, RenderCanceledError) as error:
+        except (InputError, GpuUnavailableError, RenderCanceledError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         self._show(context, result, output)
@@ -147,6 +148,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
         self._clear(context)
 
     def _take_step(self, context: bpy.types.Context) -> Any:
+        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
         from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
 
         try:
@@ -157,7 +159,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
             return {"FINISHED"}
         except RenderCanceledError:
             return self._stop(context, "Comparison canceled")
-        except InputError as error:
+        except (InputError, GpuUnavailableError) as error:
             return self._stop(context, str(error), "ERROR")
         except BaseException:
             self._clear(context)

@@ -4,8 +4,8 @@
 
     python tools/measure_convex.py [--cases 1000] [--first 0] [--most-pixels 1228800] [--verbose] [--force]
 
-A case is over its tolerance where the 99th percentile of its pixels' errors is. `--force` takes reflection points
-wherever the choice by cost alone would not: the bound must hold there too.
+A case is over its tolerance where the 99th percentile of the errors of the mirror's pixels is. `--force` takes
+reflection points wherever the choice by cost alone would not: the bound must hold there too.
 """
 
 from __future__ import annotations

@@ -1,23 +1,24 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks the source: ruff's rules and format, types with mypy, then pytest on the layers asked for."""
+"""Checks the source (see checks/source.py), then runs pytest on the layers asked for."""
 
 from __future__ import annotations
 
 import importlib.util
-import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-TOOLS = ("pytest", "hypothesis", "ruff", "mypy", "flip_evaluator", "matplotlib")
-LINTED = "unit"
-"""Lint and types need no Blender: they go with this layer"""
+sys.path.insert(0, str(ROOT / "tools"))
+
+from checks import source  # noqa: E402
+
+TOOLS = ("pytest", "hypothesis", "flip_evaluator", "matplotlib")
+CHECKED = "unit"
+"""The checks need no Blender: they go with this layer"""
 NO_TESTS_COLLECTED = 5
-TYPE_CHECKED = ("__init__.py", "curvrefl_addon", "gpu_shaders", "operators")
 
 
 def run(layers: Sequence[str]) -> int:
@@ -28,45 +29,15 @@ def run(layers: Sequence[str]) -> int:
     if "pytest" in missing:
         print("curvrefl: without pytest no test can run: install it into that Python.", file=sys.stderr)
         return 2
-    passed = True
-    if LINTED in layers:
-        if "ruff" not in missing:
-            passed &= _check("ruff check", "ruff", "check", "--quiet", ".")
-            passed &= _check("ruff format", "ruff", "format", "--check", "--quiet", ".")
-        if "mypy" not in missing:
-            passed &= _check_types()
+    passed = CHECKED not in layers or source.run() == 0
     folders = [ROOT / "tests" / layer for layer in layers]
     folders = [folder for folder in folders if any(folder.glob("test_*.py"))]
     if folders:
         passed &= _run_pytest(folders)
-    elif set(layers) != {LINTED}:
+    elif set(layers) != {CHECKED}:
         print(f"curvrefl: there are no tests in {', '.join(layers)}.", file=sys.stderr)
     print("All checks passed." if passed else "Some checks failed.", flush=True)
     return 0 if passed else 1
-
-
-def _check(label: str, *command: str, cwd: Path = ROOT, paths: str = "") -> bool:
-    """Run a tool of this Python in `cwd`, `paths` for mypy to find modules on; its output comes through."""
-    environment = os.environ | ({"MYPYPATH": paths} if paths else {})
-    passed = subprocess.run([sys.executable, "-m", *command], cwd=cwd, env=environment).returncode == 0
-    print(f"{label}: {'passed' if passed else 'FAILED'}", flush=True)
-    return passed
-
-
-def _check_types() -> bool:
-    """Of what ships and of the tools. mypy wants a folder that is called like the package: links to what ships."""
-    package = ROOT / "build" / "mypy" / "curvrefl"
-    shutil.rmtree(package, ignore_errors=True)
-    package.mkdir(parents=True)
-    for name in TYPE_CHECKED:
-        (package / name).symlink_to(ROOT / name)
-    command = ("mypy", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(ROOT / ".mypy_cache"))
-    ships = _check("mypy", *command, "-p", "curvrefl", cwd=package.parent)
-    tools = [str(path) for path in sorted((ROOT / "tools").glob("*.py"))]
-    # (In the stubs of bpy nearly everything may be None.)
-    loose = ("--namespace-packages", "--explicit-package-bases", "--disable-error-code", "union-attr")
-    folders = os.pathsep.join(str(folder) for folder in (package.parent, ROOT / "tools", ROOT / "tests"))
-    return _check("mypy of the tools", *command, *loose, *tools, paths=folders) and ships
 
 
 def _run_pytest(folders: Sequence[Path]) -> bool:

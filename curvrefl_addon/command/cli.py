@@ -80,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     demo = verb("demo", verbs.demo, "Build the demo scene and compare its picture with Cycles and EEVEE.")
     demo.add_argument("--output", default="output/demo", metavar="DIR", help="folder to write to (%(default)s)")
 
-    test = verb("test", verbs.test, "Check the source: lint, types and all tests, or one layer of tests.")
+    test = verb("test", verbs.test, "Check the source and run all tests, or one layer of tests.")
     test.add_argument(
         "layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named"
     )
@@ -187,6 +187,18 @@ def _parser() -> argparse.ArgumentParser:
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
     build.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
+
+    check = verb("check", verbs.check, "Check the source by reading it: lint, types, imports, sizes, spelling.")
+    check.add_argument("checks", nargs="*", metavar="CHECK", help="all of them where none is named")
+
+    images = verb("images", verbs.images, "Make the pictures of the documents anew, in docs/images.")
+    images.add_argument("images", nargs="*", metavar="NAME", help="all of them where none is named")
+
+    release = verb("release", verbs.release, "Set the version, close the changelog, check, and pack the extension.")
+    release.add_argument("version", metavar="VERSION", help="such as 0.2.0")
+    release.add_argument("--tag", action="store_true", help="commit and tag it (never pushed)")
+    release.add_argument("--images", action="store_true", help="make the pictures of the documents anew, too")
+    release.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
     return parser
 
 

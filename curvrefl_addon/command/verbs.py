@@ -299,6 +299,27 @@ def test(options: argparse.Namespace) -> int:
     return int(_repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
 
+def check(options: argparse.Namespace) -> int:
+    """Check the source without Blender; see tools/checks/source.py."""
+    tool = _repository_tool("checks/source", "check")
+    _known(options.checks, tool.NAMES, "check")
+    return int(tool.run(options.checks or tool.NAMES))
+
+
+def images(options: argparse.Namespace) -> int:
+    """Make the pictures of the documents; see tools/make_images.py."""
+    tool = _repository_tool("make_images", "images")
+    tool.make(options.images or list(tool.IMAGES))
+    return 0
+
+
+def release(options: argparse.Namespace) -> int:
+    """Make a release of the source; see tools/release.py."""
+    output = checked_folder(options.output)
+    print(_repository_tool("release", "release").release(options.version, output, options.tag, options.images))
+    return 0
+
+
 def build(options: argparse.Namespace) -> int:
     """Pack the extension; see tools/build_extension.py."""
     output = checked_folder(options.output)
@@ -411,7 +432,7 @@ def _start_gpu() -> None:
 def _repository_tool(name: str, verb: str) -> ModuleType:
     """`tools/<name>.py`, which is there in a copy of the source and not in the installed extension."""
     path = ROOT / "tools" / f"{name}.py"
-    spec = importlib.util.spec_from_file_location(f"curvrefl_tools_{name}", path) if path.is_file() else None
+    spec = importlib.util.spec_from_file_location(f"curvrefl_tools_{path.stem}", path) if path.is_file() else None
     if spec is None or spec.loader is None:
         raise InputError(f"The verb {verb} needs a copy of Curvrefl's source: call ./curvrefl {verb} there.")
     module = importlib.util.module_from_spec(spec)

@@ -18,8 +18,8 @@ class Method:
     sweep: tuple[str, tuple[float, ...]]
     """The field of `renderer.settings.Settings` that trades speed for accuracy, and values of it to chart"""
     maps: tuple[str, ...] = ()
-    """What of the reflector its shader `gpu_shaders/<name>.comp.glsl` reads (see `renderer.vertices.solve`); none for
-    a method that looks up an environment (`gpu_shaders/<name>.glsl`)"""
+    """What of the reflector its shader `gpu_shaders/solvers/<name>.comp.glsl` reads (see `renderer.vertices.solve`);
+    none for a method that looks up an environment (`gpu_shaders/environments/<name>.glsl`)"""
     steps: int = 0
     """Steps of the search where `Settings.steps` is 0; 0 for methods without such a number"""
     grid_search: str = ""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the search for a reflection point may end; the shaders use the same numbers (`status.glsl`)."""
+"""How the search for a reflection point may end; the shaders take these numbers from here (`status.glsl`)."""
 
 from __future__ import annotations
 

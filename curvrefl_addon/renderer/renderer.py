@@ -37,6 +37,7 @@ from .shown.environment import ShownEnvironment
 from .shown.nothing import ShownNothing
 from .shown.rays import ShownRays
 from .shown.shown import Light, Shown, Stage, SubFrame
+from .shown.targets import Targets
 from .shown.vertices import ShownVertices
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
@@ -44,7 +45,6 @@ from .surfaces.pixel_filter import offsets
 from .surfaces.primary import draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
-from .targets import Targets
 from .vertices.mirror_solver import MirrorSolver, require
 
 MOST_TARGETS = 3

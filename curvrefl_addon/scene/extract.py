@@ -94,6 +94,8 @@ class SceneReader:
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
         self._world_warnings: list[str] = []
+        self._world_uid = 0
+        """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
         self._overrides: dict[int, MaterialArrays] = {}
         self._mapped: frozenset[int] = frozenset()
@@ -146,12 +148,12 @@ class SceneReader:
         self._meshes.forget(changes.geometry)
         walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)
         if not walk and changes.listing:
-            listing = _listing(depsgraph, scene, view_layer)
+            listing = _listing(depsgraph, view_layer)
             walk = listing != self._listing
         visibility = Visibility(view_layer, self._for_render)
         objects = self._plain_objects(changes) if not walk else None
         if objects is None:
-            self._listing = _listing(depsgraph, scene, view_layer)
+            self._listing = _listing(depsgraph, view_layer)
             self._walk(depsgraph, visibility, view_layer.material_override)
         else:
             for uid, obj in objects:
@@ -160,8 +162,9 @@ class SceneReader:
                 self._shown[uid, 0, 0] = self._read_instance(
                     placed, uid, 0, visibility, view_layer.material_override, self._shown[uid, 0, 0]
                 )
-        if changes.world:
-            self._read_world(view_layer.world_override or scene.world)
+        world = view_layer.world_override or scene.world
+        if changes.world or _uid(world) != self._world_uid:
+            self._read_world(world)
         self._last = self._arrays(reflectors)
         return self._last
 
@@ -177,6 +180,14 @@ class SceneReader:
             lights=tuple(light for light in scene.lights if id(light) in lights),
             reflectors=tuple(number for number in scene.reflectors if number in ids),
         )
+
+    def uid_of(self, object_id: int) -> int | None:
+        """The `session_uid` of an object by its number in the scenes that were read; None where there is none."""
+        return next((uid for uid, number in self._ids.items() if number == object_id), None)
+
+    def _id(self, uid: int) -> int:
+        """The number of an object, from 1; it stays the same in all that is read."""
+        return self._ids.setdefault(uid, len(self._ids) + 1)
 
     def _plain_objects(self, changes: Changes) -> list[tuple[int, bpy.types.Object]] | None:
         """The changed objects, where it is enough to look at them alone."""
@@ -284,7 +295,7 @@ class SceneReader:
         if made is None:
             made = InstanceArrays(
                 object_name=name,
-                object_id=self._ids.setdefault(uid, len(self._ids) + 1),
+                object_id=self._id(uid),
                 mesh=stored.number,
                 matrix=matrix,
                 materials=materials,
@@ -302,6 +313,7 @@ class SceneReader:
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
+        self._world_uid = _uid(world)
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
@@ -332,11 +344,12 @@ class SceneReader:
         for uid, items in seen.items():
             for item in items:
                 if item.error:
-                    raise InputError(item.error)
+                    raise InputError(item.error, self._id(uid))
             if not any(item.instance for item in items):
+                problem = "is hidden or has no surface: show it or choose another reflector."
                 if any(not item.has_faces for item in items):
-                    raise InputError(f'"{chosen[uid]}" has no faces: choose a reflector with a surface.')
-                raise InputError(f'"{chosen[uid]}" is hidden or has no surface: show it or choose another reflector.')
+                    problem = "has no faces: choose a reflector with a surface."
+                raise InputError(f'"{chosen[uid]}" {problem}', self._id(uid))
 
 
 def _object(uid: int, name: str) -> bpy.types.Object | None:
@@ -347,16 +360,17 @@ def _object(uid: int, name: str) -> bpy.types.Object | None:
     return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
 
 
-def _listing(
-    depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer
-) -> tuple[Any, ...]:
+def _uid(block: bpy.types.ID | None) -> int:
+    """Its `session_uid`; 0 for none."""
+    return 0 if block is None else block.session_uid
+
+
+def _listing(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:
     """Who is there, cheaply: the same before and after a selection, another one after hiding."""
-    world, override = scene.world, view_layer.material_override
     return (
         [(item.object.original.session_uid, item.show_self) for item in depsgraph.object_instances],
         list(_layer_flags(view_layer.layer_collection)),
-        None if world is None else world.session_uid,
-        None if override is None else override.session_uid,
+        _uid(view_layer.material_override),
     )
 
 

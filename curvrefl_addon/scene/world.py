@@ -25,7 +25,7 @@ SKY_COLORS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Environment:
+class WorldImage:
     """A `node_colors.Texture` around the scene."""
 
     pixels: Float32Array
@@ -36,7 +36,7 @@ class Environment:
     def colors(self) -> Float32Array:
         return self.pixels
 
-    def changed(self, change: Change) -> Environment:
+    def changed(self, change: Change) -> WorldImage:
         return replace(self, pixels=np.asarray(change(self.pixels), np.float32))
 
 
@@ -80,7 +80,7 @@ class _WorldReader:
             return WorldArrays()
         strength = self._colors.number(source.input("Strength"), "strength")
         color = self._colors.color(source.input("Color")).scaled((strength, strength, strength))
-        if isinstance(color.texture, Environment):
+        if isinstance(color.texture, WorldImage):
             return WorldArrays(color.factor, np.ascontiguousarray(color.texture.pixels), color.texture.rotation)
         return WorldArrays(color.mean())
 
@@ -100,7 +100,7 @@ class _WorldReader:
         if node.projection == "MIRROR_BALL" or not is_rotation:
             pixels = _resampled(pixels, node.projection == "MIRROR_BALL", linear, shift)
             linear = np.eye(3)
-        return NodeColor(texture=Environment(pixels, linear))
+        return NodeColor(texture=WorldImage(pixels, linear))
 
     def _mapping(self, source: Source) -> tuple[Float64Array, Float64Array]:
         """(3, 3) and (3,): image direction = matrix @ world direction + shift, up to its length."""

@@ -303,13 +303,13 @@ def _draw(context: bpy.types.Context) -> None:
 
 def _draw_legend(context: bpy.types.Context) -> None:
     """What the colors of a diagnostic view mean."""
-    scene = context.scene
-    if scene is None or context.region.as_pointer() not in _state.pictures:
+    scene, picture = context.scene, _state.pictures.get(context.region.as_pointer())
+    if scene is None or picture is None:
         return
     diagnostic = diagnostic_of(scene.curvrefl, current_options())
     if diagnostic is None:
         return
-    legend = legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, (scene.curvrefl.method,))
+    legend = legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, picture.methods)
     if legend is not None:
         draw_legend(legend, context)
 

@@ -19,7 +19,7 @@ from ..renderer.settings import Settings
 from ..scene.arrays import SceneArrays
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
-from .environment_light import Environment, EnvironmentLights, environment_of
+from .light import LightReader, ViewportLight, light_of
 
 MOST_RENDERERS = 3
 """Ways of lighting, and local views, of one scene whose pictures are kept"""
@@ -29,7 +29,7 @@ MOST_RENDERERS = 3
 class Look:
     """What makes viewports on one scene show different pictures."""
 
-    environment: Environment
+    light: ViewportLight
     local_view: int = 0
     """Address of the viewport whose local view it is, 0: none"""
 
@@ -44,7 +44,7 @@ class ViewportScene:
         self.renderers: dict[Look, Renderer] = {}
         """The one used last comes last"""
         self._reader = SceneReader()
-        self._lights = EnvironmentLights()
+        self._lights = LightReader()
         self._arrays: SceneArrays | None = None
         self._refused: dict[int, str] = {}
         """Objects (session_uid) that cannot be mirrors as they are, and why"""
@@ -86,7 +86,7 @@ class ViewportScene:
             return self._up_to_date(context, look, settings)
         except InputError as error:
             self._drop(look)
-            uid = self._culprit(str(error))
+            uid = self._culprit(error)
             if uid is None:
                 self.messages.append(str(error))
                 self._arrays = None
@@ -138,7 +138,7 @@ class ViewportScene:
                     context.evaluated_depsgraph_get(), scene, usable, changes, overrides_of(usable)
                 )
             except InputError as error:
-                uid = self._culprit(str(error))
+                uid = self._culprit(error)
                 if uid is None:
                     raise
                 self._refused[uid] = str(error)
@@ -147,7 +147,7 @@ class ViewportScene:
     def _up_to_date(self, context: bpy.types.Context, look: Look, settings: Settings) -> Renderer:
         if look not in self._shown:
             assert self._arrays is not None
-            self._shown[look] = self._lights.lit(self._local(context, look), look.environment)
+            self._shown[look] = self._lights.lit(self._local(context, look), look.light)
         arrays = self._shown[look]
         renderer = self.renderers.pop(look, None)
         if renderer is None:
@@ -171,12 +171,11 @@ class ViewportScene:
         shown = {obj.session_uid for obj in bpy.data.objects if obj.local_view_get(space)}
         return self._reader.only(self._arrays, shown)
 
-    def _culprit(self, message: str) -> int | None:
-        """The mirror that an InputError names."""
-        for mirror in self._mirrors or ():
-            if f'"{mirror.name}"' in message and mirror.session_uid not in self._refused:
-                return mirror.session_uid
-        return None
+    def _culprit(self, error: InputError) -> int | None:
+        """The mirror (session_uid) that an error is about; None where it is none that could be left out."""
+        uid = self._reader.uid_of(error.object_id)
+        marked = {mirror.session_uid for mirror in self._mirrors or ()}
+        return uid if uid in marked - self._refused.keys() else None
 
     def _drop(self, look: Look) -> None:
         renderer = self.renderers.pop(look, None)
@@ -184,7 +183,7 @@ class ViewportScene:
         if renderer is not None:
             self._dropped.update(_made(renderer))
             renderer.free()
-        self._lights.keep({kept.environment for kept in self.renderers})
+        self._lights.keep({kept.light for kept in self.renderers})
 
 
 def _made(renderer: Renderer) -> dict[str, int]:
@@ -193,4 +192,4 @@ def _made(renderer: Renderer) -> dict[str, int]:
 
 def look_of(space: bpy.types.SpaceView3D, settings: Any) -> Look:
     """How a viewport shows its scene."""
-    return Look(environment_of(space, settings), space.as_pointer() if space.local_view is not None else 0)
+    return Look(light_of(space, settings), space.as_pointer() if space.local_view is not None else 0)

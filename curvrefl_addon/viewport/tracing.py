@@ -16,7 +16,6 @@ from mathutils import Vector
 from ..errors import InputError
 from ..optics.ray import ReflectedRay, reflect_ray
 from ..options import marked_mirrors
-from ..renderer.device.overlays import draw_line
 from ..scene.arrays import Float64Array
 
 SELF_HIT = 1e-4
@@ -152,6 +151,9 @@ def _forget(*_arguments: Any) -> None:
 
 
 def _draw() -> None:
+    # (Not with this module, which is there as soon as the extension is enabled.)
+    from ..renderer.device.overlays import draw_line
+
     for found in _shown:
         end = found.ray.at(found.reach) if found.hit is None else found.hit
         places = [tuple(place) for place in (found.eye, found.ray.point, end)]

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors in the map frame; mirrors parts of optics/fermat.py and optics/screen.py. The eye is homogeneous: w = 0 is at
-// infinity.
+// Vectors in the map frame; mirrors parts of optics/fermat.py and optics/screen.py. The eye is homogeneous: w = 0 is
+// at infinity.
 
 vec3 safe_unit(vec3 v)
 {

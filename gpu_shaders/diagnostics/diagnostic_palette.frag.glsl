@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One colour per mirror (record `number` of `palette`) wherever it shows a surface. With MARKS, what was drawn there over
-// it.
+// One colour per mirror (record `number` of `palette`) wherever it shows a surface. With MARKS, what was drawn there
+// over it.
 #include "common/records.glsl"
 #include "diagnostics/diagnostic_mirror.glsl"
 

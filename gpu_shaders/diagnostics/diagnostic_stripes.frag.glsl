@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An infinitely far environment for surface inspection: bands of the angle to an axis, or with LINES long lamps along it.
-// `stripe_axis` is the axis; `stripe_up` and `stripe_side`, in the other case, are across it.
+// An infinitely far environment for surface inspection: bands of the angle to an axis, or with LINES long lamps along
+// it. `stripe_axis` is the axis; `stripe_up` and `stripe_side`, in the other case, are across it.
 #include "diagnostics/diagnostic_mirror.glsl"
 
 #define PI 3.14159265358979

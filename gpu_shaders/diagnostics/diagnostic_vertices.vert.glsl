@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every vertex that was searched for, as a point on the mirror where the search ended. A hidden one is where the line of
-// sight to it meets the mirror.
+// Every vertex that was searched for, as a point on the mirror where the search ended. A hidden one is where the line
+// of sight to it meets the mirror.
 #include "common/status.glsl"
 #include "common/records.glsl"
 

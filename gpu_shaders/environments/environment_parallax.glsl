@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finite radius: the environment lies on a ball about the map's center (Bjorke 2004; Roger & Holzschuch 2006,
-// section 2). Needs the sampler `environment` (FLOAT_CUBE) and the push constant `environment_ball`: center and radius,
-// 0 for infinite.
+// section 2). Needs the sampler `environment` (FLOAT_CUBE) and the push constant `environment_ball`: center and
+// radius, 0 for infinite.
 
 vec3 environment_direction(vec3 point, vec3 ray)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was looked up at the corners, interpolated; with NEAREST_CORNER the world position and object of the corner that
-// counts most, or for the background its direction.
+// What was looked up at the corners, interpolated; with NEAREST_CORNER the world position and object of the corner
+// that counts most, or for the background its direction.
 #include "environments/environment_corner.glsl"
 
 void main()

@@ -26,9 +26,9 @@ struct Lobes {
 };
 
 // x: albedo of the lobe with Fresnel 1; y: mean over it of Schlick's (1 - cos)^5; z, w: mean share of a dielectric's
-// Fresnel term between F0 and 1, of this slice's IOR and the next's. In the slice after the last, x: cosine between the
-// lobe's mean direction and the normal, y: roughness of the lobe that is spread as much about its own normal; z, w: of a
-// dielectric.
+// Fresnel term between F0 and 1, of this slice's IOR and the next's. In the slice after the last, x: cosine between
+// the lobe's mean direction and the normal, y: roughness of the lobe that is spread as much about its own normal; z,
+// w: of a dielectric.
 vec4 ggx_table(float roughness, float cosine, float slice)
 {
   vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;
@@ -42,8 +42,8 @@ float average_albedo(float roughness)
   return 1.0 - roughness * roughness * (-0.26747 + roughness * (2.1086 - 1.25199 * roughness));
 }
 
-// 1 + what scatters more than once, in parts of the single scattering. `fresnel`: mean over angles; `missing`: share of
-// the albedo that single scattering loses, over that it keeps.
+// 1 + what scatters more than once, in parts of the single scattering. `fresnel`: mean over angles; `missing`: share
+// of the albedo that single scattering loses, over that it keeps.
 vec3 multiple_scattering(vec3 fresnel, float average, float missing)
 {
   return 1.0 + fresnel * average / (1.0 - fresnel * (1.0 - average)) * missing;

@@ -9,8 +9,8 @@
 //   6: radiance of its body, kind of shadow (0 none, 1 one map, 2 cube)
 //   7..10: one map: rows that give texel x, texel y, depth and w; 11: its layer
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
-// Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py), as many
-// drivers run all branches.
+// Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py),
+// as many drivers run all branches.
 #if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
 #define LIGHTING_NEAR_LAMPS
 #endif
@@ -20,8 +20,8 @@
 
 float spot_share(int base, vec3 from_lamp)
 {
-  float t = clamp((dot(from_lamp, lighting_data[base + 3].xyz) - lighting_data[base + 3].w) * lighting_data[base + 4].w,
-                  0.0, 1.0);
+  float cosine = dot(from_lamp, lighting_data[base + 3].xyz);
+  float t = clamp((cosine - lighting_data[base + 3].w) * lighting_data[base + 4].w, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 

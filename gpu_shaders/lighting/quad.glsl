@@ -23,7 +23,8 @@ vec4 quad_sum(vec4 value)
   return 2.0 * row + (1.0 - 2.0 * odd.y) * dFdy(odd.y) * dFdy(row);
 }
 
-// Normals of pixels that share turn no further (cosine), and points leave each other's tangent plane no further (sine).
+// Normals of pixels that share turn no further (cosine), and points leave each other's tangent plane no further
+// (sine).
 #define QUAD_NORMALS 0.97
 #define QUAD_PLANE 0.25
 

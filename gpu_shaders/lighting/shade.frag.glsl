@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror shows.
-// A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND, SHADES_SURFACE,
-// SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined.
+// Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror
+// shows. A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND,
+// SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined.
 #if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
 #define QUADS
 #endif

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What adds to the shade pass in some scenes only: with MIRROR_BASE the diffuse base of mirrors that are not metal, and
-// lamps seen before surfaces.
+// What adds to the shade pass in some scenes only: with MIRROR_BASE the diffuse base of mirrors that are not metal,
+// and lamps seen before surfaces.
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light of what a ray off a mirror seen in a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its way. With GOES_ON a
-// mirror that was hit adds only its own light, as the ray goes on from it in the next pass.
+// Light of what a ray off a mirror seen in a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its
+// way. With GOES_ON a mirror that was hit adds only its own light, as the ray goes on from it in the next pass.
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 

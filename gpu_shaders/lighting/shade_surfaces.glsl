@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces out of the buffers of renderer/surfaces/surfaces.py. Needs the uniform block `view` and the sampler `materials`.
+// Surfaces out of the buffers of renderer/surfaces/surfaces.py. Needs the uniform block `view` and the sampler
+// `materials`.
 #include "surfaces/material_records.glsl"
 
 Surface surface_of(vec4 position, vec4 normal, vec3 color)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
-// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask). With
-// KEEPS_WAY the next pass can go on from here. With WITH_COUNTS the direction is (nodes, triangles, instances that the ray
-// was tested against, 1).
+// mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask).
+// With KEEPS_WAY the next pass can go on from here. With WITH_COUNTS the direction is (nodes, triangles, instances
+// that the ray was tested against, 1).
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "lighting/mirror_tint.glsl"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Depth PATH_DEPTH where a surface buffer has a mirror, else 1. A pass at that depth, tested for equality, runs only there.
+// Depth PATH_DEPTH where a surface buffer has a mirror, else 1. A pass at that depth, tested for equality, runs only
+// there.
 #include "surfaces/chosen_mirrors.glsl"
 
 void main()

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first triangle on a ray, by a walk of two levels of bounding-volume hierarchies: of the placed meshes, and in each
-// mesh of its triangles in object space. Needs the sampler (FLOAT_2D) `rays` and the push constant (IVEC4) `rays_top` of
-// renderer/rays/ray_scene.py: first record of the top level's nodes, of its instances, of its materials.
+// The first triangle on a ray, by a walk of two levels of bounding-volume hierarchies: of the placed meshes, and in
+// each mesh of its triangles in object space. Needs the sampler (FLOAT_2D) `rays` and the push constant (IVEC4)
+// `rays_top` of renderer/rays/ray_scene.py: first record of the top level's nodes, of its instances, of its materials.
 //
-// Records of an inner node, for each of its two children: lowest corner, link; highest corner, count. count 0: an inner
-// node, link is its number; count < 0: link is an instance; count > 0: link is the first of so many triangles.
+// Records of an inner node, for each of its two children: lowest corner, link; highest corner, count. count 0: an
+// inner node, link is its number; count < 0: link is an instance; count > 0: link is the first of so many triangles.
 // Of a triangle: corner A; edges B - A and C - A; numbers of its corners and its material slot. Object space.
 // Of a corner: normal; uv and packed color.
-// Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as none);
-// (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
+// Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as
+// none); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
 #include "common/records.glsl"
 
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
@@ -65,8 +65,8 @@ int packed_child(float link, float count)
 }
 
 // `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, unless `own` is
-// negative: a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With `any_hit` whatever is nearer
-// than `farthest` ends the walk.
+// negative: a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which
+// instances count. With `any_hit` whatever is nearer than `farthest` ends the walk.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
   Hit hit;

@@ -2,27 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Search along the projected bisector field (Estalella et al. 2005, section 4.3), one invocation per vertex; mirrors
 // optics/solvers/bisector.py step for step, which says what the paper leaves open.
-#define LARGEST_MISS 0.1
-#include "solvers/bisector.glsl"
-#include "solvers/fermat.glsl"
-
-#define SMALLEST_ERROR 2.5e-9
-#define FIRST_STEP 1.0
-#define SHORTEST_STEP 1e-4
-#define LONGEST_STEP 4.0
-#define RIGHT_FALL 0.5
-#define LARGEST_FALL 0.9
-#define LEAST_FACTOR 0.05
-#define LARGEST_FACTOR 2.0
-#define REJECTED 0.3
-#define HALVINGS 3
-#define LONGEST_MOVE 0.5
-#define LEAST_COSINE 0.2
+#from optics.solvers.bisector import LARGEST_MISS, SMALLEST_ERROR, FIRST_STEP, SHORTEST_STEP, LONGEST_STEP
+#from optics.solvers.bisector import RIGHT_FALL, LARGEST_FALL, LEAST_FACTOR, LARGEST_FACTOR, REJECTED, HALVINGS
+#from optics.solvers.bisector import LONGEST_MOVE, LEAST_COSINE
+#include "solver_pieces/bisector.glsl"
+#include "solver_pieces/fermat.glsl"
 
 Bisector bisector_along(vec4 eye, vec3 vertex, vec3 u, bool inverse)
 {
   SurfaceSample at = sample_surface(u);
-  return bisector_at(eye, vertex, at.position, solver.screen.w * surface_normal(at), inverse);
+  return bisector_at(eye, vertex, at.position, solver.side * surface_normal(at), inverse);
 }
 
 // Where the line of a direction meets the plane that touches the sphere of directions at u, from u: the cube's face,
@@ -63,7 +52,7 @@ Bisector follow_field(vec4 eye, vec3 vertex, bool inverse, int steps, inout vec3
     Bisector there = bisector_along(eye, vertex, there_u, inverse);
     bool taken = inverse || (error_of(there) <= error_of(here) && sees_eye(eye, there));
     // Of a concave piece the point may be a source of the field.
-    if (solver.screen.w < 0.0 && !inverse && i == 0 && error_of(middle) > error_of(here)) {
+    if (solver.side < 0.0 && !inverse && i == 0 && error_of(middle) > error_of(here)) {
       sense = -1.0;
       taken = false;
     }
@@ -103,7 +92,7 @@ vec3 start_direction(vec4 eye, vec3 vertex)
   across = safe_unit(across);
   float angle = share * atan(sine, cosine);
   vec3 u = cos(angle) * a + sin(angle) * across;
-  if (solver.screen.w < 0.0) {
+  if (solver.side < 0.0) {
     return on_hollow_side(eye, vertex, u);
   }
   for (int i = 0; i < HALVINGS; i++) {
@@ -114,20 +103,15 @@ vec3 start_direction(vec4 eye, vec3 vertex)
   return u;
 }
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec4 eye = solver.eye;
   int iterations = 0;
   vec3 u = start_direction(eye, vertex);
-  Bisector b = follow_field(eye, vertex, false, solver.counts.y, u, iterations);
+  Bisector b = follow_field(eye, vertex, false, solver.steps, u, iterations);
   bool inverse = !is_in_front(vertex, b) || !sees_eye(eye, b);
   if (inverse) {
-    b = follow_field(eye, vertex, true, solver.counts.y, u, iterations);
+    b = follow_field(eye, vertex, true, solver.steps, u, iterations);
   }
-  store_bisector(index, iterations, vertex, b, inverse);
+  return as_bisector(iterations, vertex, b, inverse);
 }

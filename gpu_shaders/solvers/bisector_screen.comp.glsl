@@ -4,7 +4,7 @@
 // vertex: the texel of a 3 x 3 neighbourhood with the largest N . B becomes the next centre, until the centre wins.
 // A texel at the silhouette covers many normals.
 #define LARGEST_MISS 0.5
-#include "solvers/bisector.glsl"
+#include "solver_pieces/bisector.glsl"
 
 #define MOST_STEPS 4096
 #define NOWHERE -1.0
@@ -28,7 +28,8 @@ float score(vec4 eye, vec3 vertex, ivec2 texel, bool inverse, out Bisector b)
   return 1.0 - error_of(b);
 }
 
-bool improve(vec4 eye, vec3 vertex, ivec2 texel, bool inverse, inout ivec2 best, inout float best_score, inout Bisector b)
+bool improve(
+    vec4 eye, vec3 vertex, ivec2 texel, bool inverse, inout ivec2 best, inout float best_score, inout Bisector b)
 {
   Bisector other;
   float other_score = score(eye, vertex, texel, inverse, other);
@@ -90,12 +91,12 @@ bool find_reflector(inout ivec2 texel)
   return false;
 }
 
-// Where the vertex was reflected in the last frame (2006, section 5.3), else the middle of the mirror; whether its search
-// was an inverse one.
+// Where the vertex was reflected in the last frame (2006, section 5.3), else the middle of the mirror; whether its
+// search was an inverse one.
 ivec2 start_texel(int index, out bool was_hidden)
 {
   was_hidden = false;
-  if (solver.counts.w > 0) {
+  if (solver.has_last_frame != 0) {
     vec4 before = fetch_record(previous_points, index);
     vec4 point = solver.world_to_map * vec4(before.xyz, 1.0);
     vec4 texel = solver.map_to_search * point;
@@ -105,25 +106,19 @@ ivec2 start_texel(int index, out bool was_hidden)
       return ivec2(floor(texel.xy / texel.w));
     }
   }
-  return ivec2(floor(solver.start.xy));
+  return ivec2(floor(solver.search_start));
 }
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec4 eye = solver.eye;
   int iterations = 0;
   bool was_hidden;
   ivec2 texel = start_texel(index, was_hidden);
   if (!find_reflector(texel)) {
-    texel = ivec2(floor(solver.start.xy));
+    texel = ivec2(floor(solver.search_start));
     if (!find_reflector(texel)) {
-      store_unsolved(index, 0, vertex, vec3(0.0));
-      return;
+      return as_unsolved(0, vertex, vec3(0.0));
     }
   }
   ivec2 first_texel = texel;
@@ -135,10 +130,5 @@ void main()
     texel = was_hidden ? first_texel : texel;
     done = climb(eye, vertex, true, texel, b, iterations) && done;
   }
-  if (done) {
-    store_bisector(index, iterations, vertex, b, inverse);
-  }
-  else {
-    store_unsolved(index, iterations, vertex, b.point);
-  }
+  return done ? as_bisector(iterations, vertex, b, inverse) : as_unsolved(iterations, vertex, b.point);
 }

@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One more image of each vertex, in one region of a mirror that bends both ways; mirrors optics/solvers/newton_region.py.
-// solver.start is (seeds of a region, region, steps, 0).
-#include "solvers/newton_start.glsl"
-
-#define REGION_STARTS 2
-#define MARCH_STEPS_FROM_POINT 24
-#define INSIDE 1e-3
+// One more image of each vertex, in one region of a mirror that bends both ways; mirrors
+// optics/solvers/newton_region.py.
+#include "solver_pieces/newton_start.glsl"
+#from optics.solvers.newton_region import STARTS, MARCH_STEPS as MARCH_STEPS_FROM_POINT, INSIDE
+#from optics.surfaces.curvature_regions import SEEDS
 
 bool is_way_free(vec3 point, vec3 way)
 {
-  vec3 through = min(length(way), 2.0 * solver.screen.z) * safe_unit(way);
+  vec3 through = min(length(way), 2.0 * solver.bound) * safe_unit(way);
   for (int i = 1; i <= MARCH_STEPS_FROM_POINT; i++) {
     float share = float(i) / float(MARCH_STEPS_FROM_POINT);
     vec3 here = point + share * share * through;
@@ -34,24 +32,18 @@ float error_at(vec4 eye, vec3 vertex, vec3 u)
   return -dot(safe_unit(towards_eye(eye, at.position) + safe_unit(vertex - at.position)), surface_normal(at));
 }
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec4 eye = solver.eye;
-  int seeds = int(solver.start.x);
-  int region = int(solver.start.y);
-  vec3 start[REGION_STARTS];
-  float error[REGION_STARTS];
-  for (int k = 0; k < REGION_STARTS; k++) {
+  int region = solver.region;
+  vec3 start[STARTS];
+  float error[STARTS];
+  for (int k = 0; k < STARTS; k++) {
     start[k] = vec3(0.0, 0.0, 1.0);
     error[k] = 2.0;
   }
-  for (int i = 0; i < seeds; i++) {
-    vec3 u = fetch_record(region_seeds, region * seeds + i).xyz;
+  for (int i = 0; i < SEEDS; i++) {
+    vec3 u = fetch_record(region_seeds, region * SEEDS + i).xyz;
     float here = error_at(eye, vertex, u);
     if (here < error[0]) {
       start[1] = start[0];
@@ -66,19 +58,17 @@ void main()
   }
   int iterations = 0;
   vec3 u = start[0];
-  for (int k = 0; k < REGION_STARTS; k++) {
+  for (int k = 0; k < STARTS; k++) {
     u = start[k];
-    if (!minimise(
-            eye, solver.screen.x, vertex, int(solver.start.z), solver.screen.y, true, u, iterations) ||
+    if (!minimise(eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, true, u, iterations) ||
         !is_in_region(region, u)) {
       continue;
     }
     SurfaceSample at = sample_surface(u);
     if (is_reflection_side(eye, vertex, at, 1.0) && is_way_free(at.position, vertex - at.position) &&
         is_way_free(at.position, eye.xyz - eye.w * at.position)) {
-      store_reflected_at(index, iterations, vertex, in_world(at.position));
-      return;
+      return as_reflected_at(iterations, vertex, in_world(at.position));
     }
   }
-  store_unsolved(index, iterations, vertex, sample_surface(u).position);
+  return as_unsolved(iterations, vertex, sample_surface(u).position);
 }

@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clean-up pass of `newton`: vertices of the list climb the ladder of starts. Mirrors optics/solvers/newton.py.
-#include "solvers/newton_start.glsl"
+#include "solver_pieces/newton_start.glsl"
+#from optics.solvers.newton import ENTRIES, ON_HORIZON, BISECTIONS as BISECTIONS_OF_ARC, RUNG_COUNT, ANY_KIND
 
-#define ENTRIES 3
-#define ON_HORIZON 0.02
-#define BISECTIONS_OF_ARC 16
-#define RUNGS 6
-#define ANY_KIND 1
 #define STEP_BITS 1023
 
 // Where the path length stops falling on the great circle from eye to vertex.
@@ -41,22 +37,23 @@ vec3 start_of_rung(int rung, vec4 eye, vec3 vertex)
            rung == 3 ? safe_unit(vertex) :
            rung == 4 ? safe_unit(eye.xyz) :
                        arc_minimum(eye, vertex);
-  return solver.screen.w < 0.0 ? on_hollow_side(eye, vertex, u) : u;
+  return solver.side < 0.0 ? on_hollow_side(eye, vertex, u) : u;
 }
 
-// As `minimise` with the full number of steps, and on from where the way to a point seen from behind enters the mirror:
-// the path by way of that entry is shorter.
+// As `minimise` with the full number of steps, and on from where the way to a point seen from behind enters the
+// mirror: the path by way of that entry is shorter.
 bool descend(vec4 eye, vec3 vertex, bool any_kind, inout vec3 u, inout int iterations)
 {
-  float side = solver.screen.w;
+  float side = solver.side;
   for (int entry = 0; entry <= ENTRIES; entry++) {
-    if (!minimise(eye, solver.screen.x, vertex, solver.counts.z, solver.screen.y, any_kind, u, iterations)) {
+    if (!minimise(
+            eye, solver.focal_pixels, vertex, solver.newton_steps, solver.tolerance, any_kind, u, iterations)) {
       return false;
     }
     SurfaceSample at = sample_surface(u);
     vec3 point;
     if (side < 0.0 || is_reflection_side(eye, vertex, at, side) || is_straight(eye, vertex, at.position, STRAIGHT) ||
-        entry == ENTRIES || !pierce(eye, at.position, solver.screen.z, point)) {
+        entry == ENTRIES || !pierce(eye, at.position, solver.bound, point)) {
       return true;
     }
     u = safe_unit(point);
@@ -64,37 +61,33 @@ bool descend(vec4 eye, vec3 vertex, bool any_kind, inout vec3 u, inout int itera
   return true;
 }
 
-void settle(int index)
+Solved solve(int index, vec3 vertex)
 {
-  vec3 vertex = vertex_in_map(index);
   vec4 eye = solver.eye;
-  float side = solver.screen.w;
+  float side = solver.side;
   // The first pass left nothing but its steps.
-  int iterations = solver.counts.y;
+  int iterations = solver.steps;
   vec3 point;
-  if (side > 0.0 && pierce(eye, vertex, solver.screen.z, point)) {
-    store_hidden_at(index, iterations, vertex, in_world(point), surface_normal(sample_surface(safe_unit(point))));
-    return;
+  if (side > 0.0 && pierce(eye, vertex, solver.bound, point)) {
+    return as_hidden_at(iterations, vertex, in_world(point), surface_normal(sample_surface(safe_unit(point))));
   }
   bool ended = false;
   vec3 u = first_guess(eye, vertex);
   vec3 end = u;
-  for (int rung = int(solver.start.z); rung < RUNGS; rung++) {
-    // On where the first rung has ended, to a zero of the gradient of any kind: where the map's texels meet with a kink,
-    // above all at corners of the cube, the curvature there may be negative.
+  for (int rung = solver.first_rung; rung < RUNG_COUNT; rung++) {
+    // On where the first rung has ended, to a zero of the gradient of any kind: where the map's texels meet with a
+    // kink, above all at corners of the cube, the curvature there may be negative.
     if (rung != ANY_KIND) {
       u = start_of_rung(rung, eye, vertex);
     }
     bool converged = descend(eye, vertex, side < 0.0 || rung == ANY_KIND, u, iterations);
     SurfaceSample at = sample_surface(u);
     if (converged && is_reflection_side(eye, vertex, at, side)) {
-      store_reflected_at(index, min(iterations, STEP_BITS), vertex, in_world(at.position));
-      return;
+      return as_reflected_at(min(iterations, STEP_BITS), vertex, in_world(at.position));
     }
     // Where a descent fails on the horizon reflected and hidden are one, and the map's texels hold neither.
     if (side > 0.0 && is_straight(eye, vertex, at.position, converged ? STRAIGHT : ON_HORIZON)) {
-      store_hidden_at(index, iterations, vertex, in_world(at.position), surface_normal(at));
-      return;
+      return as_hidden_at(iterations, vertex, in_world(at.position), surface_normal(at));
     }
     // On a hollow mirror nothing proves that a vertex is hidden: other rungs may still find its reflection.
     if (converged && side < 0.0) {
@@ -103,20 +96,6 @@ void settle(int index)
     }
   }
   SurfaceSample at = sample_surface(ended ? end : u);
-  if (ended) {
-    store_hidden_at(index, iterations, vertex, in_world(at.position), side * surface_normal(at));
-  }
-  else {
-    store_unsolved(index, iterations, vertex, at.position);
-  }
-}
-
-void main()
-{
-  int count = int(imageLoad(straggler_count, ivec2(0)).x);
-  // As many invocations as were dispatched share any number.
-  int stride = int(gl_NumWorkGroups.x * gl_NumWorkGroups.y * gl_WorkGroupSize.x);
-  for (int place = invocation(); place < count; place += stride) {
-    settle(int(imageLoad(stragglers, texel_of_record(place)).x));
-  }
+  return ended ? as_hidden_at(iterations, vertex, in_world(at.position), side * surface_normal(at)) :
+                 as_unsolved(iterations, vertex, at.position);
 }

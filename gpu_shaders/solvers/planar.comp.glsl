@@ -1,16 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A flat mirror (McReynolds 1996): the vertex seems to be at its mirror image in the plane, the reflection point is where
-// the line of sight to that meets the plane. Exact where the mirror is flat.
-#include "solvers/solver.glsl"
+// A flat mirror (McReynolds 1996): the vertex seems to be at its mirror image in the plane, the reflection point is
+// where the line of sight to that meets the plane. Exact where the mirror is flat.
+#include "solver_pieces/solver.glsl"
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec3 normal = solver.plane.xyz;
   float height = dot(normal, vertex) - solver.plane.w;
   float eye_height = dot(normal, solver.eye.xyz) - solver.plane.w * solver.eye.w;
@@ -20,9 +15,7 @@ void main()
     // For an eye at infinity its "height" is the cosine of its direction: the line through the image along it.
     float back = solver.eye.w > 0.0 ? height / (height + eye_height) : height / eye_height;
     vec3 towards = solver.eye.w > 0.0 ? solver.eye.xyz - image : solver.eye.xyz;
-    store_reflected(index, 1, vertex, image + back * towards);
+    return as_reflected(1, vertex, image + back * towards);
   }
-  else {
-    store_hidden(index, 1, vertex, vertex - height * normal, normal);
-  }
+  return as_hidden(1, vertex, vertex - height * normal, normal);
 }

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Secant search on a star-shaped reflector (Roger & Holzschuch 2006, section 3.3), one invocation per vertex;
 // mirrors optics/solvers/secant_star.py step for step.
-#include "solvers/star_ending.glsl"
-
-#define SMALL_DETERMINANT 1e-5
-#define LONGEST_SECANT_STEP 0.7
-#define SEARCH_TOLERANCE 1.0
-#define SMALLEST_START 0.01
+#include "solver_pieces/star_ending.glsl"
+#from optics.solvers.secant_star import SMALL_DETERMINANT, LONGEST_STEP as LONGEST_SECANT_STEP, SEARCH_TOLERANCE
+#from optics.solvers.secant_star import SMALLEST_START
 
 vec3 gradient_at(vec4 eye, vec3 vertex, vec3 u)
 {
@@ -59,7 +56,7 @@ vec3 secant_search(vec4 eye, float focal, vec3 vertex, int steps, inout int iter
   vec3 u[3];
   vec3 g[3];
   start_triangle(eye, vertex, u);
-  if (solver.screen.w < 0.0) {
+  if (solver.side < 0.0) {
     vec3 middle = safe_unit(u[0] + u[1] + u[2]);
     float turned = sign(dot(on_hollow_side(eye, vertex, middle), middle));
     for (int k = 0; k < 3; k++) {
@@ -123,18 +120,13 @@ vec3 secant_search(vec4 eye, float focal, vec3 vertex, int steps, inout int iter
   return best;
 }
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec4 eye = solver.eye;
-  float focal = solver.screen.x;
-  float tolerance = solver.screen.y;
+  float focal = solver.focal_pixels;
   int iterations = 0;
-  vec3 u = secant_search(eye, focal, vertex, solver.counts.y, iterations);
-  bool converged = minimise(eye, focal, vertex, solver.counts.z, tolerance, solver.screen.w < 0.0, u, iterations);
-  finish(index, vertex, u, converged, iterations);
+  vec3 u = secant_search(eye, focal, vertex, solver.steps, iterations);
+  bool converged = minimise(
+      eye, focal, vertex, solver.newton_steps, solver.tolerance, solver.side < 0.0, u, iterations);
+  return finish(vertex, u, converged, iterations);
 }

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Secant search in the parameters of the reflector (Roger & Holzschuch 2005, section 3.3), one invocation per vertex;
 // mirrors optics/solvers/secant_uv.py step for step.
-#include "solvers/solver.glsl"
-#include "solvers/parametric_map.glsl"
+#include "solver_pieces/solver.glsl"
+#include "solver_pieces/parametric_map.glsl"
 // The map of directions holds the radius first, as a radial map does.
 #define radial uv_of_direction
-#include "solvers/pierce.glsl"
-
-#define FLATTEST 1e-6
-#define LONGEST_STEP 0.5
-#define SMALLEST_START 0.02
-#define LARGEST_START 0.1
-#define LARGEST_MISS 0.1
+#include "solver_pieces/pierce.glsl"
+#from optics.solvers.secant_uv import FLATTEST, LONGEST_STEP, SMALLEST_START, LARGEST_START, LARGEST_MISS
 
 vec2 gradient_at(vec4 eye, vec3 vertex, ParametricSample at)
 {
@@ -68,8 +63,8 @@ int smallest_of(vec2 g[3])
 
 vec2 secant_search(vec4 eye, vec3 vertex, vec2 wraps, inout int iterations)
 {
-  float focal = solver.screen.x;
-  float tolerance = solver.screen.y;
+  float focal = solver.focal_pixels;
+  float tolerance = solver.tolerance;
   vec2 uv[3];
   vec2 g[3];
   start_triangle(eye, vertex, wraps, uv);
@@ -77,7 +72,7 @@ vec2 secant_search(vec4 eye, vec3 vertex, vec2 wraps, inout int iterations)
     g[k] = gradient_at(eye, vertex, sample_parametric(uv[k]));
   }
   vec2 last = uv[smallest_of(g)];
-  for (int i = 0; i < solver.counts.y; i++) {
+  for (int i = 0; i < solver.steps; i++) {
     // Where the interpolated gradient vanishes (equation 3.2).
     vec2 b = g[1] - g[0];
     vec2 c = g[2] - g[0];
@@ -132,13 +127,8 @@ vec2 nearest_on_map(vec2 wraps, vec3 point)
   return uv;
 }
 
-void main()
+Solved solve(int index, vec3 vertex)
 {
-  int index;
-  vec3 vertex;
-  if (!begin(index, vertex)) {
-    return;
-  }
   vec4 eye = solver.eye;
   MapKind kind = map_kind();
   int iterations = 0;
@@ -154,18 +144,13 @@ void main()
   float sine = length(cross(h, normal));
   bool seen = dot(normal, to_eye) > 0.0 && dot(normal, to_vertex) > 0.0;
   if (seen && atan(sine, dot(h, normal)) <= LARGEST_MISS) {
-    store_reflected(index, iterations, vertex, at.position);
-    return;
+    return as_reflected(iterations, vertex, at.position);
   }
   vec3 point;
-  if (pierce(eye, vertex, solver.screen.z, point)) {
-    store_hidden(index, iterations, vertex, point, sample_parametric(nearest_on_map(kind.wraps, point)).normal);
+  if (pierce(eye, vertex, solver.bound, point)) {
+    return as_hidden(iterations, vertex, point, sample_parametric(nearest_on_map(kind.wraps, point)).normal);
   }
-  else if (!seen && sine <= LARGEST_MISS) {
-    // The path is stationary too where the segment from the eye to the vertex pierces the reflector.
-    store_hidden(index, iterations, vertex, at.position, normal);
-  }
-  else {
-    store_unsolved(index, iterations, vertex, at.position);
-  }
+  // The path is stationary too where the segment from the eye to the vertex pierces the reflector.
+  return !seen && sine <= LARGEST_MISS ? as_hidden(iterations, vertex, at.position, normal) :
+                                         as_unsolved(iterations, vertex, at.position);
 }

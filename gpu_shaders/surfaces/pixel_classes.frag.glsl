@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each pixel shows, as a depth: class over CLASS_COUNT (renderer/surfaces/pixel_classes.py). Passes that light one class only
-// are drawn at its depth and tested for equality before their shader runs, as there is no stencil.
+// What each pixel shows, as a depth: class over CLASS_COUNT (renderer/surfaces/pixel_classes.py). Passes that light
+// one class only are drawn at its depth and tested for equality before their shader runs, as there is no stencil.
 #include "surfaces/chosen_mirrors.glsl"
 
 void main()

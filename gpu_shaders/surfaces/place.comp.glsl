@@ -23,7 +23,8 @@ void place_corner(int index)
   vec3 normal = vec3(dot(fetch_record(instances, instance + 3).xyz, first.xyz),
                      dot(fetch_record(instances, instance + 4).xyz, first.xyz),
                      dot(fetch_record(instances, instance + 5).xyz, first.xyz));
-  // As long as it was: normals between two others of a split mesh are shorter and must stay so (renderer/geometry/split.py).
+  // As long as it was: normals between two others of a split mesh are shorter and must stay so
+  // (renderer/geometry/split.py).
   normal *= length(first.xyz) / max(length(normal), 1e-30);
   imageStore(corners, texel_of_record(2 * index), vec4(normal, first.w));
   imageStore(corners, texel_of_record(2 * index + 1), vec4(second.xyz, fetch_record(instances, instance + 6).y));

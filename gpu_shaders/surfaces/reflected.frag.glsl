@@ -27,7 +27,8 @@ void main()
   if (dot(normal, to_vertex) <= 0.0) {
     discard;
   }
-  // A triangle whose vertices found different images of a mirror that bends both ways stretches across what lies between.
+  // A triangle whose vertices found different images of a mirror that bends both ways stretches across what lies
+  // between.
   vec3 ray = reflect(-towards_eye(seen_point), normal);
   if (dot(ray, to_vertex) < stretched * vertex_distance) {
     discard;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shading normals bent by a normal map or by heights, as Cycles' nodes Normal Map (in tangent space) and Bump bend them.
-// Tangents come from screen-space derivatives. Needs the uniform block `view`, the interpolated `world_position` and
-// `uv`, and of renderer/surfaces/materials.py: `relief` (is bump, strength, distance), `relief_transform` and `relief_image`.
+// Shading normals bent by a normal map or by heights, as Cycles' nodes Normal Map (in tangent space) and Bump bend
+// them. Tangents come from screen-space derivatives. Needs the uniform block `view`, the interpolated `world_position`
+// and `uv`, and of renderer/surfaces/materials.py: `relief` (is bump, strength, distance), `relief_transform` and
+// `relief_image`.
 
 // Steepest normal towards `bent` whose mirrored ray leaves the surface (Cycles' ensure_valid_specular_reflection).
 // `facing`: geometric normal; `to_eye`; all unit, on one side of the surface.

@@ -6,15 +6,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
+from curvrefl.curvrefl_addon.renderer.device.context import GpuUnavailableError
 from curvrefl.curvrefl_addon.report import compare
 from curvrefl.curvrefl_addon.report.images import save_png
-from curvrefl.operators.compare_with_cycles import TEXT_NAME
+from curvrefl.curvrefl_addon.study.charts import chart
+from curvrefl.operators.compare_with_cycles import TEXT_NAME, CURVREFL_OT_compare_with_cycles
 
 
 @pytest.fixture
@@ -111,3 +114,36 @@ def test_user_mistakes_are_reported(calls: list[dict[str, Any]]) -> None:
     with pytest.raises(RuntimeError, match="poll"):
         bpy.ops.curvrefl.compare_with_cycles()
     assert calls == []
+
+
+@pytest.mark.parametrize("every_setting", [False, True])
+def test_no_gpu_is_one_sentence(
+    calls: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, every_setting: bool
+) -> None:
+    def refuse(*_arguments: Any) -> None:
+        raise GpuUnavailableError("no OpenGL 4.3 context could be made: install a GPU driver")
+
+    monkeypatch.setattr(compare, "compare_open_scene", refuse)
+    monkeypatch.setattr(chart, "chart_open_scene", refuse)
+    select("ball")
+    with pytest.raises(RuntimeError) as raised:
+        bpy.ops.curvrefl.compare_with_cycles(every_setting=every_setting)
+    assert str(raised.value).strip() == "Error: no OpenGL 4.3 context could be made: install a GPU driver"
+
+
+def test_a_gpu_that_is_not_there_ends_the_steps(calls: list[dict[str, Any]]) -> None:
+    """In a window a comparison goes in steps: the one that reaches the GPU says so, and the scene is put back."""
+    told: list[Any] = []
+
+    def steps() -> Iterator[None]:
+        raise GpuUnavailableError("no GPU: install a driver")
+        yield
+
+    operator = SimpleNamespace(
+        _steps=steps(),
+        _clear=lambda _context: told.append("cleared"),
+        report=lambda kind, message: told.append((kind, message)),
+    )
+    operator._stop = lambda *arguments: CURVREFL_OT_compare_with_cycles._stop(operator, *arguments)
+    assert CURVREFL_OT_compare_with_cycles._take_step(operator, bpy.context) == {"CANCELLED"}
+    assert told == ["cleared", ({"ERROR"}, "no GPU: install a driver")]

@@ -13,11 +13,13 @@ from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import holds_point, is_closed
+from curvrefl.curvrefl_addon.renderer.mirrors import mirror as mirror_module
+from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.rays import ray_scene
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import RayScene
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, WorldArrays
+from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, MeshArrays, WorldArrays
 from scenes.exactness import judge
 from scenes.mirror_halls import MIRRORS, hall
 from scenes.mirror_room import Room
@@ -121,6 +123,38 @@ def test_an_eye_inside_a_closed_mirror_sees_its_inner_side() -> None:
     # Whatever is followed from there meets the inner side again.
     assert (frame.reflected_object() == 1).mean() > 0.98
     renderer.free()
+
+
+def test_an_unbaked_mirror_is_asked_once_for_each_eye_and_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not for each sub-frame: all its triangles are looked at for that."""
+    asked = []
+
+    def counted(mesh: MeshArrays, point: np.ndarray) -> bool:
+        asked.append(point)
+        return holds_point(mesh, point)
+
+    monkeypatch.setattr(mirror_module, "holds_point", counted)
+    scene = hall("torus", 0)
+    mirror = Mirror(scene, 0, 1, MeshFactsCache().of(scene.meshes[0]), 0)
+    hole, tube = np.zeros(3), np.array([0.9, 0.0, 0.0])
+    views = [look_at(eye, eye + np.array([0.0, 1.0, 0.1]), 60, 45, 1.0) for eye in (hole, tube)]
+    for number in range(50):
+        assert [mirror.holds_eye(view.jittered(0.01 * number, 0.0)) for view in views] == [False, True]
+    assert len(asked) == 2, "two viewports that draw in turn do not make each other forget"
+
+    moved = scene.instances[0].matrix.copy()
+    moved[:3, 3] += (0.9, 0.0, 0.05)
+    instances = (replace(scene.instances[0], matrix=moved), *scene.instances[1:])
+    assert mirror.follow(replace(scene, instances=instances), 0, 1)
+    for _ in range(5):
+        assert [mirror.holds_eye(view) for view in views] == [True, False]
+    assert len(asked) == 4, "elsewhere it is asked again"
+
+    for number in range(100):
+        mirror.holds_eye(look_at(tube + np.array([0.0, 0.001 * number, 0.0]), hole, 60, 45, 1.0))
+    before = len(asked)
+    mirror.holds_eye(views[0])
+    assert len(asked) == before + 1, "the answers of a long flight are not all kept"
 
 
 def same(one: Frame, other: Frame) -> bool:

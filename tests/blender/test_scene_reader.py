@@ -10,9 +10,11 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.changes import Changes
 from curvrefl.curvrefl_addon.scene.extract import SceneReader
+from curvrefl.curvrefl_addon.scene.meshes.mesh_store import MeshStore
+from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds
 
 
 class Session:
@@ -220,6 +222,82 @@ def test_only_what_changed_is_read(session: Session, act: Callable[[], None], co
         Changes(everything=True),
     )
     assert_equal(found, fresh)
+
+
+def radiance(session: Session) -> tuple[float, float, float]:
+    return session.read().world.color
+
+
+def colored_world(name: str, color: tuple[float, float, float]) -> bpy.types.World:
+    world = bpy.data.worlds.new(name)
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (*color, 1.0)
+    return world
+
+
+def test_a_world_that_is_taken_away_leaves_no_light(session: Session) -> None:
+    scene = bpy.context.scene
+    scene.world = colored_world("Red", (1.0, 0.0, 0.0))
+    assert radiance(session) == (1.0, 0.0, 0.0)
+    scene.world = None
+    before = session.reader.reads
+    assert radiance(session) == (0.0, 0.0, 0.0)
+    assert session.reader.reads["walks"] == before["walks"], "no object is looked at for that"
+    scene.world = bpy.data.worlds["Red"]
+    assert radiance(session) == (1.0, 0.0, 0.0)
+    bpy.data.worlds.remove(bpy.data.worlds["Red"])
+    assert radiance(session) == (0.0, 0.0, 0.0)
+
+
+def test_a_view_layers_own_world_comes_and_goes(session: Session) -> None:
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene.world, blue = colored_world("Red", (1.0, 0.0, 0.0)), colored_world("Blue", (0.0, 0.0, 1.0))
+    assert radiance(session) == (1.0, 0.0, 0.0)
+    layer.world_override = blue
+    assert radiance(session) == (0.0, 0.0, 1.0)
+    scene.world = None
+    before = session.reader.reads
+    assert radiance(session) == (0.0, 0.0, 1.0)
+    assert session.reader.reads["worlds read"] == before["worlds read"], "the scene's own world is not shown"
+    layer.world_override = None
+    assert radiance(session) == (0.0, 0.0, 0.0)
+    layer.world_override = blue
+    scene.world = bpy.data.worlds["Red"]
+    assert radiance(session) == (0.0, 0.0, 1.0)
+    layer.world_override = None
+    assert radiance(session) == (1.0, 0.0, 0.0)
+
+
+class Unsearchable(list[MeshArrays]):
+    """May be read at a place, not searched."""
+
+    def __iter__(self) -> Any:
+        raise AssertionError("searched")
+
+    def __contains__(self, _item: object) -> bool:
+        raise AssertionError("searched")
+
+
+def test_a_free_number_for_a_mesh_is_not_searched_for() -> None:
+    """The lowest that is free, so that there are no more numbers than meshes were ever there at once."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    objects = [add_mesh(f"Mesh {index}", 1.0 + index) for index in range(20)]
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    evaluated = [obj.evaluated_get(depsgraph) for obj in objects]
+    store = MeshStore()
+    store.meshes = Unsearchable()
+
+    def walk(chosen: list[int]) -> list[int]:
+        store.begin()
+        numbers = [store.read(evaluated[index], 1 + index, MeshNeeds(), False).number for index in chosen]
+        store.end()
+        return numbers
+
+    assert walk(list(range(12))) == list(range(12))
+    assert walk([0, 1, 4, 5, 8, 9]) == [0, 1, 4, 5, 8, 9]
+    assert walk([0, 1, 4, 5, 8, 9, *range(12, 20)]) == [0, 1, 4, 5, 8, 9, 2, 3, 6, 7, 10, 11, 12, 13]
+    for number, index in zip([2, 13], [12, 19], strict=True):
+        assert store.meshes[number].positions.max() == 1.0 + index
 
 
 def test_what_stays_is_the_same_object(session: Session) -> None:

@@ -8,22 +8,29 @@ import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
+from curvrefl.curvrefl_addon.diagnostic_colors import Legend
+from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.options import current_options
+from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.geometry.chunk import Chunk
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.viewport.environment_light import Environment, environment_of
+from curvrefl.curvrefl_addon.viewport import handlers
+from curvrefl.curvrefl_addon.viewport.light import ViewportLight, light_of
+from curvrefl.curvrefl_addon.viewport.region import RegionPicture
 from curvrefl.curvrefl_addon.viewport.shown_scene import MOST_RENDERERS, Look, ViewportScene
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
-PLAIN = Look(Environment())
+PLAIN = Look(ViewportLight())
 SETTINGS = Settings(samples=1, map_resolution=32)
 CAP = 1 << 30
 
@@ -144,6 +151,96 @@ def test_a_shape_that_cannot_be_a_mirror_is_named_until_it_can(session: Session)
     assert session.scene.messages == []
 
 
+NESTED = 'Copy of "Mirror", "Other"'
+"""A name that quotes those of other mirrors"""
+
+
+def test_a_mirror_without_faces_is_told_from_those_that_its_name_quotes(session: Session) -> None:
+    bpy.data.objects["Ball"].name = NESTED
+    for name in ("Other", NESTED):
+        mark(session, name)
+    bpy.data.objects[NESTED].data = bpy.data.meshes.new("Empty")
+    assert session.mirrors() == ["Mirror", "Other"]
+    assert len(session.scene.messages) == 1 and f'"{NESTED}" has no faces' in session.scene.messages[0]
+    bpy.data.objects[NESTED].data = bpy.data.objects["Other"].data
+    assert session.mirrors() == [NESTED, "Mirror", "Other"]
+    assert session.scene.messages == []
+
+
+@pytest.mark.parametrize("method", ["secant_star", "secant_uv"])
+def test_a_shape_without_map_is_told_from_those_that_its_name_quotes(
+    session: Session, method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.modules[__name__], "SETTINGS", Settings(method=method, samples=1, map_resolution=32))
+    if method == "secant_uv":
+        for name in ("Mirror", "Other"):
+            bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
+            ball = bpy.context.object
+            bpy.data.objects[name].data = ball.data
+            bpy.data.objects.remove(ball)
+        bpy.data.objects["Ball"].data.uv_layers.remove(bpy.data.objects["Ball"].data.uv_layers[0])
+        bpy.data.objects["Ball"].name = NESTED
+    else:
+        bpy.ops.mesh.primitive_torus_add(location=(0.0, 5.0, 0.0))
+        bpy.context.object.name = NESTED
+    for name in ("Other", NESTED):
+        mark(session, name)
+    assert session.mirrors() == ["Mirror", "Other"]
+    assert len(session.scene.messages) == 1 and f'"{NESTED}"' in session.scene.messages[0]
+
+
+def test_a_view_without_a_world_is_dark(session: Session) -> None:
+    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
+    bpy.data.worlds["World"].node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 1.0, 0.0, 1.0)
+
+    def brightest() -> float:
+        renderer = session.draw()
+        assert renderer is not None
+        return float(renderer.render(view).color()[..., :3].max())
+
+    assert brightest() == pytest.approx(1.0, abs=1e-3)
+    bpy.context.scene.world = None
+    assert brightest() == 0.0
+    bpy.context.view_layer.world_override = bpy.data.worlds["World"]
+    assert brightest() == pytest.approx(1.0, abs=1e-3)
+    bpy.context.view_layer.world_override = None
+    assert brightest() == 0.0
+
+
+@pytest.mark.parametrize("method", ["auto", "secant_star"])
+def test_the_legend_names_the_methods_of_the_picture(
+    session: Session, method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = bpy.context.scene.curvrefl
+    settings.method, settings.show = method, "METHOD"
+    bpy.data.objects["Ball"].location = (2.0, -2.0, 0.0)
+    monkeypatch.setattr(sys.modules[__name__], "SETTINGS", Settings(method=method, samples=1, map_resolution=32))
+    renderer = session.draw()
+    assert renderer is not None
+    picture = RegionPicture(session.scene, renderer)
+    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
+    picture.advance(view, settings, current_options(), 0.0, False, {})
+    region = SimpleNamespace(as_pointer=lambda: 1)
+    drawn: list[Legend] = []
+    monkeypatch.setattr(handlers, "draw_legend", lambda legend, _context: drawn.append(legend))
+    monkeypatch.setattr(handlers._state, "pictures", {1: picture})
+    handlers._draw_legend(SimpleNamespace(scene=bpy.context.scene, region=region))  # type: ignore[arg-type]
+    assert picture._canvas is not None
+    shown = read_texture(picture._canvas.texture)
+    used = renderer.choice.settings.method if renderer.choice is not None else method
+    assert used != "auto"
+    (color, label), (background, _) = drawn[0].swatches
+    assert label == METHODS[used].label
+    # (shaded a little by the shape of what is shown)
+    colored = shown[(shown[..., 3] == 1.0) & (np.abs(shown[..., :3] - background).max(axis=-1) > 1e-3), :3]
+    assert len(colored) > 5
+    np.testing.assert_allclose(
+        colored / np.linalg.norm(colored, axis=-1, keepdims=True),
+        np.broadcast_to(color / np.linalg.norm(color), colored.shape),
+        atol=1e-3,
+    )
+
+
 def test_only_mirror_is_refused(session: Session) -> None:
     bpy.data.meshes[bpy.data.objects["Mirror"].data.name].clear_geometry()
     assert session.draw() is None
@@ -204,13 +301,13 @@ class _Space:
 
 def test_environment_is_the_viewports(session: Session) -> None:
     settings = bpy.context.scene.curvrefl
-    studio = Environment(False, "/light.exr", strength=0.5, rotation=1.0)
-    assert environment_of(_Space("MATERIAL"), settings) == studio  # type: ignore[arg-type]
-    assert environment_of(_Space("MATERIAL", use_scene_world=True), settings) == Environment(False)  # type: ignore[arg-type]
-    assert environment_of(_Space("RENDERED"), settings) == Environment()  # type: ignore[arg-type]
-    assert environment_of(_Space("SOLID"), settings) == Environment()  # type: ignore[arg-type]
+    studio = ViewportLight(False, "/light.exr", strength=0.5, rotation=1.0)
+    assert light_of(_Space("MATERIAL"), settings) == studio  # type: ignore[arg-type]
+    assert light_of(_Space("MATERIAL", use_scene_world=True), settings) == ViewportLight(False)  # type: ignore[arg-type]
+    assert light_of(_Space("RENDERED"), settings) == ViewportLight()  # type: ignore[arg-type]
+    assert light_of(_Space("SOLID"), settings) == ViewportLight()  # type: ignore[arg-type]
     settings.environment = "SCENE"
-    assert environment_of(_Space("MATERIAL"), settings) == Environment()  # type: ignore[arg-type]
+    assert light_of(_Space("MATERIAL"), settings) == ViewportLight()  # type: ignore[arg-type]
 
 
 def test_image_lights_the_scene(session: Session) -> None:
@@ -219,7 +316,7 @@ def test_image_lights_the_scene(session: Session) -> None:
     image.pixels.foreach_set(np.tile(np.array([0.0, 0.0, 3.0, 1.0], np.float32), 32))
     settings = bpy.context.scene.curvrefl
     settings.environment, settings.environment_image, settings.environment_strength = "IMAGE", image, 2.0
-    look = Look(environment_of(_Space("SOLID"), settings))  # type: ignore[arg-type]
+    look = Look(light_of(_Space("SOLID"), settings))  # type: ignore[arg-type]
     renderer = session.draw(look)
     assert renderer is not None
     color = renderer.render(view).color()
@@ -237,7 +334,7 @@ def test_studio_light_file(session: Session, tmp_path: Path, module: str, monkey
     pixels[:2] = (0.0, 3.0, 0.0)  # below the horizon: row 0 is at the bottom
     pixels[2:] = (0.0, 0.0, 5.0)
     save_exr(tmp_path / "light.exr", pixels)
-    look = Look(Environment(False, str(tmp_path / "light.exr"), strength=0.5))
+    look = Look(ViewportLight(False, str(tmp_path / "light.exr"), strength=0.5))
     renderer = session.draw(look)
     assert renderer is not None
     up, down = (
@@ -247,13 +344,13 @@ def test_studio_light_file(session: Session, tmp_path: Path, module: str, monkey
     np.testing.assert_allclose(up[4, 4, :3], [0.0, 0.0, 2.5], atol=1e-2)
     np.testing.assert_allclose(down[4, 4, :3], [0.0, 1.5, 0.0], atol=1e-2)
     assert not bpy.data.images
-    assert session.draw(Look(Environment(path=str(tmp_path / "none.exr")))) is None
+    assert session.draw(Look(ViewportLight(path=str(tmp_path / "none.exr")))) is None
     assert "none.exr" in session.scene.messages[0]
 
 
 def test_few_looks_are_kept(session: Session) -> None:
     for index in range(MOST_RENDERERS + 3):
-        session.draw(Look(Environment(strength=1.0 + index, scene_lights=bool(index % 2))))
+        session.draw(Look(ViewportLight(strength=1.0 + index, scene_lights=bool(index % 2))))
     assert len(session.scene.renderers) == MOST_RENDERERS
 
 

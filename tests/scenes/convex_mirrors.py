@@ -189,8 +189,8 @@ def convex_case(seed: int, most_pixels: int = 1 << 30) -> Case:
 
 
 def pixel_errors(frame: Frame, exact: Frame) -> np.ndarray:
-    """(n,) for each mirror pixel that shows an object in either picture, how many pixels away the exact picture shows
-    the same point of it, at most WINDOW.
+    """(n,) for each pixel of the mirror, how many pixels away the exact picture shows the same point of the same
+    object, at most WINDOW; 0 where both show the background.
 
     Around each pixel the exact picture is taken as linear: its derivatives across two pixels say where, in pixels, it
     shows a point near the one that it shows there. What lies beyond an object's outline is off by how far that is.
@@ -218,7 +218,9 @@ def pixel_errors(frame: Frame, exact: Frame) -> np.ndarray:
             outline = (true_ids[rows, columns] != mine) | (mine == 0)
             away = np.where(outline, np.maximum(away - 0.5, 0.0), away)
             errors = np.where(near, np.minimum(errors, away), errors)
-    return errors
+    everywhere = np.zeros(int(mirror.sum()))
+    everywhere[: len(errors)] = errors
+    return everywhere
 
 
 def _derivative(places: np.ndarray, ids: np.ndarray, axis: int) -> np.ndarray:

@@ -12,7 +12,7 @@ import pytest
 from curvrefl.curvrefl_addon.command import cli, verbs
 from curvrefl.curvrefl_addon.errors import InputError
 
-VERBS = ("demo", "test", "render", "compare", "chart", "bake", "build")
+VERBS = ("demo", "test", "render", "compare", "chart", "bake", "build", "check", "images", "release")
 FILE = ("x.blend", "--reflector", "Ball")
 
 
@@ -81,6 +81,11 @@ def test_every_verb_has_help(verb: str, capfd: pytest.CaptureFixture[str]) -> No
         (["bake", "x.blend", "--reflector", "A,B", "--output", "OUT/new"], "one reflector"),
         (["build", "--output", "OUT/a-file"], "a-file"),
         (["demo", "--output", "OUT/a-file"], "a-file"),
+        (["check", "everything"], "everything"),
+        (["images", "cellar.jpg"], "cellar.jpg"),
+        (["release"], "VERSION"),
+        (["release", "banana"], "banana"),
+        (["release", "99.0.0", "--output", "OUT/a-file"], "a-file"),
     ],
 )
 def test_bad_usage_is_one_sentence(

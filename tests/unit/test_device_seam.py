@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from curvrefl.curvrefl_addon.optics import status
+from curvrefl.gpu_shaders.loader import Snippet, load
 
 ROOT = Path(__file__).resolve().parents[2]
 DEVICE = ROOT / "curvrefl_addon" / "renderer" / "device"
@@ -56,3 +58,26 @@ def test_no_glsl_literal_of_what_python_injects() -> None:
         if name in injected
     ]
     assert twice == []
+
+
+def test_glsl_takes_numbers_from_python(tmp_path: Path) -> None:
+    """With the line that asks for them, where errors are told."""
+    file = tmp_path / "asking.glsl"
+    file.write_text("// One\n#from optics.status import REFLECTED, HIDDEN as BEHIND\nvoid main() {}\n")
+    source = load(file)
+    lines = ["// One", f"#define REFLECTED {status.REFLECTED}", f"#define BEHIND {status.HIDDEN}", "void main() {}"]
+    assert source.text.splitlines() == lines
+    assert [line for _, line in source.places] == [1, 2, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("line", "error"),
+    [
+        ("#from optics.nowhere import REFLECTED", ImportError),
+        ("#from optics.status import NOTHING", AttributeError),
+        ("#from optics.status import SENTENCES", TypeError),
+    ],
+)
+def test_what_is_no_number_is_refused(line: str, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        load(Snippet(f"asks for {error.__name__}", line))

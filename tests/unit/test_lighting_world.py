@@ -12,6 +12,7 @@ from curvrefl.curvrefl_addon.renderer.lighting.suns import split_suns
 from curvrefl.curvrefl_addon.renderer.lighting.world import (
     MAP_SIZE,
     ROUGHNESS_LEVELS,
+    WORLD_DEFINES,
     _sobol,
     image_directions,
     octahedral_directions,
@@ -148,3 +149,14 @@ def test_skies_without_a_sun_stay_whole() -> None:
         sky = split_suns(world)
         assert sky.world is world
         assert sky.suns == ()
+
+
+def test_shader_finds_each_roughness_level_at_its_map() -> None:
+    """The shader has the levels as a formula, evenly spaced but for the last."""
+    d = {name: float(value) for name, value in WORLD_DEFINES.items()}
+    knee = d["LOBE_LAST_BUT_ONE"]
+    for index, roughness in enumerate(ROUGHNESS_LEVELS):
+        level = (roughness - d["LOBE_FIRST"]) / d["LOBE_STEP"]
+        if roughness >= knee:
+            level = d["LOBE_STEPS"] + (roughness - knee) / d["LOBE_LAST_STEP"]
+        assert level == pytest.approx(index)

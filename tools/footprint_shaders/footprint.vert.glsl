@@ -7,7 +7,8 @@ void main()
 {
   int box = 2 * (gl_VertexID / 6);
   int corner = gl_VertexID % 6;
-  vec2 side = vec2(corner == 1 || corner == 2 || corner == 4 ? 1.0 : -1.0, corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
+  vec2 side = vec2(corner == 1 || corner == 2 || corner == 4 ? 1.0 : -1.0,
+                   corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
   vec4 first = fetch_record(boxes, box);
   vec4 second = fetch_record(boxes, box + 1);
   int triangle = 3 * int(second.z + 0.5);

@@ -5,8 +5,8 @@
 //
 // Records of a triangle in `triangles`: (three positions, material), (three edges, 0), (three corners, 0).
 // Of a box in `boxes`: (centre, half axis), (other half axis, triangle, 0); pixels.
-// `margins`: share of what edges bend that a box is grown by, pixels more, pixels more of triangles that cross the horizon,
-// share of their size. `window`: lowest and highest pixel edge of the mirror's window.
+// `margins`: share of what edges bend that a box is grown by, pixels more, pixels more of triangles that cross the
+// horizon, share of their size. `window`: lowest and highest pixel edge of the mirror's window.
 #include "common/invocation.glsl"
 #include "common/records.glsl"
 #include "common/status.glsl"
@@ -93,11 +93,12 @@ void main()
   bool is_bounded = lost == 0;
   if (!is_whole) {
     counted(CROSSING);
-    // Where the triangle crosses the horizon it is reflected on the mirror's outline, just where it is seen directly: the
-    // reflection lies between the reflected points and what the eye sees of the triangle.
+    // Where the triangle crosses the horizon it is reflected on the mirror's outline, just where it is seen directly:
+    // the reflection lies between the reflected points and what the eye sees of the triangle.
     margin = margins.x * bend + margins.z;
     for (int k = 0; k < CORNERS; k++) {
-      vec4 clip = view.view_to_clip * (view.world_to_view * vec4(fetch_record(positions, int(corners[k] + 0.5)).xyz, 1.0));
+      vec4 place = vec4(fetch_record(positions, int(corners[k] + 0.5)).xyz, 1.0);
+      vec4 clip = view.view_to_clip * (view.world_to_view * place);
       is_bounded = is_bounded && clip.w > 1e-6;
       points[count++] = on_screen(clip);
     }

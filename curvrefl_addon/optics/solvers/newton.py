@@ -38,6 +38,7 @@ BISECTIONS = 16
 RUNGS = ("sphere", "any kind", "between", "vertex", "eye", "bisection")
 """Where the descents of a straggler start. The second goes on where the first has ended, to a zero of the gradient of
 any kind: where texels of the map meet with a kink, above all at the cube's corners, the curvature may be negative."""
+RUNG_COUNT = len(RUNGS)
 ANY_KIND = 1
 FIRST_PASS = -1
 """Rung of what the first pass has solved"""

@@ -17,7 +17,7 @@ from typing import IO
 
 from ....gpu_shaders.loader import Source
 
-MOST_ERRORS = 5
+MOST_ERRORS = 3
 """More follow from the first ones"""
 _STREAMS = (1, 2)
 """File descriptors of standard output and standard error: Blender's log may go to either"""
@@ -81,7 +81,7 @@ def _told_apart(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def explain(errors: list[str], sources: Mapping[str, Source]) -> str:
-    """The first errors as sentences with file and line; `sources` are those of the stages vertex, fragment, compute."""
+    """The first errors with file and line; `sources` are those of the stages vertex, fragment and compute."""
     found: list[str] = []
     source = next(iter(sources.values()))
     for line in errors:
@@ -96,4 +96,4 @@ def explain(errors: list[str], sources: Mapping[str, Source]) -> str:
         # Errors of linking are at no line.
         words = [line.rpartition("|")[2].strip() for line in errors if not _ERROR_START.search(line)]
         found = [word for word in words if word] or ["the driver does not say why"]
-    return "\n".join(found[:MOST_ERRORS])
+    return "; ".join(found[:MOST_ERRORS])

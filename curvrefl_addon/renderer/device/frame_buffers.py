@@ -13,7 +13,10 @@ from ...scene.arrays import Float32Array
 
 
 def frame_buffer(*colors: Any, depth: Any = None) -> Any:
-    """Of color textures, in the order of a shader's outputs, and a depth texture; any may be a `layer_of` one."""
+    """Of color textures, in the order of a shader's outputs, and a depth texture; any may be a `layer_of` one.
+
+    It does not keep them: whoever has it must.
+    """
     if depth is None:
         return gpu.types.GPUFrameBuffer(color_slots=colors)
     if not colors:

@@ -12,6 +12,7 @@ from ...scene.arrays import Float32Array
 from .textures import empty_texture, read_texture, texture_2d
 
 ROW_BITS = 11
+"""Known to every shader, as a power of two is found with a shift and a mask"""
 TEXTURE_WIDTH = 1 << ROW_BITS
 """Width of record textures"""
 

@@ -10,7 +10,7 @@ defines.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
 import gpu
@@ -21,6 +21,7 @@ from .compile_log import captured_output, explain
 from .records import ROW_BITS
 
 MOST_GROUPS = 1 << 15
+"""Of a dispatch along one axis"""
 type Kinds = Mapping[str, str]
 """Blender's word for the type of each name: FLOAT_2D and the like for samplers, VEC3 and the like for values"""
 
@@ -79,7 +80,7 @@ class Piece:
 
 
 FULL_SCREEN = Piece(inputs={"pos": "VEC2"}, vertex="common/full_screen.vert.glsl")
-"""For `full_screen_triangle`"""
+"""The vertex shader of a `full_screen_triangle`"""
 
 
 def named(kind: str, *names: str) -> dict[str, str]:
@@ -112,7 +113,7 @@ def build_shader(label: str, *pieces: Piece) -> Any:
     del interface
     output.write_rest()
     if shader is None:
-        raise ShaderError(f"The shader {label} does not compile. {explain(output.errors, sources)}") from cause
+        raise ShaderError(f"the shader {label} does not compile: {explain(output.errors, sources)}") from cause
     return shader
 
 
@@ -171,7 +172,6 @@ def _add_sources(info: Any, pieces: tuple[Piece, ...]) -> dict[str, Source]:
 
 def _joined(pieces: Iterable[Piece], what: str) -> dict[str, Any]:
     """One of the pieces' mappings, in order."""
-    assert what in {known.name for known in fields(Piece)}
     result: dict[str, Any] = {}
     for piece in pieces:
         for name, value in getattr(piece, what).items():

@@ -292,8 +292,9 @@ class SceneGeometry:
         """Put instances of one kind into new chunks, with those of a chunk that is half empty."""
         wanted = sum(len(self.placed[index].drawn.triangles) for index in indices)
         members: dict[int, list[int]] = {}
+        packed = set(indices)
         for index, found in enumerate(self._where):
-            if found is not None and index not in indices and self._kind(index) == kind:
+            if found is not None and index not in packed and self._kind(index) == kind:
                 members.setdefault(id(found[0]), []).append(index)
         for chunk in list(self.chunks):
             if id(chunk) in members and chunk.triangle_count + wanted <= CHUNK_TRIANGLES:

@@ -25,6 +25,9 @@ SLIVER_SHARE = 1e-6
 INSIDE_SHARE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
 
+MOST_EYES = 8
+"""Places of the eye of which it is remembered whether a mirror holds them"""
+
 
 class Mirror:
     """A placed reflector and what has been baked of its shape."""
@@ -43,7 +46,8 @@ class Mirror:
         self._counters = Counter[str]() if counters is None else counters
         self._shapes: dict[int, BakedShape] = {}
         self._inner_radius: float | None = None
-        self._holds: tuple[bytes, bool] = (b"", False)
+        self._held: dict[bytes, bool] = {}
+        """By the eye in object space: whether the mesh holds it"""
 
     def follow(self, scene: SceneArrays, index: int, number: int) -> bool:
         """Be the instance `index` of another state of the scene; False where its shape is another one."""
@@ -136,19 +140,23 @@ class Mirror:
         if distance >= shape.bound:
             return False
         if shape.map is None:
-            return self.facts.is_closed and self._holds_point(view.eye)
+            return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.eye)[:3])
         if distance == 0.0:
             return True
         radius, _ = CubeMapSurface(shape.map.radial).radius(eye[None] / distance)
         return distance < float(radius[0])
 
-    def _holds_point(self, eye: Float64Array) -> bool:
-        """Whether a homogeneous point (4,) is inside; asked once for each point and place."""
-        key = eye.tobytes() + self._instance.matrix.tobytes()
-        if self._holds[0] != key:
-            place = np.linalg.solve(self._instance.matrix, eye)[:3]
-            self._holds = (key, holds_point(self.facts.mesh, place))
-        return self._holds[1]
+    def _mesh_holds(self, eye: Float64Array) -> bool:
+        """Whether the closed mesh holds a point (3,), object space.
+
+        All triangles are looked at for that: once for all sub-frames of a view, also where a few viewports take turns.
+        """
+        key = eye.tobytes()
+        if key not in self._held:
+            while len(self._held) >= MOST_EYES:
+                del self._held[next(iter(self._held))]
+            self._held[key] = holds_point(self.facts.mesh, eye)
+        return self._held[key]
 
     def window(self, view: View) -> tuple[int, int, int, int]:
         """x, y, width and height of pixels that hold all of the reflector's; the whole picture where it is near."""

@@ -84,14 +84,15 @@ def bake_parametric(
     if mesh.corner_uv is None or len(mesh.triangles) == 0:
         raise InputError(
             f'"{name}" has no UV map: unwrap it as one grid that fills the unit square, as a UV sphere is, or choose '
-            "another method."
+            "another method.",
+            instance.object_id,
         )
     uv = mesh.corner_uv.astype(np.float64)
     to_map = world_to_map @ instance.matrix
     positions = mesh.positions @ to_map[:3, :3].T + to_map[:3, 3]
     normals = unit(mesh.corner_normals @ np.linalg.inv(to_map[:3, :3]))
     corners = positions[mesh.corner_vertex]
-    _refuse_bad_uv(name, uv, mesh)
+    _refuse_bad_uv(instance, uv, mesh)
     poles = [_is_pole(mesh.corner_vertex, uv, axis) for axis in (0, 1)]
     du, dv = _tangents(corners, uv, mesh.corner_vertex, mesh.triangles)
     # f does not change with u, or v, there.
@@ -104,12 +105,14 @@ def bake_parametric(
     if overlap > MOST_OVERLAP:
         raise InputError(
             f'The UV map of "{name}" overlaps itself ({percent(overlap)} of the unit square): unwrap it so that every '
-            "point of the square belongs to one face, or choose another method."
+            "point of the square belongs to one face, or choose another method.",
+            instance.object_id,
         )
     if cover < LEAST_COVER:
         raise InputError(
             f'The UV map of "{name}" covers only {percent(cover)} of the unit square: unwrap it as one grid that fills '
-            "the square, as a UV sphere is, or choose another method."
+            "the square, as a UV sphere is, or choose another method.",
+            instance.object_id,
         )
     values = np.concatenate([layer[..., :3] for layer in layers], axis=-1).astype(np.float64)
     wraps = (_joins(values, hit, 0), _joins(values, hit, 1))
@@ -136,20 +139,25 @@ def bake_parametric(
     return ParametricMap(surface, cover)
 
 
-def _refuse_bad_uv(name: str, uv: Float64Array, mesh: MeshArrays) -> None:
+def _refuse_bad_uv(instance: InstanceArrays, uv: Float64Array, mesh: MeshArrays) -> None:
+    name = instance.object_name
     used = uv[mesh.triangles].reshape(-1, 2)
     if not np.isfinite(used).all():
-        raise InputError(f'The UV map of "{name}" has values that are not finite numbers: unwrap it anew.')
+        raise InputError(
+            f'The UV map of "{name}" has values that are not finite numbers: unwrap it anew.', instance.object_id
+        )
     if used.min() < -MOST_OVERLAP or used.max() > 1.0 + MOST_OVERLAP:
         raise InputError(
             f'The UV map of "{name}" reaches out of the unit square: scale it into the square, or choose another '
-            "method."
+            "method.",
+            instance.object_id,
         )
     islands = _islands(_groups(mesh.corner_vertex, uv)[mesh.triangles], _uv_areas(uv, mesh.triangles))
     if islands > 1:
         raise InputError(
             f'The UV map of "{name}" is in {islands} islands: unwrap it as one grid that fills the unit square, as a '
-            "UV sphere is, or choose another method."
+            "UV sphere is, or choose another method.",
+            instance.object_id,
         )
 
 
@@ -222,7 +230,8 @@ def _draw(attributes: list[Float64Array], triangles: Int32Array, resolution: int
     """Position, normal, du and dv, each (resolution, resolution, 4), of the mesh drawn in its UV map."""
     names = ("uv", "position", "normal", "du", "dv")
     batch = vertex_batch(dict(zip(names, attributes, strict=True)), triangles)
-    target = frame_buffer(*(empty_texture(resolution, resolution) for _ in range(4)))
+    textures = [empty_texture(resolution, resolution) for _ in range(4)]
+    target = frame_buffer(*textures)
     with target.bind(), drawing_state():
         set_viewport(0, 0, resolution, resolution)
         target.clear(color=(0.0, 0.0, 0.0, 0.0))

@@ -84,7 +84,8 @@ def bake_reflectors(
     chosen = [i for i, instance in enumerate(scene.instances) if instance.object_id == object_id]
     if not chosen:
         raise InputError(
-            f"The scene shows no mesh of the chosen reflector (object {object_id}): make it visible in renders."
+            f"The scene shows no mesh of the chosen reflector (object {object_id}): make it visible in renders.",
+            object_id,
         )
     return [bake_instance(scene, index, resolution, center, limits) for index in chosen]
 
@@ -103,7 +104,8 @@ def bake_reflector(
     maps = bake_reflectors(scene, object_id, resolution, center, limits)
     if len(maps) > 1:
         raise InputError(
-            f'"{maps[0].object_name}" is shown {len(maps)} times: choose one of its instances, or make it single.'
+            f'"{maps[0].object_name}" is shown {len(maps)} times: choose one of its instances, or make it single.',
+            object_id,
         )
     return maps[0]
 
@@ -140,7 +142,9 @@ def bake_placed(
     placed = _place(mesh, instance)
     corners = placed.triangle_positions()
     if (corners == corners[0, 0]).all():
-        raise InputError(f'"{placed.name}" is a single point: choose a mesh with a surface as reflector.')
+        raise InputError(
+            f'"{placed.name}" is a single point: choose a mesh with a surface as reflector.', instance.object_id
+        )
     if center is None:
         found = find_star_center(corners, np.zeros(3))
         origin, center_name = found.position, found.name
@@ -158,7 +162,9 @@ def bake_placed(
     hit = hits[..., 3] != 0.0
     if not hit.any():
         raise InputError(
-            f'"{placed.name}" is flat or has nothing around its star center: choose a closed, curved mesh as reflector.'
+            f'"{placed.name}" is flat or has nothing around its star center: choose a closed, curved mesh as '
+            "reflector.",
+            instance.object_id,
         )
     weights = _solid_angle_weights(resolution)
     # An inverted mesh turns its inside outwards all around: then that counts as the outside.
@@ -173,7 +179,7 @@ def bake_placed(
     radial = np.concatenate([radii[..., None], gradients], axis=-1)
     multiple_hits = float(weights[leaves_twice].sum())
     holes = float(weights[~hit].sum())
-    warnings = _refuse_or_warn(placed.name, multiple_hits, holes, limits)
+    warnings = _refuse_or_warn(instance, multiple_hits, holes, limits)
     if not hit.all():
         radial = fill_holes(radial, hit)
     radial = radial.astype(np.float32)
@@ -210,20 +216,9 @@ def bake_placed(
 def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
     """Check a mesh and scale it to metres, leaving out the instance's rotation and place."""
     name = instance.object_name
-    if len(mesh.triangles) == 0:
-        raise InputError(f'"{name}" has no faces: choose a mesh with a surface as reflector.')
-    if not np.isfinite(mesh.positions).all():
-        raise InputError(f'"{name}" has vertices that are not finite numbers: repair its mesh.')
-    if len(mesh.positions) and np.abs(mesh.positions).max() > LARGEST_COORDINATE:
-        raise InputError(f'"{name}" has vertices too far away to compute with: repair its mesh.')
-    if not np.isfinite(mesh.corner_normals).all():
-        raise InputError(f'"{name}" has normals that are not finite numbers: repair its mesh.')
     linear = np.asarray(instance.matrix[:3, :3], np.float64)
-    if not np.isfinite(instance.matrix).all():
-        raise InputError(f'"{name}" has a transform that is not finite: reset its location, rotation and scale.')
-    scales = np.linalg.svd(linear, compute_uv=False)
-    if scales[2] <= 1e-9 * scales[0]:
-        raise InputError(f'"{name}" is scaled to zero along an axis: give it a scale other than 0.')
+    if problem := _problem(mesh, instance.matrix):
+        raise InputError(f'"{name}" {problem}', instance.object_id)
     rotation, stretch = polar(linear)
     mirrored = bool(np.linalg.det(stretch) < 0.0)
     map_to_world = np.eye(4)
@@ -238,6 +233,24 @@ def _place(mesh: MeshArrays, instance: InstanceArrays) -> _PlacedMesh:
         corner_vertex=mesh.corner_vertex,
         triangles=mesh.triangles[:, ::-1] if mirrored else mesh.triangles,
     )
+
+
+def _problem(mesh: MeshArrays, matrix: Float64Array) -> str:
+    """Why a mesh cannot be baked where `matrix` (4, 4) puts it, said of it; nothing where it can."""
+    if len(mesh.triangles) == 0:
+        return "has no faces: choose a mesh with a surface as reflector."
+    if not np.isfinite(mesh.positions).all():
+        return "has vertices that are not finite numbers: repair its mesh."
+    if len(mesh.positions) and np.abs(mesh.positions).max() > LARGEST_COORDINATE:
+        return "has vertices too far away to compute with: repair its mesh."
+    if not np.isfinite(mesh.corner_normals).all():
+        return "has normals that are not finite numbers: repair its mesh."
+    if not np.isfinite(matrix).all():
+        return "has a transform that is not finite: reset its location, rotation and scale."
+    scales = np.linalg.svd(np.asarray(matrix[:3, :3], np.float64), compute_uv=False)
+    if scales[2] <= 1e-9 * scales[0]:
+        return "is scaled to zero along an axis: give it a scale other than 0."
+    return ""
 
 
 def polar(linear: Float64Array) -> tuple[Float64Array, Float64Array]:
@@ -269,18 +282,21 @@ def _gradients(
     return -(radii * slopes)[..., None] * sideways, outward, clamped
 
 
-def _refuse_or_warn(name: str, multiple_hits: float, holes: float, limits: Limits) -> tuple[str, ...]:
+def _refuse_or_warn(instance: InstanceArrays, multiple_hits: float, holes: float, limits: Limits) -> tuple[str, ...]:
+    name = instance.object_name
     twice = (
         f'"{name}" is not star-shaped ({percent(multiple_hits)} of directions from its center leave it more than once)'
     )
     open_ = f'"{name}" is open or not star-shaped ({percent(holes)} of directions from its center meet no surface)'
     if multiple_hits > limits.multiple_hits:
         raise InputError(
-            f"{twice}: split it into parts that are, or use its convex hull or a smoothed remesh as reflector."
+            f"{twice}: split it into parts that are, or use its convex hull or a smoothed remesh as reflector.",
+            instance.object_id,
         )
     if holes > limits.holes:
         raise InputError(
-            f"{open_}: fill its holes, split it into star-shaped parts, or use its convex hull as reflector."
+            f"{open_}: fill its holes, split it into star-shaped parts, or use its convex hull as reflector.",
+            instance.object_id,
         )
     warnings = []
     if multiple_hits > 0.5 * limits.multiple_hits:

@@ -26,8 +26,8 @@ from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
-from ..targets import Targets
 from ..vertices.solve import SolvedChunk, VertexSolution
+from .targets import Targets
 
 type Reflected = SurfaceBuffer | Sequence[Environment]
 """The reflected scene's surface buffer, or for each mirror the environment that stands for it"""

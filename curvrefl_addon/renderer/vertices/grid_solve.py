@@ -12,10 +12,10 @@ import numpy as np
 
 from ...scene.arrays import Float32Array
 from ..device.records import empty_record_texture, record_texture
-from ..device.shaders import Piece, build_shader, dispatch, named
+from ..device.shaders import Piece, dispatch, named, uniform_block
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
-from .solve import GROUP, SOLUTION, VertexSolution
+from .solve import GROUP, VertexSolution, build_solver, plain_block
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
@@ -46,9 +46,11 @@ class ChunkGrid:
         """Where the chunk's vertices reflect; `search` solves so many records of a texture of positions."""
         corners = search(chunk.place_points(self._sources, self.corner_count), self.corner_count)
         solution = VertexSolution(empty_record_texture(self._count), empty_record_texture(self._count), self._count)
+        # Bound by reference only: it has to outlive the dispatch.
+        uniforms = uniform_block(plain_block(self._count))
         shader = _interpolation_shader()
         shader.bind()
-        shader.uniform_int("count", self._count)
+        shader.uniform_block("solver", uniforms)
         textures = (
             self._cells,
             self._numbers,
@@ -66,12 +68,4 @@ class ChunkGrid:
 
 @cache
 def _interpolation_shader() -> Any:
-    return build_shader(
-        "bisector grid",
-        SOLUTION,
-        Piece(
-            samplers=named("FLOAT_2D", *_SAMPLERS),
-            constants={"count": "INT"},
-            compute="solvers/bisector_grid.comp.glsl",
-        ),
-    )
+    return build_solver("bisector_grid", "bisector grid", Piece(samplers=named("FLOAT_2D", *_SAMPLERS)))

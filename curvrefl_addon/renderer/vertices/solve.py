@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The vertex solve: a compute shader finds the reflection point of every position of a geometry.
 
-One shader file per method (`gpu_shaders/<method>.comp.glsl`) over `solver.glsl`; what of the reflector it reads is
-named in the catalogue and bound from here.
+A method is one function, `solve` of its shader file `gpu_shaders/solvers/<method>.comp.glsl`, between what all share:
+`solver.glsl` before it and `solver_main.glsl` after it. What of the reflector it reads is named in the catalogue and
+bound from here.
 """
 
 from __future__ import annotations
@@ -26,14 +27,13 @@ from ...scene.view import View
 from ..device.cubes import cube_texture
 from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.records import empty_index_texture, empty_record_texture, read_records, record_texture
-from ..device.shaders import Block, Image, Piece, build_shader, dispatch, named, uniform_block
+from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
+from ..device.uniform_struct import glsl_struct
 from ..geometry.chunk import Batches, Chunk
 
 GROUP = 64
 MOST_STRAGGLERS_AT_ONCE = 1 << 14
 """Invocations of a clean-up pass, which share whatever the first pass has left"""
-SAME_VIEW = 2
-"""Solver block's last count where the last frame had the same view: a vertex that has not moved keeps what it showed"""
 SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
     "radial": (("FLOAT_CUBE", "radial"),),
     "parametric": (
@@ -52,17 +52,25 @@ _BLOCK = np.dtype(
         ("world_to_map", "f4", (4, 4)),
         ("map_to_world", "f4", (4, 4)),
         ("map_to_search", "f4", (4, 4)),
-        ("eye", "f4", 4),
-        ("counts", "i4", 4),
-        ("screen", "f4", 4),
+        ("eye", "f4", 4),  # homogeneous, map frame
         ("plane", "f4", 4),
-        ("start", "f4", 4),
+        ("search_start", "f4", 2),
+        ("focal_pixels", "f4"),
+        ("tolerance", "f4"),  # pixels
+        ("bound", "f4"),
+        ("side", "f4"),
+        ("count", "i4"),
+        ("steps", "i4"),  # of the method's search
+        ("newton_steps", "i4"),  # of one descent at its end
+        ("has_last_frame", "i4"),
+        ("is_same_view", "i4"),  # as the last frame's: a vertex that has not moved keeps what it showed
+        ("is_convex", "i4"),
+        ("first_rung", "i4"),
+        ("region", "i4"),
+        ("unused", "i4", 2),
     ]
 )
-_TYPEDEF = (
-    "struct Solver { mat4 world_to_map; mat4 map_to_world; mat4 map_to_search; vec4 eye; ivec4 counts; vec4 screen; "
-    "vec4 plane; vec4 start; };"
-)
+"""The block `solver`, std140; fields without a word here are those of `Reflector`, or arguments of functions below"""
 
 
 @dataclass(frozen=True)
@@ -216,7 +224,8 @@ class PreparedSolve:
     ) -> None:
         """`block` of a solve without a last frame."""
         inputs = _inputs(method, block)
-        block["counts"][0, 3] = 0 if previous is None else SAME_VIEW if previous.inputs == inputs else 1
+        block["has_last_frame"] = previous is not None
+        block["is_same_view"] = previous is not None and previous.inputs == inputs
         self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
         """There once it has run"""
         self._method = method
@@ -263,8 +272,8 @@ def solve_region(
     tolerance: float = 0.05,
 ) -> VertexSolution:
     """Images of `count` records of `positions` in one region of a mirror that bends both ways; UNSOLVED is none."""
-    block = _solver_block(view, reflector, count, 0, tolerance)
-    block["start"] = (SEEDS, region, REGION_STEPS, 0)
+    block = _solver_block(view, reflector, count, REGION_STEPS, tolerance)
+    block["region"] = region
     solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
     # Bound by reference only: it has to outlive the dispatch.
     uniforms = uniform_block(block)
@@ -310,20 +319,30 @@ def _vertices_block(
 ) -> np.ndarray:
     """Of a solve by a method's own shader, without a last frame; see `solve_vertices`."""
     block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
-    block["start"] = (*reflector.start, first_rung, reflector.is_convex)
+    block["first_rung"] = first_rung
     return block
 
 
 def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tolerance: float) -> np.ndarray:
-    """All but `start`."""
-    block = np.zeros(1, _BLOCK)
+    """Of any solve, without what is special to one of them."""
+    block = plain_block(count)
     block["world_to_map"] = reflector.world_to_map.T
     block["map_to_world"] = np.linalg.inv(reflector.world_to_map).T
     block["map_to_search"] = reflector.map_to_search.T
     block["eye"] = reflector.world_to_map @ view.eye
-    block["counts"] = (count, steps, NEWTON_STEPS, 0)
-    block["screen"] = (view.focal_pixels, tolerance, reflector.bound, reflector.side)
     block["plane"] = reflector.plane
+    block["search_start"] = reflector.start
+    block["focal_pixels"], block["tolerance"] = view.focal_pixels, tolerance
+    block["bound"], block["side"], block["is_convex"] = reflector.bound, reflector.side, reflector.is_convex
+    block["steps"], block["newton_steps"] = steps, NEWTON_STEPS
+    return block
+
+
+def plain_block(count: int) -> np.ndarray:
+    """Of a solve of `count` vertices that asks nothing of eye and reflector; the map frame is the world."""
+    block = np.zeros(1, _BLOCK)
+    block["world_to_map"] = block["map_to_world"] = np.eye(4)
+    block["count"] = count
     return block
 
 
@@ -331,13 +350,14 @@ def _samplers(method: str) -> list[tuple[str, str]]:
     return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
 
 
-SOLUTION = Piece(
+_SOLVE = Piece(
     images={"reflection_points": Image(), "virtual_positions": Image()},
+    blocks={"solver": Block("Solver", glsl_struct("Solver", _BLOCK))},
     defines={"LARGEST_COORDINATE": LARGEST_COORDINATE},
     group=GROUP,
 )
-"""What shaders that fill a `VertexSolution` need"""
-_SOLVER = Piece(blocks={"solver": Block("Solver", _TYPEDEF)}, samplers={"positions": "FLOAT_2D"})
+_POSITIONS = Piece(samplers={"positions": "FLOAT_2D"})
+_MAIN = Piece(compute="solver_pieces/solver_main.glsl")
 _STRAGGLERS = Piece(
     images={
         "stragglers": Image("R32UI", "UINT_2D", is_read=True),
@@ -346,29 +366,21 @@ _STRAGGLERS = Piece(
 )
 
 
+def build_solver(name: str, label: str, *pieces: Piece) -> Any:
+    """The shader around `solve` of `gpu_shaders/solvers/<name>.comp.glsl`, which needs these pieces."""
+    return build_shader(label, _SOLVE, *pieces, Piece(compute=f"solvers/{name}.comp.glsl"), _MAIN)
+
+
 @cache
 def _solver_shader(name: str, method: str) -> Any:
     """`gpu_shaders/solvers/<name>.comp.glsl` with what `method` gives its shaders."""
-    return build_shader(
-        f"{name} of {method}",
-        _SOLVER,
-        SOLUTION,
-        *((_STRAGGLERS,) if METHODS[method].stragglers else ()),
-        Piece(
-            samplers={sampler: kind for kind, sampler in _samplers(method)},
-            compute=f"solvers/{name}.comp.glsl",
-        ),
-    )
+    pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(method)})]
+    if METHODS[method].stragglers:
+        pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
+    return build_solver(name, f"{name} of {method}", *pieces)
 
 
 @cache
 def _region_shader() -> Any:
-    return build_shader(
-        "newton region",
-        _SOLVER,
-        SOLUTION,
-        Piece(
-            samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"},
-            compute="solvers/newton_region.comp.glsl",
-        ),
-    )
+    maps = Piece(samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"})
+    return build_solver("newton_region", "newton region", _POSITIONS, maps)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from heapq import heappop, heappush
 
 import bpy
 import numpy as np
@@ -50,6 +51,8 @@ class MeshStore:
         """How many meshes have been read"""
         self._stored: dict[_Key, StoredMesh] = {}
         self._used: set[_Key] = set()
+        self._free: list[int] = []
+        """Numbers of `EMPTY` meshes, a heap"""
         self._replaced: dict[int, MeshArrays] = {}
         """By signature, arrays that were dropped since the last walk"""
 
@@ -100,12 +103,12 @@ class MeshStore:
         return reading.mesh, reading.dropped, tuple(warnings)
 
     def _number(self, arrays: MeshArrays) -> int:
-        """A free number for these arrays, or for the same ones as they were before."""
+        """The lowest free number for these arrays, or for the same ones as they were before."""
         arrays = self._replaced.get(arrays.signature, arrays)
-        for number, known in enumerate(self.meshes):
-            if known is EMPTY:
-                self.meshes[number] = arrays
-                return number
+        if self._free:
+            number = heappop(self._free)
+            self.meshes[number] = arrays
+            return number
         self.meshes.append(arrays)
         return len(self.meshes) - 1
 
@@ -114,6 +117,7 @@ class MeshStore:
         arrays = self.meshes[stored.number]
         self._replaced[arrays.signature] = arrays
         self.meshes[stored.number] = EMPTY
+        heappush(self._free, stored.number)
 
 
 def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import colorsys
 import importlib.util
 import os
 import tempfile
@@ -14,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ...diagnostic_colors import GOLDEN_RATIO
 from ...errors import InputError
 from ...optics.catalogue import METHODS
 from ...report.table import milliseconds
@@ -36,7 +38,7 @@ STYLES: dict[str, tuple[str, str]] = {
     "environment_sphere": ("#AA4499", "h"),
     "environment_parallax": ("#3399DD", "p"),
 }
-_OTHER = ("#AA7744", "*")
+_MORE_MARKERS = ("8", "D", "s", "^", "v", "o")
 _PEERS = {"eevee": ("EEVEE, ray tracing", "X"), "cycles": ("Cycles", "d")}
 _PEER_COLOR = "#777777"
 _FRONT_COLOR = "#BBBBBB"
@@ -50,6 +52,15 @@ MISSING_MATPLOTLIB = (
     "The charts need the Python package 'matplotlib', which this Python lacks: install it there, for example with "
     "'python -m pip install matplotlib'."
 )
+
+
+def method_style(name: str) -> tuple[str, str]:
+    """Color and marker of a method of the catalogue; one without an entry in STYLES gets its own by its place there."""
+    if name in STYLES:
+        return STYLES[name]
+    place = list(METHODS).index(name)
+    rgb = colorsys.hls_to_rgb(place * GOLDEN_RATIO % 1.0, 0.35, 0.6)
+    return "#" + "".join(f"{round(255 * channel):02X}" for channel in rgb), _MORE_MARKERS[place % len(_MORE_MARKERS)]
 
 
 def has_matplotlib() -> bool:
@@ -95,7 +106,7 @@ def draw_vertex_count(curves: Sequence[Curve], headline: str, folder: Path) -> N
         for curve in curves:
             if not curve.counts:
                 continue
-            color, marker = STYLES.get(curve.method, _OTHER)
+            color, marker = method_style(curve.method)
             median = np.array([timing.median for timing in curve.timings])
             spread = np.array([[t.median - t.low, t.high - t.median] for t in curve.timings]).T
             panel.errorbar(
@@ -137,9 +148,7 @@ def _draw_panel(panel: Any, level: Level, marks: Sequence[Mark]) -> None:
         same = [mark for mark in marks if mark.name == name and point(level, mark) is not None]
         if not same:
             continue
-        color, marker = STYLES.get(name, _OTHER)
-        if same[0].is_peer:
-            color, marker = _PEER_COLOR, _PEERS[name][1]
+        color, marker = (_PEER_COLOR, _PEERS[name][1]) if same[0].is_peer else method_style(name)
         places = np.array([point(level, mark) for mark in same])
         times, errors = places[:, 0], np.maximum(places[:, 1], level.smallest)
         alpha = 1.0 if any(level.may_lead(mark) for mark in same) else FADED
@@ -198,7 +207,7 @@ def _method_handle(name: str, marks: Sequence[Mark]) -> Any:
 
     method = METHODS[name]
     field, values = method.sweep
-    color, marker = STYLES.get(name, _OTHER)
+    color, marker = method_style(name)
     varied = f"{field.replace('_', ' ')} {values[0]:g} to {values[-1]:g}" if len(values) > 1 else "no setting"
     return Line2D([], [], color=color, marker=marker, markersize=7, linewidth=0.9, label=f"{method.label}\n{varied}")
 

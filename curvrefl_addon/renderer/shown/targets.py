@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .environments.vertex_lookups import VertexLookups
-from .rays.paths import PathBuffer
-from .surfaces.surface_buffer import SurfaceBuffer
-from .vertices.back_faces import BackFaces
+from ..environments.vertex_lookups import VertexLookups
+from ..rays.paths import PathBuffer
+from ..surfaces.surface_buffer import SurfaceBuffer
+from ..vertices.back_faces import BackFaces
 
 
 @dataclass

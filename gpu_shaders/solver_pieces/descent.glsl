@@ -1,22 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Safeguarded Newton descent on the path length; mirrors optics/solvers/descent.py step for step.
-#include "solvers/fermat.glsl"
-#include "solvers/guess.glsl"
-
-#define DIFFERENCE 1e-2
-#define FLATTEST 1e-5
-#define LONGEST_NEWTON_STEP 0.5
-#define TRIALS 6
-#define SHORTENING 0.35
-#define SUFFICIENT 1e-4
-#define ROUNDING 2e-7
-#define CONTRACTION 0.7
-#define SLACKENED 0.98
-#define AT_REST 0.2
-#define LEFT_OVER 0.1
-#define QUADRATIC 0.5
-#define NEARNESS 0.5
+#include "solver_pieces/fermat.glsl"
+#include "solver_pieces/guess.glsl"
+#from optics.solvers.descent import DIFFERENCE, FLATTEST, LONGEST_STEP as LONGEST_NEWTON_STEP, TRIALS, SHORTENING
+#from optics.solvers.descent import SUFFICIENT, ROUNDING, CONTRACTION, SLACKENED, AT_REST, LEFT_OVER, QUADRATIC
+#from optics.solvers.descent import NEARNESS
 
 // (P_i . P_j - (P_i . t) (P_j . t)) / d for xx, xy, yy.
 vec3 leg_derivative(vec3 moved_1, vec3 moved_2, vec3 t, float distance_to_end)
@@ -78,7 +67,8 @@ vec3 newton_step(vec3 derivative, vec3 g, vec3 first, vec3 second)
   }
   float x = dot(g, first);
   float y = dot(g, second);
-  return -((derivative.z * x - derivative.y * y) * first + (derivative.x * y - derivative.y * x) * second) / determinant;
+  return -((derivative.z * x - derivative.y * y) * first + (derivative.x * y - derivative.y * x) * second) /
+         determinant;
 }
 
 // Descends from u; returns whether it converged and adds its steps to `iterations`. With `any_kind` to a zero of the

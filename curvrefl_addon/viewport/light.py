@@ -17,7 +17,7 @@ from ..scene.materials.images import ImageReader
 
 
 @dataclass(frozen=True, slots=True)
-class Environment:
+class ViewportLight:
     """Where a viewport's light comes from; equal ones light alike."""
 
     scene_lights: bool = True
@@ -30,72 +30,72 @@ class Environment:
     """About Z, radians"""
 
 
-def environment_of(space: bpy.types.SpaceView3D, settings: Any) -> Environment:
-    """The environment that `Scene.curvrefl` chooses for a viewport."""
+def light_of(space: bpy.types.SpaceView3D, settings: Any) -> ViewportLight:
+    """The light that `Scene.curvrefl` chooses for a viewport."""
     if settings.environment == "IMAGE":
         image = settings.environment_image
         if image is None:
-            return Environment()
-        return Environment(
+            return ViewportLight()
+        return ViewportLight(
             image=image.session_uid,
             strength=settings.environment_strength,
             rotation=settings.environment_rotation,
         )
     shading = space.shading
     if settings.environment == "SCENE" or shading.type == "SOLID":
-        return Environment()
+        return ViewportLight()
     is_rendered = shading.type == "RENDERED"
     scene_lights = shading.use_scene_lights_render if is_rendered else shading.use_scene_lights
     scene_world = shading.use_scene_world_render if is_rendered else shading.use_scene_world
     light = shading.selected_studio_light
     if scene_world or light is None or light.type != "WORLD":
-        return Environment(scene_lights)
-    return Environment(
+        return ViewportLight(scene_lights)
+    return ViewportLight(
         scene_lights, light.path, strength=shading.studiolight_intensity, rotation=shading.studiolight_rotate_z
     )
 
 
-class EnvironmentLights:
-    """Puts environments in place of a scene's own light; keeps the pictures it has read."""
+class LightReader:
+    """Puts the light of a viewport in place of a scene's own; keeps the pictures it has read."""
 
     def __init__(self) -> None:
         self._files: dict[str, Float32Array] = {}
         self._images = ImageReader()
-        self._worlds: dict[Environment, WorldArrays] = {}
+        self._worlds: dict[ViewportLight, WorldArrays] = {}
 
-    def lit(self, scene: SceneArrays, environment: Environment) -> SceneArrays:
+    def lit(self, scene: SceneArrays, light: ViewportLight) -> SceneArrays:
         """The scene in this light. Raises InputError where its picture cannot be read."""
-        lights = scene.lights if environment.scene_lights else ()
-        if not environment.path and not environment.image:
-            return scene if lights is scene.lights else replace(scene, lights=lights)
-        if environment not in self._worlds:
-            pixels = self._pixels(environment)
-            strength = environment.strength
-            self._worlds[environment] = WorldArrays((strength,) * 3, pixels, _about_z(environment.rotation))
-        return replace(scene, lights=lights, world=self._worlds[environment])
+        lamps = scene.lights if light.scene_lights else ()
+        if not light.path and not light.image:
+            return scene if lamps is scene.lights else replace(scene, lights=lamps)
+        if light not in self._worlds:
+            pixels = self._pixels(light)
+            strength = light.strength
+            self._worlds[light] = WorldArrays((strength,) * 3, pixels, _about_z(light.rotation))
+        return replace(scene, lights=lamps, world=self._worlds[light])
 
     def forget_images(self, images: set[int]) -> None:
         """These images (session_uid) changed."""
         self._images.forget(images)
-        for environment in [key for key in self._worlds if key.image in images]:
-            del self._worlds[environment]
+        for light in [key for key in self._worlds if key.image in images]:
+            del self._worlds[light]
 
-    def keep(self, environments: set[Environment]) -> None:
+    def keep(self, lights: set[ViewportLight]) -> None:
         """Let go of all others."""
-        self._worlds = {key: world for key, world in self._worlds.items() if key in environments}
-        paths = {environment.path for environment in environments}
+        self._worlds = {key: world for key, world in self._worlds.items() if key in lights}
+        paths = {light.path for light in lights}
         self._files = {path: pixels for path, pixels in self._files.items() if path in paths}
 
-    def _pixels(self, environment: Environment) -> Float32Array:
+    def _pixels(self, light: ViewportLight) -> Float32Array:
         """(height, width, 3) scene-linear, row 0 at the bottom."""
-        if environment.image:
+        if light.image:
             for image in bpy.data.images:
-                if image.session_uid == environment.image:
+                if image.session_uid == light.image:
                     return np.ascontiguousarray(self._images.read(image)[..., :3])
             raise InputError("The environment's image is gone: choose another under Environment.")
-        if environment.path not in self._files:
-            self._files[environment.path] = _read_file(environment.path)
-        return self._files[environment.path]
+        if light.path not in self._files:
+            self._files[light.path] = _read_file(light.path)
+        return self._files[light.path]
 
 
 def _read_file(path: str) -> Float32Array:
@@ -127,6 +127,6 @@ def _unreadable(path: str) -> InputError:
 
 
 def _about_z(angle: float) -> Float64Array:
-    """(3, 3) from world to image directions of an environment turned by `angle`."""
+    """(3, 3) from world to image directions of an light turned by `angle`."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // First point where the segment from the eye to a vertex enters the reflector; mirrors optics/solvers/pierce.py.
-#include "solvers/fermat.glsl"
-
-#define MARCH_STEPS 24
-#define BISECTIONS 14
+#include "solver_pieces/fermat.glsl"
+#from optics.solvers.pierce import MARCH_STEPS, BISECTIONS
 
 float height_over_surface(vec3 point)
 {

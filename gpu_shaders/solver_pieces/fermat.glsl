@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fermat's principle on the radial map; mirrors optics/fermat.py. The eye is homogeneous: w = 0 is at infinity.
-#include "solvers/radial_map.glsl"
+#include "solver_pieces/radial_map.glsl"
 
 vec3 path_gradient(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at)
 {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bisector condition of Estalella et al. (2005, section 4.2): at the reflection point the bisector of the directions
-// to the eye and to the vertex is the normal. Whoever includes this defines LARGEST_MISS: radians between bisector and
-// normal from which on the end of a search is no reflection point.
-#include "solvers/solver.glsl"
+// The bisector condition of Estalella et al. (2005, section 4.2): at the reflection point the bisector of the
+// directions to the eye and to the vertex is the normal. Whoever includes this defines LARGEST_MISS: radians between
+// bisector and normal from which on the end of a search is no reflection point.
+#include "solver_pieces/solver.glsl"
 
 struct Bisector {
   vec3 point;
@@ -11,9 +11,9 @@ struct Bisector {
   vec3 bisector;
 };
 
-// A vertex behind the tangent plane takes part as its mirror image in that plane (2005, section 6.1; 2006, section 5.1):
-// the inverse search. V' = R + 2 N ((V - R) . N) - (V - R) is its image about the normal line; what the eye would have to
-// see of it lies on the other side of the plane.
+// A vertex behind the tangent plane takes part as its mirror image in that plane (2005, section 6.1; 2006, section
+// 5.1): the inverse search. V' = R + 2 N ((V - R) . N) - (V - R) is its image about the normal line; what the eye
+// would have to see of it lies on the other side of the plane.
 vec3 seen_vertex(vec3 vertex, vec3 point, vec3 normal, bool inverse)
 {
   return inverse ? vertex - 2.0 * dot(vertex - point, normal) * normal : vertex;
@@ -52,20 +52,14 @@ bool is_miss(Bisector b)
 }
 
 // Forward search first, then the inverse one where the vertex is behind the tangent plane it ended at.
-void store_bisector(int index, int iterations, vec3 vertex, Bisector b, bool inverse)
+Solved as_bisector(int iterations, vec3 vertex, Bisector b, bool inverse)
 {
+  if (is_miss(b)) {
+    return as_unsolved(iterations, vertex, b.point);
+  }
   if (inverse) {
-    if (is_miss(b)) {
-      store_unsolved(index, iterations, vertex, b.point);
-    }
-    else {
-      store_hidden(index, iterations, vertex, b.point, b.normal);
-    }
+    return as_hidden(iterations, vertex, b.point, b.normal);
   }
-  else if (is_miss(b) || !sees_eye(solver.eye, b)) {
-    store_unsolved(index, iterations, vertex, b.point);
-  }
-  else {
-    store_reflected(index, iterations, vertex, b.point);
-  }
+  return sees_eye(solver.eye, b) ? as_reflected(iterations, vertex, b.point) :
+                                   as_unsolved(iterations, vertex, b.point);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reflector as textures of its parameters; mirrors `SampledMap` of optics/solvers/secant_uv.py. Needs the samplers (FLOAT_2D)
-// `surface_point`, `surface_du`, `surface_dv` and (FLOAT_CUBE) `uv_of_direction` (renderer/mirrors/parametric_map.py).
+// The reflector as textures of its parameters; mirrors `SampledMap` of optics/solvers/secant_uv.py. Needs the samplers
+// (FLOAT_2D) `surface_point`, `surface_du`, `surface_dv` and (FLOAT_CUBE) `uv_of_direction`
+// (renderer/mirrors/parametric_map.py).
 #include "common/vectors.glsl"
 
 struct ParametricSample {

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the descents of `newton` start, and how they end; mirrors optics/solvers/newton.py. Needs the sampler `radial`.
-#include "solvers/solver.glsl"
-#include "solvers/descent.glsl"
-#include "solvers/pierce.glsl"
-
-#define SPHERE_ROUNDS 3
-#define SMALLEST_HEIGHT 1e-6
-#define STRAIGHT 0.05
+// Where the descents of `newton` start, and how they end; mirrors optics/solvers/newton.py. Needs the sampler
+// `radial`.
+#include "solver_pieces/solver.glsl"
+#include "solver_pieces/descent.glsl"
+#include "solver_pieces/pierce.glsl"
+#from optics.solvers.newton import SPHERE_ROUNDS, SMALLEST_HEIGHT, STRAIGHT
 
 // Incidence at angle x from an end that is `over` radii over a sphere, and its derivative.
 vec2 incidence(float x, float over)
@@ -45,7 +43,7 @@ vec3 sphere_guess(vec4 eye, vec3 vertex)
 
 vec3 first_guess(vec4 eye, vec3 vertex)
 {
-  return solver.screen.w < 0.0 ? on_hollow_side(eye, vertex, guess_between(eye, vertex)) : sphere_guess(eye, vertex);
+  return solver.side < 0.0 ? on_hollow_side(eye, vertex, guess_between(eye, vertex)) : sphere_guess(eye, vertex);
 }
 
 // Whether the path by way of a point is the straight segment, which pierces the mirror there.
@@ -60,23 +58,17 @@ float length_to(vec3 vertex, vec3 world_point)
 }
 
 // `world_point` has been rounded as it is stored: a point that stays where it is keeps the bits of all that is stored.
-void store_at(int index, int status, int iterations, vec3 vertex, vec3 world_point, vec3 virtual_position)
-{
-  ivec2 texel = texel_of_record(index);
-  imageStore(reflection_points, texel, vec4(world_point, float(status + 4 * iterations)));
-  imageStore(virtual_positions, texel, vec4(in_world(virtual_position), length_to(vertex, world_point)));
-}
-
-void store_reflected_at(int index, int iterations, vec3 vertex, vec3 world_point)
+Solved as_reflected_at(int iterations, vec3 vertex, vec3 world_point)
 {
   vec3 point = in_map(world_point);
-  vec3 virtual_position = point - length_to(vertex, world_point) * towards_eye(solver.eye, point);
-  store_at(index, REFLECTED, iterations, vertex, world_point, virtual_position);
+  float length_to_vertex = length_to(vertex, world_point);
+  vec3 virtual_position = point - length_to_vertex * towards_eye(solver.eye, point);
+  return Solved(REFLECTED, iterations, world_point, in_world(virtual_position), length_to_vertex);
 }
 
-// Of a vertex that the mirror hides (see `store_hidden`).
-void store_hidden_at(int index, int iterations, vec3 vertex, vec3 world_point, vec3 normal)
+// Of a vertex that the mirror hides (see `as_hidden`).
+Solved as_hidden_at(int iterations, vec3 vertex, vec3 world_point, vec3 normal)
 {
   vec3 mirrored = vertex - 2.0 * dot(normal, vertex - in_map(world_point)) * normal;
-  store_at(index, HIDDEN, iterations, vertex, world_point, mirrored);
+  return Solved(HIDDEN, iterations, world_point, in_world(mirrored), length_to(vertex, world_point));
 }

@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the pictures of the documents, docs/images: all of them, or those named.
+
+    ./curvrefl images [NAME ..]
+
+Pictures of the window are taken in the session that tests/gui/test_interface.py plays, so they need what the tests of
+layer gui need, and ImageMagick there. All of them together take about two hours on two cores without a GPU.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+ROOT = Path(__file__).resolve().parent.parent
+IMAGES_FOLDER = ROOT / "docs" / "images"
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "gui")]
+
+import bootstrap  # noqa: E402
+
+bootstrap.load_package()
+
+from curvrefl.curvrefl_addon.errors import InputError  # noqa: E402
+from curvrefl.curvrefl_addon.output import folder_to_publish  # noqa: E402
+
+QUALITY = 88
+VIEW = (0, 28, 1050, 720)
+"""The 3D view in the session's window of 1280 x 800: left, top, right, bottom in pixels"""
+POPUP = (80, 160, 440, 480)
+"""Where the session opens panels in it"""
+DEMO_SIZE = (560, 420)
+"""Of each of the three pictures of the demo"""
+VIEWS = ("iterations", "status", "angle_error", "method", "zebra", "lines")
+CHARTED = ("sphere", "ellipsoid", "bumpy")
+type Maker = Callable[[Path, Path], None]
+"""Writes a picture out of a folder of results: (results, picture)"""
+
+
+class Picture(NamedTuple):
+    """How a picture of the documents comes about."""
+
+    results: str
+    """The key in RESULTS of what it is made from"""
+    make: Maker
+
+
+def _strip(results: Path, picture: Path) -> None:
+    """Curvrefl, Cycles and EEVEE side by side."""
+    _save_grid([results / f"{name}.png" for name in ("auto", "reference", "eevee")], 3, None, DEMO_SIZE, picture)
+
+
+def _views(results: Path, picture: Path) -> None:
+    """All diagnostic views, at half their size."""
+    size = ((VIEW[2] - VIEW[0]) // 2, (VIEW[3] - VIEW[1]) // 2)
+    _save_grid([results / f"show_{name}.png" for name in VIEWS], 2, VIEW, size, picture)
+
+
+def _cut(name: str, box: tuple[int, int, int, int]) -> Maker:
+    """A part of one picture of the window."""
+    size = (box[2] - box[0], box[3] - box[1])
+    return lambda results, picture: _save_grid([results / f"{name}.png"], 1, box, size, picture)
+
+
+def _copied(results: Path, picture: Path) -> None:
+    picture.write_bytes((results / picture.name).read_bytes())
+
+
+def _drawn_stability(results: Path, picture: Path) -> None:
+    _run(str(ROOT / "tools" / "draw_stability.py"), str(results), str(picture))
+
+
+def _save_grid(
+    paths: Sequence[Path], columns: int, box: tuple[int, int, int, int] | None, size: tuple[int, int], picture: Path
+) -> None:
+    """Pictures of one `size` in pixels, cut to `box` first, in rows of `columns`."""
+    from PIL import Image
+
+    rows = -(-len(paths) // columns)
+    grid = Image.new("RGB", (columns * size[0], rows * size[1]))
+    for number, path in enumerate(paths):
+        if not path.is_file():
+            raise InputError(f"There is no {path.name}: taking pictures of the window needs ImageMagick.")
+        with Image.open(path) as opened:
+            part = opened.convert("RGB").crop(box) if box else opened.convert("RGB")
+        row, column = divmod(number, columns)
+        grid.paste(part.resize(size, Image.Resampling.LANCZOS), (column * size[0], row * size[1]))
+    grid.save(picture, quality=QUALITY)
+
+
+def _demo(folder: Path) -> None:
+    _verb("demo", "--output", str(folder))
+
+
+def _window(folder: Path) -> None:
+    """Pictures of the window, by the session of the tests."""
+    import build_extension
+    from curvrefl.curvrefl_addon.demo.scene import build_demo
+    from window import run_session
+    from window_blender import NoWindowBlenderError, find_or_make
+
+    try:
+        blender = find_or_make()
+    except NoWindowBlenderError as error:
+        raise InputError(f"There is no Blender that opens a window: {str(error).rstrip('.')}.") from error
+    (folder / "zip").mkdir()
+    archive = build_extension.build(folder / "zip")
+    build_demo(folder / "demo.blend")
+    session = ROOT / "tests" / "gui" / "interface_session.py"
+    flags = ("--enable-event-simulate",)
+    found = run_session(blender, session, folder, archive, folder / "demo.blend", folder, flags=flags)
+    if found.seen["error"]:
+        raise RuntimeError(found.seen["error"])
+
+
+def _chart(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), *CHARTED)
+    files = [str(folder / f"{name}.blend") for name in CHARTED]
+    _verb("chart", *files, "--reflector", "Mirror", "--resolution", "640x480", "--output", str(folder))
+
+
+def _stability(folder: Path) -> None:
+    _verb("stability", "--output", str(folder))
+
+
+def _methods(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure_methods.py"), "--output", str(folder))
+
+
+def _verb(*arguments: str) -> None:
+    _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
+
+
+def _run(*arguments: str) -> None:
+    subprocess.run([sys.executable, *arguments], cwd=ROOT, check=True)
+
+
+RESULTS: dict[str, Callable[[Path], Any]] = {
+    "demo": _demo,
+    "window": _window,
+    "chart": _chart,
+    "stability": _stability,
+    "methods": _methods,
+}
+"""What pictures are made from: each fills a folder"""
+
+IMAGES: dict[str, Picture] = {
+    "demo.jpg": Picture("demo", _strip),
+    "viewport.jpg": Picture("window", _cut("sidebar", VIEW)),
+    "panel_mirror.jpg": Picture("window", _cut("panel_mirror", POPUP)),
+    "panel_quality.jpg": Picture("window", _cut("panel_quality", POPUP)),
+    "panel_tools.jpg": Picture("window", _cut("panel_tools", POPUP)),
+    "diagnostics.jpg": Picture("window", _views),
+    "trace.jpg": Picture("window", _cut("trace", VIEW)),
+    "chart.png": Picture("chart", _copied),
+    "vertex_count.png": Picture("chart", _copied),
+    "stability.jpg": Picture("stability", _drawn_stability),
+    "methods.png": Picture("methods", _copied),
+}
+"""The pictures of the documents by their names in docs/images"""
+
+
+def make(names: Sequence[str], folder: Path = IMAGES_FOLDER) -> None:
+    """Make these pictures; they come into `folder` together at the end. Raises InputError for an unknown name."""
+    for name in names:
+        if name not in IMAGES:
+            raise InputError(f'There is no picture "{name}": choose from {", ".join(IMAGES)}.')
+    with tempfile.TemporaryDirectory() as work, folder_to_publish(folder) as part:
+        for key in dict.fromkeys(IMAGES[name].results for name in names):
+            results = Path(work) / key
+            results.mkdir()
+            RESULTS[key](results)
+        for name in names:
+            IMAGES[name].make(Path(work) / IMAGES[name].results, part / name)
