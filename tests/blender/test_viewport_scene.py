@@ -225,9 +225,10 @@ def test_the_legend_names_the_methods_of_the_picture(
     monkeypatch.setattr(handlers, "draw_legend", lambda legend, _context: drawn.append(legend))
     monkeypatch.setattr(handlers._state, "pictures", {1: picture})
     handlers._draw_legend(SimpleNamespace(scene=bpy.context.scene, region=region))  # type: ignore[arg-type]
-    assert picture._canvas is not None
+    assert picture._canvas is not None and picture._reflection is not None
     shown = read_texture(picture._canvas.texture)
-    used = renderer.choice.settings.method if renderer.choice is not None else method
+    choice = picture._reflection.choice
+    used = choice.mirrors[0].method if choice is not None else method
     assert used != "auto"
     (color, label), (background, _) = drawn[0].swatches
     assert label == METHODS[used].label
