@@ -45,6 +45,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.materials import TABLE, Materials
 from curvrefl.curvrefl_addon.renderer.surfaces.primary import draw_primary  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import VIEW, view_block  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import Found, MirrorSolver  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Int32Array, MeshArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
@@ -120,19 +121,25 @@ class Footprints:
         self.triangles = 0
         """It had, after splitting"""
         self._renderer, self._materials = renderer, materials
+        self._solver = MirrorSolver(renderer.mirrors[0])
+        self._found: Found | None = None
+        """In the picture before, where solving starts"""
         self._known: dict[int, tuple[Chunk, _Topology, _Middles]] = {}
 
     def draw(self, target: SurfaceBuffer, seen: SurfaceBuffer, view: View, uniforms: Any) -> None:
         """Fill `target` with what the mirror shows at the pixels where `seen` has it."""
         renderer, mirror = self._renderer, self._renderer.mirrors[0]
-        renderer.geometry.refine([mirror.sight(view, SPLIT)])
+        shape = mirror.shape(renderer.settings.map_resolution)
+        renderer.geometry.refine([mirror.sight(view, SPLIT, shape)])
         scenery = renderer.geometry.scenery(mirror.index)
         before, self._known = self._known, {}
         for chunk, _ in scenery:
             self._known[id(chunk)] = self._follow(chunk, before)
         middles: list[Any] = [(self._known[id(chunk)][2], ()) for chunk, _ in scenery]
         own = renderer.geometry.of_instance(mirror.index)
-        solved = mirror.solve(view, renderer.settings, [*scenery, *middles], own, self._materials)
+        solved, self._found = self._solver.solve(
+            view, renderer.settings, [*scenery, *middles], own, self._materials, self._found
+        )
         corner_parts, middle_parts = solved[: len(scenery)], solved[len(scenery) :]
         window = mirror.window(view)
         boxes = [
@@ -153,7 +160,7 @@ class Footprints:
             shader.uniform_block("view", uniforms)
             shader.uniform_float("screen", (target.width, target.height))
             shader.uniform_float("mirror", float(mirror.number))
-            shader.uniform_float("depth_scale", mirror.bound)
+            shader.uniform_float("depth_scale", shape.bound)
             shader.uniform_sampler("materials", self._materials.table)
             shader.uniform_sampler("mirror_position", seen.position)
             shader.uniform_sampler("mirror_normal", seen.normal)

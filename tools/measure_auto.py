@@ -21,7 +21,6 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from time import process_time
-from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -48,13 +47,12 @@ def solving_settings(arrays: SceneArrays, settings: Settings, view: View) -> Set
     before, choices.MOST_SHARE = choices.MOST_SHARE, 1e9
     try:
         renderer = Renderer(arrays, settings)
-        renderer.render(view)
-        chosen = renderer.choice
+        chosen = renderer.render(view).reflection.choice
         renderer.free()
     finally:
         choices.MOST_SHARE = before
     assert chosen is not None
-    return chosen.settings
+    return chosen.mirrors[0].settings
 
 
 def measure(name: str, arrays: SceneArrays, view: View, settings: Settings, rounds: int) -> None:
@@ -67,25 +65,28 @@ def measure(name: str, arrays: SceneArrays, view: View, settings: Settings, roun
     times: dict[str, list[float]] = {method: [] for method in renderers}
     order = list(renderers)
     try:
-        for renderer in renderers.values():
+        frames = {}
+        for method, renderer in renderers.items():
             renderer.render(view)
             renderer.settle()
-            renderer.render(view)
+            frames[method] = renderer.render(view)
         for _ in range(rounds):
             random.shuffle(order)
             for method in order:
                 start = process_time()
                 renderers[method].render(view)
                 times[method].append(1e3 * (process_time() - start))
-        chosen: Any = renderers["auto"].choice
+        choice = frames["auto"].reflection.choice
     finally:
         for renderer in renderers.values():
             renderer.free()
     medians = {method: median(found) for method, found in times.items()}
     best = min((method for method in medians if method != "auto"), key=medians.__getitem__)
+    assert choice is not None
+    (chosen,) = choice.mirrors
     share = SHARE.search(chosen.why)
     print(
-        f"{name:12} {view.width}x{view.height}: auto took {chosen.settings.method}, {medians['auto']:.0f}; "
+        f"{name:12} {view.width}x{view.height}: auto took {chosen.method}, {medians['auto']:.0f}; "
         + ", ".join(f"{method} {medians[method]:.0f}" for method in medians if method != "auto")
         + f"; auto over the best ({best}) {medians['auto'] / medians[best]:.2f}"
         + (f"; model {share.group(1)}" if share else f"; {chosen.why}"),

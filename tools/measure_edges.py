@@ -45,6 +45,7 @@ from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.mirrors.baked_shape import BakedShape  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
@@ -75,9 +76,9 @@ WAYS = {"bound": (1.0, False), "bound, midpoints": (1.0, True), "midpoints alone
 class Judge:
     """Reflection points in one view by `newton`, better than anything that is measured."""
 
-    def __init__(self, mirror: Mirror, view: View) -> None:
+    def __init__(self, mirror: Mirror, shape: BakedShape, view: View) -> None:
         self.view = view
-        self._reflector = Reflector(mirror.world_to_map, mirror.bound, {"radial": mirror.radial}, mirror.side(view))
+        self._reflector = Reflector(shape.world_to_map, shape.bound, {"radial": shape.radial}, mirror.side(view, shape))
 
     def points(self, places: Float64Array, start: Float64Array | None = None) -> tuple[Float64Array, np.ndarray]:
         """P (n, 3) of world places (n, 3), searched for from `start`, and whether (n,) each is reflected."""
@@ -164,7 +165,9 @@ def counted() -> Iterator[list[int]]:
 def coarser(factor: float) -> Any:
     """The bound asked for another tolerance than what is drawn."""
     act = Mirror.sight
-    return patch.object(Mirror, "sight", lambda mirror, view, tolerance: act(mirror, view, factor * tolerance))
+    return patch.object(
+        Mirror, "sight", lambda mirror, view, tolerance, shape: act(mirror, view, factor * tolerance, shape)
+    )
 
 
 def edge_errors(reflection: Reflection, judge: Judge, seen: Seen) -> tuple[Float64Array, int]:
@@ -196,28 +199,29 @@ def measure(arrays: SceneArrays, camera: View, settings: Settings, way: str) -> 
     renderer = Renderer(arrays, settings)
     rays = Renderer(arrays, replace(settings, method="exact"))
     mirror = renderer.mirrors[0]
+    shape = mirror.shape(settings.map_resolution)
     edges, pixels, wrong = [], [], []
     triangles = vertices = middles = 0
     milliseconds = 0.0
     with coarser(factor):
         for degrees, closer in VIEWS:
-            view = turned(camera, mirror.center, degrees, closer)
+            view = turned(camera, shape.center, degrees, closer)
             # Split, and shaders compiled.
-            renderer.reflect(view, follow=False, at_rest=at_rest)
+            renderer.reflect(view, at_rest=at_rest)
             times = []
             for _ in range(REPEATS):
                 start = process_time()
                 with counted() as counts:
-                    reflection = renderer.reflect(view, follow=False, at_rest=at_rest)
+                    reflection = renderer.reflect(view, at_rest=at_rest)
                     for solution in reflection.solutions:
                         solution.wait()
                 times.append(process_time() - start)
             milliseconds += 1e3 * min(times) / len(VIEWS)
             vertices += sum(chunk.position_count for chunk, _ in renderer.geometry.scenery(mirror.index))
             middles += sum(counts)
-            judge = Judge(mirror, view)
-            seen = Seen(view, renderer.surfaces_of(reflection), NEAR * mirror.bound)
-            truth = Seen(view, rays.surfaces_of(rays.reflect(view)), NEAR * mirror.bound)
+            judge = Judge(mirror, shape, view)
+            seen = Seen(view, renderer.surfaces_of(reflection), NEAR * shape.bound)
+            truth = Seen(view, rays.surfaces_of(rays.reflect(view)), NEAR * shape.bound)
             off, count = edge_errors(reflection, judge, seen)
             triangles += count
             edges.append(off)
@@ -239,13 +243,14 @@ def measure_six_node(arrays: SceneArrays, camera: View, settings: Settings) -> s
     """One line: straight triangles and quadratic patches through the same points."""
     renderer = Renderer(arrays, settings)
     mirror = renderer.mirrors[0]
+    shape = mirror.shape(settings.map_resolution)
     found: dict[str, list[Float64Array]] = {"straight": [], "four straight": [], "six-node": []}
     solves = count = 0
     for degrees, closer in VIEWS:
-        view = turned(camera, mirror.center, degrees, closer)
-        reflection = renderer.reflect(view, follow=False)
-        judge = Judge(mirror, view)
-        seen = Seen(view, renderer.surfaces_of(reflection), NEAR * mirror.bound)
+        view = turned(camera, shape.center, degrees, closer)
+        reflection = renderer.reflect(view)
+        judge = Judge(mirror, shape, view)
+        seen = Seen(view, renderer.surfaces_of(reflection), NEAR * shape.bound)
         for part in (part for part in reflection.parts[0] if part.image == 0):
             points, code, _, _ = part.solution.read()
             world = read_records(part.chunk.positions, part.solution.count)[:, :3].astype(np.float64)

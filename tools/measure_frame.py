@@ -38,14 +38,15 @@ from curvrefl.curvrefl_addon.renderer import renderer as frame_module  # noqa: E
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.shading.shade import ShadePass  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.shown import vertices as vertices_module  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.pixel_classes import PixelClasses  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.back_faces import BackFaces  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
@@ -104,25 +105,25 @@ def _of_second(_self: Any, buffer: Any, *_arguments: Any, **_named: Any) -> Any:
 def taken_apart(watch: Stopwatch) -> Iterator[None]:
     """Every pass waits for the GPU and tells its time."""
 
-    def solve(mirror: Mirror, *arguments: Any, **named: Any) -> Any:
-        parts = original_solve(mirror, *arguments, **named)
+    def solve(solver: MirrorSolver, *arguments: Any, **named: Any) -> Any:
+        parts, found = original_solve(solver, *arguments, **named)
         for part in parts:
             part.solution.wait()
-        return parts
+        return parts, found
 
     def sort(classes: PixelClasses, *arguments: Any, **named: Any) -> None:
         original_sort(classes, *arguments, **named)
         wait_for_depth(classes)
 
-    original_solve, original_sort = Mirror.solve, PixelClasses.sort
+    original_solve, original_sort = MirrorSolver.solve, PixelClasses.sort
     passes: list[tuple[Any, str, str, Callable[..., Any], Callable[..., Any]]] = [
         (SceneGeometry, "refine", "split", SceneGeometry.refine, _nothing),
-        (Mirror, "solve", "solve", solve, _nothing),
-        (Mirror, "with_curved_edges", "edges", Mirror.with_curved_edges, _nothing),
+        (MirrorSolver, "solve", "solve", solve, _nothing),
+        (MirrorSolver, "with_curved_edges", "edges", MirrorSolver.with_curved_edges, _nothing),
         (frame_module, "draw_primary", "primary", frame_module.draw_primary, _of_buffer),
         (SurfaceBuffer, "clear", "clear", SurfaceBuffer.clear, _of_buffer),
         (BackFaces, "draw", "back faces", BackFaces.draw, _of_buffer),
-        (frame_module, "draw_reflected", "reflected", frame_module.draw_reflected, _of_buffer),
+        (vertices_module, "draw_reflected", "reflected", vertices_module.draw_reflected, _of_buffer),
         (PathBuffer, "follow", "walk", PathBuffer.follow, _of_buffer),
         (Lighting, "prepare", "shadows", Lighting.prepare, _nothing),
         (PixelClasses, "sort", "classes", sort, _nothing),
@@ -196,7 +197,7 @@ def measure(path: Path, reflector: str, arguments: argparse.Namespace) -> None:
             f"{cycles.timing.median / frame:.1f} times faster than Cycles 1 sample"
         )
         print("    " + ", ".join(f"{name} {time:.1f}" for name, time in passes.items()))
-        bake = sum(mirror.bake_ms for mirror in renderer.mirrors)
+        bake = sum(shape.bake_ms for mirror in renderer.mirrors for shape in mirror.baked)
         print(f"    first: made {made:.0f} (bake {bake:.0f}), frame {first:.0f}, shadows {watch.times['shadows']:.0f}")
         compare(renderer, view, f"{path.stem}_{samples}.npz", arguments.dump, arguments.against)
         renderer.free()

@@ -35,6 +35,7 @@ bootstrap.load_package()
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noqa: E402
@@ -77,6 +78,8 @@ class Frames:
         self.footprints = Footprints(self.renderer, self.materials)
         self.seen, self.shown = SurfaceBuffer(*SIZE), SurfaceBuffer(*SIZE)
         self.path = PathBuffer(*SIZE)
+        self.last: Reflection | None = None
+        """Of the frame before, where solving starts"""
         self.first_ms = 1e3 * _timed(lambda: self.renderer.rays())[0] if method == "exact" else 0.0
 
     def frame(self, scene: SceneArrays, pixels: float) -> Times:
@@ -100,10 +103,10 @@ class Frames:
             self.shown.wait()
 
         def solve_and_draw() -> None:
-            reflection = self.renderer.reflect(view)
+            reflection = self.last = self.renderer.reflect(view, last=self.last)
             self.shown.clear()
-            parts = reflection.parts[0]
-            draw_reflected(self.shown, self.seen, 1, None, parts, self.materials, uniforms, mirror.bound, window)
+            parts, bound = reflection.parts[0], mirror.shape(self.renderer.settings.map_resolution).bound
+            draw_reflected(self.shown, self.seen, 1, None, parts, self.materials, uniforms, bound, window)
             self.shown.wait()
 
         times["show"] = _timed({"exact": walk, "footprint": bound_and_draw}.get(self.method, solve_and_draw))

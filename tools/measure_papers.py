@@ -26,6 +26,7 @@ bootstrap.load_package()
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.optics.fermat import sample  # noqa: E402
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays  # noqa: E402
@@ -189,6 +190,7 @@ def table_1(animation: Animation, count: int) -> None:
     # The meshes are as fine as they are, like the paper's after its loader.
     settings = Settings(method="bisector_screen", pixel_tolerance=WHOLE)
     renderer: Renderer | None = None
+    reflection: Reflection | None = None
     before = None
     for scene, eye in animation.frames(count):
         if renderer is None:
@@ -196,7 +198,8 @@ def table_1(animation: Animation, count: int) -> None:
         else:
             renderer.update(scene)
         view = study_view(eye)
-        read = [solution.read() for solution in renderer.reflect(view).solutions]
+        reflection = renderer.reflect(view, last=reflection)
+        read = [solution.read() for solution in reflection.solutions]
         points, code, steps = (np.concatenate([part[k] for part in read]) for k in range(3))
         means.append(float(steps.mean()))
         longest.append(int(steps.max()))

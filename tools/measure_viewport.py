@@ -30,6 +30,7 @@ bootstrap.load_package()
 
 import gpu  # noqa: E402
 import numpy as np  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
@@ -47,6 +48,8 @@ class Session:
         self.changes = Changes(everything=True)
         self.reader = SceneReader()
         self.renderer: Renderer | None = None
+        self.reflection: Reflection | None = None
+        """Of the last picture"""
         self.canvas = Canvas.of_size(WIDTH // 2, HEIGHT // 2)
         bpy.app.handlers.depsgraph_update_post.append(self._note)
 
@@ -72,8 +75,8 @@ class Session:
             else:
                 self.renderer.update(arrays)
         assert self.renderer is not None
-        reflection = self.renderer.reflect(orbit(angle))
-        self.renderer.add_sub_frame(self.canvas, reflection, 0, 1.0, mirrors_only=True)
+        self.reflection = self.renderer.reflect(orbit(angle), last=self.reflection)
+        self.renderer.add_sub_frame(self.canvas, self.reflection, 0, 1.0, mirrors_only=True)
 
 
 def orbit(angle: float) -> View:

@@ -18,6 +18,7 @@ from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.bounding_grid import bounding_grid
+from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.view import View
 from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
@@ -152,11 +153,12 @@ def test_the_screen_search_stays_where_nothing_moves_and_follows_several_mirrors
     view = look_at(np.array([-0.8, -6.0, 1.0]), np.array([-1.2, 0.0, 0.0]), 240, 180, np.radians(40))
     cold = renderer.render(view)
     cold_steps = cold.solve["iterations"]["mean"]
-    warm = renderer.render(view)
-    solved, again_solved = (renderer.reflect(view).solutions for _ in range(2))
-    for a, b in zip(solved, again_solved, strict=True):
+    warm = renderer.render(view, last=cold.reflection)
+    first = renderer.reflect(view, last=warm.reflection)
+    second = renderer.reflect(view, last=first)
+    for a, b in zip(first.solutions, second.solutions, strict=True):
         assert all(np.array_equal(p, q) for p, q in zip(a.read(), b.read(), strict=True))
-    again = renderer.render(view)
+    again = renderer.render(view, last=second)
     np.testing.assert_array_equal(warm.color(), again.color())
     assert warm.solve["iterations"]["mean"] == 1.0 < 0.1 * cold_steps
     shown = again.reflected_object()
@@ -179,8 +181,8 @@ def test_a_wider_frustum_finds_what_a_mirror_shows_past_the_border() -> None:
     for frustum in (1.0, 2.5):
         renderer = Renderer(room.arrays(), Settings(method="bisector_screen", frustum=frustum, samples=1))
         mirror = renderer.mirrors[0]
-        materials = renderer._materials
-        reflector = mirror.reflector(view, renderer.settings, renderer.geometry.of_instance(mirror.index), materials)
+        own = renderer.geometry.of_instance(mirror.index)
+        reflector = MirrorSolver(mirror).reflector(view, renderer.settings, own, renderer._materials)
         records = record_texture(np.column_stack([vertices, np.ones(len(vertices))]).astype(np.float32))
         points, code, _, _ = solve_vertices("bisector_screen", view, reflector, records, len(vertices)).read()
         off = np.linalg.norm(view.project(points.astype(float)) - view.project(truth), axis=1)

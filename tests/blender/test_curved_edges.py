@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellip
 from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture
 from curvrefl.curvrefl_addon.renderer.geometry.chunk import unpack_color
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs
+from curvrefl.curvrefl_addon.renderer.mirrors.baked_shape import BakedShape
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
@@ -91,13 +92,23 @@ class Trial:
         view = look_at(EYE, np.zeros(3), 480, 360, 0.5, orthographic=orthographic)
         return cls(Renderer(room(SURFACES[name]), settings), view)
 
+    @property
+    def shape(self) -> BakedShape:
+        """Of the only mirror."""
+        return self.renderer.mirrors[0].shape(self.renderer.settings.map_resolution)
+
+    @property
+    def most_pixels_per_meter(self) -> float:
+        """Of the only mirror."""
+        return self.renderer.mirrors[0].most_pixels_per_meter(self.view, self.shape)
+
     def reflect(self, at_rest: bool) -> Reflection:
-        return self.renderer.reflect(self.view, follow=False, at_rest=at_rest)
+        return self.renderer.reflect(self.view, at_rest=at_rest)
 
     def leaving(self, reflection: Reflection) -> np.ndarray:
         """(n,) pixels between where midpoints are seen and where they are drawn, of edges that are long enough."""
-        mirror = self.renderer.mirrors[0]
-        reflector = Reflector(mirror.world_to_map, mirror.bound, {"radial": mirror.radial})
+        shape = self.shape
+        reflector = Reflector(shape.world_to_map, shape.bound, {"radial": shape.radial})
         found = []
         for part in first_images(reflection):
             points, code, _, virtual = part.solution.read()
@@ -200,12 +211,12 @@ def test_parts_have_the_attributes_of_what_they_are_parts_of() -> None:
 
 def test_an_orbit_splits_nothing_anew() -> None:
     trial = Trial.of("bumpy", 0.5)
-    still = trial.reflect(at_rest=True)
+    still = moving = trial.reflect(at_rest=True)
     assert still.is_final and pieces_of(still)
     made = dict(trial.renderer.geometry.counters)
     for step in range(1, 4):
         view = look_at(EYE + np.array([0.1 * step, 0.0, 0.0]), np.zeros(3), 480, 360, 0.5)
-        moving = trial.renderer.reflect(view)
+        moving = trial.renderer.reflect(view, last=moving)
         assert not moving.is_final and not pieces_of(moving)
     assert trial.renderer.geometry.counters == made
 
@@ -216,7 +227,7 @@ def test_what_is_fine_as_it_is_stays() -> None:
     assert still.is_final and not pieces_of(still)
     for method in ("exact", "environment_cube", "bisector_cube"):
         trial.renderer.configure(replace(trial.renderer.settings, method=method, pixel_tolerance=0.5))
-        moving = trial.renderer.reflect(trial.view)
+        moving = trial.renderer.reflect(trial.view, last=still)
         assert moving.is_final and not any(isinstance(part.chunk, Pieces) for parts in moving.parts for part in parts)
 
 
@@ -233,7 +244,7 @@ def test_stills_are_split_and_the_same_each_time() -> None:
 def test_what_a_convex_mirror_shows_is_drawn_no_longer_than_at_the_mirror(name: str) -> None:
     """That is why chunks of short edges need not be looked at."""
     trial = Trial.of(name, 2.0)
-    scale = trial.renderer.mirrors[0].most_pixels_per_metre(trial.view)
+    scale = trial.most_pixels_per_meter
     for part in first_images(trial.reflect(at_rest=False)):
         points, code, _, _ = part.solution.read()
         pairs = part.places[:, :2]
@@ -245,7 +256,7 @@ def test_what_a_convex_mirror_shows_is_drawn_no_longer_than_at_the_mirror(name: 
         assert (drawn <= scale * length + 0.5).all()
     chunk = trial.renderer.geometry.scenery(0)[0][0]
     assert trial.renderer.geometry.longest_edge(chunk) > 1.0
-    assert Trial.of("bumpy", 2.0).renderer.mirrors[0].most_pixels_per_metre(trial.view) == np.inf
+    assert Trial.of("bumpy", 2.0).most_pixels_per_meter == np.inf
 
 
 @pytest.mark.parametrize("motion", ["FULL", "HALF"])

@@ -360,10 +360,12 @@ def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
     canvas = Canvas.of_size(VIEW.width, VIEW.height)
     reflection = renderer.reflect(VIEW)
     renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True)
-    targets = renderer._targets_for(VIEW)
-    # Without jitter the uniforms of the view are those of the sub-frame.
-    shown = renderer._shown(targets, reflection, view_block(VIEW), of_positions=True)
-    picture = drawn(VIEW, targets.seen, shown, mode, methods=(method,), parts=reflection.parts)
+    # One sub-frame has no jitter: it is the view's own.
+    sub_frame = renderer._draw_surfaces(VIEW, reflection)
+    ((kind, members),) = reflection.groups
+    shown = kind.draw(members, sub_frame, of_positions=True)
+    assert shown is not None
+    picture = drawn(VIEW, sub_frame.targets.seen, shown, mode, methods=(method,), parts=reflection.parts)
     return picture, read_texture(canvas.texture), renderer
 
 

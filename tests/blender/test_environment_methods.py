@@ -23,6 +23,8 @@ from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
+from curvrefl.curvrefl_addon.renderer.shading.lookup import Environment
+from curvrefl.curvrefl_addon.renderer.shown.environment import ShownEnvironment
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_room import MIRROR, Room, radial_mesh
@@ -131,7 +133,8 @@ def test_radius_of_the_ball_about_the_mirror() -> None:
     room.add_mirror(Ellipsoid(2.0, 1.0, 0.5))
     room.add_ball((0.0, 0.0, 0.8), 0.1)
     renderer = renderer_of(room.arrays(), "environment_parallax")
-    assert renderer.environment_cubes()[0].radius == renderer.mirrors[0].bound == pytest.approx(2.0, rel=0.01)
+    shape = renderer.mirrors[0].shape(renderer.settings.map_resolution)
+    assert renderer.environment_cubes()[0].radius == shape.bound == pytest.approx(2.0, rel=0.01)
 
 
 def test_parallax_with_nothing_in_sight_is_the_plain_lookup() -> None:
@@ -187,16 +190,23 @@ def test_sphere_map_is_as_the_cube_but_at_its_rim() -> None:
     assert differ[at_rim].max() > 6.0 * half_diagonal
 
 
+def environment_of(renderer: Renderer, view: View) -> Environment:
+    """What the only mirror shows in a view."""
+    (shown,) = renderer.reflect(view).shown
+    assert isinstance(shown, ShownEnvironment)
+    return shown.environment
+
+
 def test_sphere_map_is_drawn_again_only_for_another_axis() -> None:
     renderer = renderer_of(mixed(), "environment_sphere")
-    (first,) = renderer.reflect(VIEW).environments or ()
+    first = environment_of(renderer, VIEW)
     before = read_texture(first.radiance)
     closer = look_at(0.8 * EYE, np.zeros(3), 60, 50, np.radians(50))
-    (same,) = renderer.reflect(replace(VIEW, width=64)).environments or ()
+    same = environment_of(renderer, replace(VIEW, width=64))
     assert same.radiance is first.radiance and same.positions() is first.positions()
-    (near,) = renderer.reflect(closer).environments or ()
+    near = environment_of(renderer, closer)
     np.testing.assert_allclose(read_texture(near.radiance), before, atol=1e-4)
-    (other,) = renderer.reflect(look_at(-EYE, np.zeros(3), 60, 50, np.radians(36))).environments or ()
+    other = environment_of(renderer, look_at(-EYE, np.zeros(3), 60, 50, np.radians(36)))
     assert np.abs(read_texture(other.radiance) - before).max() > 0.1
     np.testing.assert_array_equal(read_texture(first.radiance), before, "another region may still show it")
 

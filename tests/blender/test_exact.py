@@ -174,6 +174,7 @@ def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer(monkeypatch: 
     first = renderer.render(view)
     again = renderer.render(view)
     assert np.array_equal(first.color(), again.color())
+    assert same(again, first)
 
     shifted = scene.instances[3].matrix.copy()
     shifted[:3, 3] += (0.3, -0.2, 0.1)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -18,9 +19,9 @@ from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.frame import Frame
-from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
+from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver
 from curvrefl.curvrefl_addon.renderer.vertices.solve import (
     Reflector,
     RegionTextures,
@@ -135,7 +136,7 @@ def test_more_of_what_is_seen_is_drawn(name: str, monkeypatch: pytest.MonkeyPatc
     for images in (False, True):
         with monkeypatch.context() as patched:
             if not images:
-                patched.setattr(Mirror, "_more_images", lambda *_: [])
+                patched.setattr(MirrorSolver, "_more_images", lambda *_: [])
             renderer = Renderer(trial.scene, Settings(method="newton", samples=1))
             try:
                 frame = renderer.render(view)
@@ -158,8 +159,9 @@ def test_edges_split_at_folds_show_more(name: str) -> None:
     try:
         shares = []
         for at_rest in (False, True):
-            reflection = renderer.reflect(view, follow=False, at_rest=at_rest)
-            shares.append(wrong_share(Frame(renderer, reflection, None, {}), trial.scene))
+            reflection = renderer.reflect(view, at_rest=at_rest)
+            frame = Frame(reflection, None, {}, partial(renderer.surfaces_of, reflection))
+            shares.append(wrong_share(frame, trial.scene))
         (wrong, missing), (wrong_at_rest, missing_at_rest) = shares
         assert missing_at_rest < 0.95 * missing
         assert wrong_at_rest < wrong
@@ -173,6 +175,7 @@ def test_a_convex_mirror_is_solved_once() -> None:
     try:
         reflection = renderer.reflect(trial.view)
         assert all(part.image == 0 for parts in reflection.parts for part in parts)
-        assert renderer.mirrors[0]._regions is None
+        (solver,) = renderer._solvers.values()
+        assert solver._regions is None
     finally:
         renderer.free()

@@ -13,7 +13,7 @@ import pytest
 from blender_process import run_script
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.mirrors.reflector_files import load
-from curvrefl.curvrefl_addon.renderer.surfaces import surfaces
+from curvrefl.curvrefl_addon.renderer.surfaces import primary
 from curvrefl.curvrefl_addon.report.images import load_exr
 from small_scene import RUN_VERB, SIZE, saved
 
@@ -50,9 +50,9 @@ def test_no_gpu_object_outlives_a_verb(
     with monkeypatch.context() as change:
         change.setattr(cli, "clear_gpu_caches", lambda: None)
         done(arguments, capfd)
-    assert surfaces._primary_shader.cache_info().currsize > 0
+    assert primary._primary_shader.cache_info().currsize > 0
     done(arguments, capfd)
-    assert surfaces._primary_shader.cache_info().currsize == 0
+    assert primary._primary_shader.cache_info().currsize == 0
     assert load_exr(tmp_path / "a.exr").shape == (SIZE[1], SIZE[0], 4)
 
 

@@ -115,7 +115,8 @@ def test_what_moves_a_mirror_moves_its_map(session: Session) -> None:
     holder.location.z = 3.0
     again = session.draw()
     assert again is renderer
-    np.testing.assert_allclose(renderer.mirrors[0].center, [0.0, 0.0, 3.0], atol=1e-6)
+    shape = renderer.mirrors[0].shape(renderer.settings.map_resolution)
+    np.testing.assert_allclose(shape.center, [0.0, 0.0, 3.0], atol=1e-6)
     assert session.scene.counters["maps baked"] == 1
     bpy.data.objects["Mirror"].scale.x = 2.0
     session.draw()
@@ -224,9 +225,10 @@ def test_the_legend_names_the_methods_of_the_picture(
     monkeypatch.setattr(handlers, "draw_legend", lambda legend, _context: drawn.append(legend))
     monkeypatch.setattr(handlers._state, "pictures", {1: picture})
     handlers._draw_legend(SimpleNamespace(scene=bpy.context.scene, region=region))  # type: ignore[arg-type]
-    assert picture._canvas is not None
+    assert picture._canvas is not None and picture._reflection is not None
     shown = read_texture(picture._canvas.texture)
-    used = renderer.choice.settings.method if renderer.choice is not None else method
+    choice = picture._reflection.choice
+    used = choice.mirrors[0].method if choice is not None else method
     assert used != "auto"
     (color, label), (background, _) = drawn[0].swatches
     assert label == METHODS[used].label
