@@ -106,8 +106,8 @@ def print_costs(first: int, cases: int, most_pixels: int) -> None:
             print(f"{seed:5} {case.text}: {ratio:.2f} " + ", ".join(f"{key} {ms:.0f}" for key, ms in medians.items()))
     shares = np.percentile(ratios, (50, 90, 99))
     print(
-        f"{cases} mirrors: auto over the cheapest right way: median {shares[0]:.2f}, 90 of 100 under {shares[1]:.2f}, 99 under "
-        f"{shares[2]:.2f}; over 1.1 on {sum(ratio > 1.1 for ratio in ratios)}"
+        f"{cases} mirrors, auto over the cheapest right way: median {shares[0]:.2f}, 90 of 100 under "
+        f"{shares[1]:.2f}, 99 under {shares[2]:.2f}; over 1.1 on {sum(ratio > 1.1 for ratio in ratios)}"
     )
 
 
