@@ -25,7 +25,7 @@ from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
 )
 from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
-from curvrefl.curvrefl_addon.scene.meshes import MeshNeeds, read_mesh
+from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds, read_mesh
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.star_meshes import inverted, mesh_of
 from scenes.views import look_at
