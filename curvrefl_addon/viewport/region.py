@@ -16,7 +16,7 @@ import numpy as np
 from ...gpu_shaders.loader import load
 from ..diagnostic_colors import MODES, DiagnosticOptions
 from ..optics.catalogue import METHODS
-from ..renderer.device.gpu_objects import drawing_state, full_screen_triangle
+from ..renderer.device.gpu_objects import drawing_state, full_screen_triangle, read_texture
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
@@ -112,6 +112,11 @@ class RegionPicture:
                 full_screen_triangle().draw(shader)
         # What handlers before and after ours take for granted in this place.
         gpu.state.depth_mask_set(True)
+
+    def pixels(self) -> np.ndarray:
+        """Mean of the sub-frames drawn so far, read from the GPU: (height, width, 4), scene-linear, premultiplied."""
+        assert self._canvas is not None
+        return read_texture(self._canvas.texture) / max(self._sub_frames, 1)
 
     def statistics(self) -> list[tuple[str, str]]:
         """Rows for the panel; read from the GPU once for each picture, when it rests."""
