@@ -8,6 +8,7 @@ import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,6 +36,19 @@ sys.path[:0] = [str(TESTS.parent / "tools"), str(TESTS), str(TESTS / "blender")]
 import bootstrap  # noqa: E402
 
 bootstrap.load_package()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """What stays in one process where pytest runs in several: a file, for its fixtures; all windows, for the screen."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = super()._split_scope(nodeid)
+            return "tests/gui" if file.startswith("tests/gui/") else file
+
+    return Scheduling(config, log)
 
 
 def _gpu_missing() -> str:

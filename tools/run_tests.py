@@ -17,6 +17,10 @@ TOOLS = ("pytest", "hypothesis", "ruff", "mypy", "flip_evaluator", "matplotlib")
 LINTED = "unit"
 """Lint and types need no Blender: they go with this layer"""
 NO_TESTS_COLLECTED = 5
+MOST_PROCESSES = 4
+"""Each holds a Blender: about 1 GB"""
+THREADS = ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
+"""Variables that say how many threads a software renderer and numpy may start"""
 TYPE_CHECKED = ("__init__.py", "curvrefl_addon", "gpu_shaders", "operators")
 
 
@@ -36,7 +40,7 @@ def run(layers: Sequence[str]) -> int:
         if "mypy" not in missing:
             passed &= _check_types()
     folders = [ROOT / "tests" / layer for layer in layers]
-    folders = [folder for folder in folders if any(folder.glob("test_*.py"))]
+    folders = [folder for folder in folders if any(folder.glob("**/test_*.py"))]
     if folders:
         passed &= _run_pytest(folders)
     elif set(layers) != {LINTED}:
@@ -70,6 +74,8 @@ def _check_types() -> bool:
 
 
 def _run_pytest(folders: Sequence[Path]) -> bool:
+    # The windows first: they take longest, and one after the other.
+    folders = sorted(folders, key=lambda folder: folder.name != "gui")
     arguments = ["-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), *map(str, folders)]
     if _is_blender_application():
         # The tests must run in this very process.
@@ -77,10 +83,26 @@ def _run_pytest(folders: Sequence[Path]) -> bool:
 
         code = int(pytest.main(arguments))
     else:
-        code = subprocess.run([sys.executable, str(ROOT / "tools" / "run_pytest.py"), *arguments], cwd=ROOT).returncode
+        shared, environment = _shared_out()
+        command = [sys.executable, str(ROOT / "tools" / "run_pytest.py"), *arguments, *shared]
+        code = subprocess.run(command, cwd=ROOT, env=environment).returncode
         if code not in (0, 1, NO_TESTS_COLLECTED):
             print(f"curvrefl: pytest ended with exit code {code}.", file=sys.stderr)
     return code in (0, NO_TESTS_COLLECTED)
+
+
+def _shared_out() -> tuple[list[str], dict[str, str]]:
+    """Options and environment for a pytest that runs files side by side, in one process for each core.
+
+    A thread each is cheaper for them than threads that wait for one another. A process that crashes is replaced, and
+    the test it ran has failed. (tests/conftest.py says what must stay together.)
+    """
+    processes = min(os.cpu_count() or 1, MOST_PROCESSES)
+    if processes == 1 or importlib.util.find_spec("xdist") is None:
+        return [], dict(os.environ)
+    threads = str(max((os.cpu_count() or 1) // processes, 1))
+    options = ["-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder"]
+    return options, dict.fromkeys(THREADS, threads) | os.environ
 
 
 def _is_blender_application() -> bool:
