@@ -48,6 +48,19 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             file = super()._split_scope(nodeid)
             return "tests/gui" if file.startswith("tests/gui/") else file
 
+        def remove_node(self, node: Any) -> str | None:
+            """The test that a process died of has failed and is not tried again; the rest of its file is."""
+            units = self.assigned_work.pop(node, {})
+            left = [(unit, test) for unit in units.values() for test, is_done in unit.items() if not is_done]
+            if not left:
+                return None
+            unit, crashed = left[0]
+            unit[crashed] = True
+            self.workqueue.update({name: unit for name, unit in units.items() if not all(unit.values())})
+            for other in list(self.assigned_work):
+                self._reschedule(other)
+            return crashed
+
     return Scheduling(config, log)
 
 
