@@ -8,6 +8,7 @@ import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,6 +36,32 @@ sys.path[:0] = [str(TESTS.parent / "tools"), str(TESTS), str(TESTS / "blender")]
 import bootstrap  # noqa: E402
 
 bootstrap.load_package()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """What stays in one process where pytest runs in several: a file, for its fixtures; all windows, for the screen."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = super()._split_scope(nodeid)
+            return "tests/gui" if file.startswith("tests/gui/") else file
+
+        def remove_node(self, node: Any) -> str | None:
+            """The test that a process died of has failed and is not tried again; the rest of its file is."""
+            units = self.assigned_work.pop(node, {})
+            left = [(unit, test) for unit in units.values() for test, is_done in unit.items() if not is_done]
+            if not left:
+                return None
+            unit, crashed = left[0]
+            unit[crashed] = True
+            self.workqueue.update({name: unit for name, unit in units.items() if not all(unit.values())})
+            for other in list(self.assigned_work):
+                self._reschedule(other)
+            return crashed
+
+    return Scheduling(config, log)
 
 
 def _gpu_missing() -> str:

@@ -14,9 +14,10 @@ redraw. A handler that fails switches itself off, says why once in the panel, an
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import monotonic
+from types import MappingProxyType
 from typing import Any
 
 import bpy
@@ -85,6 +86,11 @@ def counters() -> dict[str, int]:
     for scene in _state.scenes.values():
         _add_counts(total, scene.counters)
     return total
+
+
+def pictures() -> Mapping[int, RegionPicture]:
+    """What is drawn now, by the region's pointer; the one drawn last comes last. To look at only."""
+    return MappingProxyType(_state.pictures)
 
 
 def statistics() -> list[tuple[str, str]]:

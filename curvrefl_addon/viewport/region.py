@@ -18,6 +18,7 @@ from ..renderer.choice import RAYS
 from ..renderer.device.batches import full_screen_triangle
 from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
 from ..renderer.device.state import drawing_state, set_viewport, write_depth_again
+from ..renderer.device.textures import read_texture
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
@@ -112,6 +113,11 @@ class RegionPicture:
                 shader.uniform_sampler("picture", self._canvas.texture)
                 full_screen_triangle().draw(shader)
         write_depth_again()
+
+    def pixels(self) -> np.ndarray:
+        """Mean of the sub-frames drawn so far, read from the GPU: (height, width, 4), scene-linear, premultiplied."""
+        assert self._canvas is not None
+        return read_texture(self._canvas.texture) / max(self._sub_frames, 1)
 
     def statistics(self) -> list[tuple[str, str]]:
         """Rows for the panel; read from the GPU once for each picture, when it rests."""

@@ -23,8 +23,8 @@ from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_ver
 from curvrefl.curvrefl_addon.scene.view import View
 from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from scenes.mirror_room import Room
+from scenes.radial_maps import SURFACES, radial_map, vertices_around
 from scenes.views import look_at
-from test_solve import SURFACES, radial_map, vertices_around
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

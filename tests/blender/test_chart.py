@@ -109,7 +109,7 @@ def look_away(_ball: bpy.types.Object) -> None:
         ((*BALL, "--peers", "luxrender"), "luxrender"),
         ((*BALL, "--vertices", "10"), "10"),
         ((*BALL, "missing.blend"), "missing.blend"),
-        (("--reflector", "Block", "--method", "secant_star"), ""),
+        (("--reflector", "Block", "--method", "secant_star", "--peers", "none", "--vertices", "1000"), ""),
     ],
 )
 def test_what_is_refused_leaves_nothing(

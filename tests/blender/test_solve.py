@@ -9,29 +9,15 @@ import pytest
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.solvers import secant_star
-from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface, texel_directions
-from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
+from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices, statistics
+from scenes.radial_maps import SURFACES, radial_map, vertices_around
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
-
-SURFACES = {"sphere": Ellipsoid(), "ellipsoid": Ellipsoid(1.0, 0.5, 0.25), "bumpy": Bumpy(0.15)}
-
-
-def radial_map(surface: RadialSurface, resolution: int = 128) -> np.ndarray:
-    u = texel_directions(resolution).reshape(-1, 3)
-    r, gradient = surface.radius(u)
-    return np.column_stack([r, gradient]).reshape(6, resolution, resolution, 4).astype(np.float32)
-
-
-def vertices_around(surface: RadialSurface, count: int) -> np.ndarray:
-    rng = np.random.default_rng(7)
-    u = unit(rng.normal(size=(count, 3)))
-    vertices = u * (surface.radius(u)[0] + 10 ** rng.uniform(-2, 1, count))[:, None]
-    return vertices.astype(np.float32).astype(np.float64)
 
 
 @pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])

@@ -5,7 +5,8 @@
 Each situation starts with the file opened and drawing. Its function causes it, waits, and puts the cause right again
 where the file alone does not; then drawing is switched off and on. What was seen at both ends goes to `seen.json`.
 
-Arguments after `--`: the zip, a .blend file with the objects Mirror Ball and Block, the folder for what was seen.
+Arguments after `--`: the zip, a .blend file with the objects Mirror Ball and Block, the folder for what was seen; after
+`--only` the names of the situations to play, separated by commas, where these are not all.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ type Steps = Generator[Wait | str]
 
 SITUATIONS: dict[str, Callable[[], Steps]] = {}
 seen: dict[str, Any] = {"situations": {}}
+"""By name, in the order played; and "all", the names of those there are"""
 
 
 def situation(function: Callable[[], Steps]) -> Callable[[], Steps]:
@@ -98,10 +100,13 @@ def look(before: int) -> dict[str, Any]:
 
 
 def played() -> Script:
+    seen["all"] = list(SITUATIONS)
     only = sys.argv[sys.argv.index("--only") + 1].split(",") if "--only" in sys.argv else list(SITUATIONS)
     for name in only:
         found: dict[str, Any] = {}
         seen["situations"][name] = found
+        # Should Blender end in it, its name is the last one.
+        save()
         try:
             yield from _played_one(SITUATIONS[name](), name, found)
         except Exception:
@@ -445,10 +450,17 @@ def fresh_shaders() -> None:
 @situation
 def shader_compile_failure() -> Steps:
     fresh_shaders()
-    broken = [("This is not a shader.", ("broken.glsl", 1))]
-    with patch.object(extension("gpu_shaders.loader"), "_expand", lambda _part, _seen: broken):
+    installed = Path(extension("gpu_shaders.loader").__file__).parent
+    sources = {path: path.read_bytes() for path in installed.rglob("*.glsl")}
+    assert sources
+    try:
+        for path in sources:
+            path.write_text("This is not a shader.\n", encoding="utf-8")
         bpy.context.window_manager.curvrefl_enabled = True
         yield CAUSED
+    finally:
+        for path, source in sources.items():
+            path.write_bytes(source)
     fresh_shaders()
 
 
@@ -541,7 +553,10 @@ def file_of_a_newer_version() -> Steps:
 
 
 def save() -> None:
-    (Path(FOLDER) / "seen.json").write_text(json.dumps(seen, indent=1), encoding="utf-8")
+    part = Path(FOLDER) / "seen.part"
+    part.write_text(json.dumps(seen, indent=1), encoding="utf-8")
+    # Whole at any time, for Blender may end at any time.
+    part.replace(Path(FOLDER) / "seen.json")
 
 
 def end(error: str) -> None:

@@ -3,7 +3,8 @@
 """Runs inside a Blender window: panels, menus, diagnostic views, tracing by a click, a comparison that is canceled.
 
 Events are simulated (`--enable-event-simulate`). Pictures of the window are what the documentation shows.
-Arguments after `--`: the zip, the demo's .blend file, the folder for what was seen.
+Arguments after `--`: the zip, the demo's .blend file, one with a Mirror Ball without a UV map, the folder for what was
+seen.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import bpy
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from scripted import Script, arguments, extension, in_view, install, play, rests, screenshot, view_3d
 
-ARCHIVE, BLEND, FOLDER = arguments()[:3]
+ARCHIVE, DEMO, SMALL, FOLDER = arguments()[:4]
 PANELS = ("main", "mirror", "quality", "environment", "diagnostics", "tools", "statistics")
 seen: dict[str, Any] = {}
 
@@ -62,7 +63,7 @@ def settings() -> list[Any]:
 
 def script() -> Script:
     install(ARCHIVE)
-    bpy.ops.wm.open_mainfile(filepath=BLEND, load_ui=False)
+    bpy.ops.wm.open_mainfile(filepath=DEMO, load_ui=False)
     yield 1.0
     area, space, _region = view_3d()
     space.shading.type = "MATERIAL"
@@ -85,6 +86,7 @@ def script() -> Script:
     keep("sidebar")
     yield from diagnostics(space)
     yield from trace(area)
+    yield from canceled_comparison()
     yield from comparison()
 
 
@@ -120,13 +122,13 @@ def panels() -> Script:
 def diagnostics(space: bpy.types.SpaceView3D) -> Script:
     space.show_region_ui = False
     settings = bpy.context.scene.curvrefl
-    samples, settings.samples = settings.samples, 4
+    settings.samples = 4
     for name in ("ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD", "ZEBRA", "LINES"):
         settings.show = name
         yield 1.0
         yield rests
         keep(f"show_{name.lower()}")
-    settings.samples, settings.show = samples, "REFLECTION"
+    settings.show = "REFLECTION"
     yield 1.0
     yield rests
 
@@ -173,14 +175,25 @@ def trace(area: bpy.types.Area) -> Script:
     yield 1.0
 
 
-def comparison() -> Script:
+def options(output: Path) -> dict[str, Any]:
+    # (the mirror has no UV map: a method that needs one is left out)
+    methods = {"secant_star", "secant_uv", "environment_cube"}
+    return {
+        "width": 96,
+        "height": 72,
+        "samples": 4,
+        "peers": {"cycles1"},
+        "methods": methods,
+        "output": str(output),
+    }
+
+
+def canceled_comparison() -> Script:
+    """In the demo, where it takes long enough."""
     before = settings()
-    output = Path(FOLDER) / "comparison"
-    options = {"width": 96, "height": 72, "samples": 4, "peers": {"cycles1"}, "output": str(output)}
-    # (the kettle has no UV map: a method that needs one is left out)
-    options["methods"] = {"secant_star", "secant_uv", "environment_cube"}
+    output = Path(FOLDER) / "canceled"
     with in_view():
-        bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options)
+        bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options(output))
     yield 0.5
     seen["comparison is modal"] = is_modal("CURVREFL_OT_compare_with_cycles")
     keep("compare_running")
@@ -194,17 +207,32 @@ def comparison() -> Script:
         "left": [path.name for path in Path(FOLDER).glob(".curvrefl-*")],
         "text": "Curvrefl comparison" in bpy.data.texts,
     }
+
+
+def comparison() -> Script:
+    """By the modal operator and by a script's call, where Cycles has little to do."""
+    bpy.context.window_manager.curvrefl_enabled = False
+    bpy.ops.wm.open_mainfile(filepath=SMALL, load_ui=False)
+    view_3d()[1].shading.type = "SOLID"
+    ball = bpy.data.objects["Mirror Ball"]
+    ball.curvrefl.is_mirror = True
+    for obj in bpy.context.scene.objects:
+        obj.select_set(obj == ball)
+    bpy.context.window_manager.curvrefl_enabled = True
+    yield rests
+    before = settings()
+    output = Path(FOLDER) / "comparison"
     window().screen.areas[0].type = "IMAGE_EDITOR" if window().screen.areas[0].type != "VIEW_3D" else "VIEW_3D"
     editor = next((area for area in window().screen.areas if area.type == "IMAGE_EDITOR"), None)
     with in_view():
-        bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options)
+        bpy.ops.curvrefl.compare_with_cycles("INVOKE_DEFAULT", **options(output))
     yield lambda: not is_modal("CURVREFL_OT_compare_with_cycles")
     yield 0.5
     keep("compare_done")
     seen["report of the modal run"] = json.loads((output / "report.json").read_text(encoding="utf-8"))
     seen["image editor shows"] = None if editor is None else getattr(editor.spaces.active.image, "name", "")
     seen["settings after all"] = settings()[:9] == before[:9]
-    bpy.ops.curvrefl.compare_with_cycles(**options)
+    bpy.ops.curvrefl.compare_with_cycles(**options(output))
     seen["report of the script"] = json.loads((output / "report.json").read_text(encoding="utf-8"))
 
 

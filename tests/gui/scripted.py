@@ -23,7 +23,7 @@ type Wait = float | Callable[[], bool]
 type Script = Generator[Wait]
 
 TICK = 0.05
-PATIENCE = 900.0
+PATIENCE = 600.0
 """Seconds until a condition that does not come true is given up: only a session that hangs waits so long"""
 EXTENSION = "bl_ext.user_default.curvrefl"
 
@@ -51,7 +51,7 @@ def view_3d() -> tuple[bpy.types.Area, bpy.types.SpaceView3D, bpy.types.Region]:
 
 def rests() -> bool:
     """All 3D regions have complete pictures."""
-    pictures = extension("curvrefl_addon.viewport.handlers")._state.pictures.values()
+    pictures = extension("curvrefl_addon.viewport.handlers").pictures().values()
     return bool(pictures) and all(picture.is_complete and not picture.is_coarse for picture in pictures)
 
 

@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
-from window import Session, run_session
+from window import SITUATION_SECONDS, Session, play_situations, run_session
 from window_blender import WindowBlender
 
 SCRIPT = Path(__file__).resolve().parent / "bad_situations_session.py"
@@ -67,13 +68,20 @@ MAY_SAY_SO = {"mirror_deleted", "new_file"}
 def session(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> Session:
     from small_scene import saved
 
-    folder = tmp_path_factory.mktemp("bad_situations")
-    return run_session(window_blender, SCRIPT, folder, archive, saved(folder), folder, size=WINDOW)
+    file = saved(tmp_path_factory.mktemp("bad_situations"))
+
+    def play(names: Sequence[str]) -> Session:
+        folder = tmp_path_factory.mktemp("bad_situations")
+        only = ("--only", ",".join(names))
+        return run_session(
+            window_blender, SCRIPT, folder, archive, file, folder, *only, size=WINDOW, seconds=SITUATION_SECONDS
+        )
+
+    return play_situations(list(EXPECTED), play)
 
 
 def situation(session: Session, name: str) -> dict[str, Any]:
-    found = session.seen["situations"].get(name)
-    assert found is not None, f"the session ended before it:\n{session.printed[-3000:]}"
+    found = session.seen["situations"][name]
     assert "error" not in found, found["error"]
     return found
 
@@ -85,8 +93,10 @@ def printed(session: Session, name: str) -> str:
 
 
 def test_blender_lives_to_the_end(session: Session) -> None:
-    assert session.seen.get("finished"), session.printed[-3000:]
-    assert set(session.seen["situations"]) == set(EXPECTED)
+    errors = {name: found["error"] for name, found in session.seen["situations"].items() if "error" in found}
+    assert errors == {}
+    assert session.seen["finished"]
+    assert set(session.seen["all"]) == set(session.seen["situations"]) == set(EXPECTED)
 
 
 @pytest.mark.parametrize("name", EXPECTED)

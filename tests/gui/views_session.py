@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +25,8 @@ ARCHIVE, BLEND, FOLDER = arguments()[:3]
 seen: dict[str, Any] = {"captures": {}}
 
 
-def pictures() -> dict[int, Any]:
-    return extension("curvrefl_addon.viewport.handlers")._state.pictures
+def pictures() -> Mapping[int, Any]:
+    return extension("curvrefl_addon.viewport.handlers").pictures()
 
 
 def regions() -> list[bpy.types.Region]:
@@ -56,11 +57,9 @@ def engine_draws() -> bool:
 
 
 def capture(name: str) -> None:
-    read = extension("curvrefl_addon.renderer.device.textures").read_texture
     places = []
     for number, region in enumerate(regions()):
-        picture = pictures()[region.as_pointer()]
-        np.save(Path(FOLDER) / f"{name}_{number}.npy", read(picture._canvas.texture) / picture._sub_frames)
+        np.save(Path(FOLDER) / f"{name}_{number}.npy", pictures()[region.as_pointer()].pixels())
         places.append([region.x, region.y, region.width, region.height])
     screenshot(Path(FOLDER) / f"{name}.png")
     viewport = extension("curvrefl_addon.viewport.handlers")

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import subprocess
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,13 @@ from window_blender import WindowBlender
 
 SECONDS = 2400
 """For a whole session: only one that hangs takes so long, also on a software renderer and busy cores"""
+SITUATION_SECONDS = 700
+"""For one of a session's situations; the script itself gives up on a condition some time before"""
 
 
 @dataclass(frozen=True)
 class Session:
-    """A session that came to its end."""
+    """What a session left; whether it came to its end is for the script to say."""
 
     folder: Path
     seen: dict[str, Any]
@@ -41,8 +44,9 @@ def run_session(
 ) -> Session:
     """Open a window with factory settings in a home of its own below `folder`; the arguments follow `--`.
 
-    The script quits Blender when it has written `folder/seen.json`. Raises AssertionError with the end of what was
-    printed where it did not.
+    The script quits Blender when it has written `folder/seen.json`; it may write that file often before, and is
+    stopped after so many seconds without another. Raises AssertionError with the end of what was printed where there
+    is none.
     """
     command = [
         *blender.windowed,
@@ -55,14 +59,53 @@ def run_session(
         "--",
         *map(str, arguments),
     ]
-    log = folder / "printed.txt"
-    with log.open("wb") as stream, contextlib.suppress(subprocess.TimeoutExpired):
-        # (what a session that hangs has printed tells where)
-        subprocess.run(command, env=home(folder), stdout=stream, stderr=subprocess.STDOUT, timeout=seconds)
+    log, found = folder / "printed.txt", folder / "seen.json"
+    with log.open("wb") as stream:
+        process = subprocess.Popen(command, env=home(folder), stdout=stream, stderr=subprocess.STDOUT)
+        try:
+            _wait(process, found, seconds)
+        finally:
+            process.kill()
+            process.wait()
     printed = log.read_text(encoding="utf-8", errors="replace")
-    found = folder / "seen.json"
     assert found.is_file(), printed[-3000:]
     return Session(folder, json.loads(found.read_text(encoding="utf-8")), printed)
+
+
+def _wait(process: subprocess.Popen[bytes], found: Path, seconds: float) -> None:
+    """Until the process ends, or `found` has not changed for so many seconds."""
+    written, changed = 0, time.monotonic()
+    while time.monotonic() - changed < seconds:
+        try:
+            process.wait(timeout=1.0)
+            return
+        except subprocess.TimeoutExpired:
+            latest = found.stat().st_mtime_ns if found.is_file() else 0
+            if latest != written:
+                written, changed = latest, time.monotonic()
+
+
+def play_situations(names: Sequence[str], play: Callable[[Sequence[str]], Session]) -> Session:
+    """All situations, also where one takes Blender with it: what comes after it is played in another window.
+
+    `play` runs those it is given in one session, whose script notes each in `seen["situations"]` before it plays it.
+    One that Blender did not survive has an "error". Raises AssertionError where a session played none.
+    """
+    seen: dict[str, Any] = {"situations": {}}
+    printed = ""
+    left = list(names)
+    while left:
+        session = play(left)
+        situations = session.seen["situations"]
+        assert situations, session.printed[-3000:]
+        if not session.seen.get("finished"):
+            last = list(situations)[-1]
+            reason = session.seen.get("error") or f"Blender crashed or hung:\n{session.printed[-3000:]}"
+            situations[last].setdefault("error", reason)
+        seen = {**seen, **session.seen, "situations": {**seen["situations"], **situations}}
+        printed += session.printed
+        left = [name for name in left if name not in situations]
+    return Session(session.folder, seen, printed)
 
 
 def home(folder: Path) -> dict[str, str]:
