@@ -78,7 +78,7 @@ def main() -> None:
         print(f"{method}: {dict(zip(MIRROR_NAMES, frame.reflection.methods, strict=True))}")
         print(
             f"  frame {total:.0f} ms, steps of the rays {', '.join(f'{ms:.0f}' for ms in steps)}; "
-            f"bound {bounds[0]:.2f}, {bounds[1]:.2f} where sphere, slab and flat, {100 * share:.0f} % of the pixels, go first"
+            f"bound {bounds[0]:.2f}, {bounds[1]:.2f} without sphere, slab and flat ({100 * share:.0f} % of the pixels)"
         )
         if options.picture:
             save_png(options.picture, frame.color()[..., :3])
