@@ -71,7 +71,7 @@ def _copied(results: Path, picture: Path) -> None:
 
 
 def _drawn_stability(results: Path, picture: Path) -> None:
-    _run(str(ROOT / "tools" / "draw_stability.py"), str(results), str(picture))
+    _run(str(ROOT / "tools" / "measure" / "draw_stability.py"), str(results), str(picture))
 
 
 def _save_grid(
@@ -128,7 +128,7 @@ def _stability(folder: Path) -> None:
 
 
 def _methods(folder: Path) -> None:
-    _run(str(ROOT / "tools" / "measure_methods.py"), "--output", str(folder))
+    _run(str(ROOT / "tools" / "measure" / "measure_methods.py"), "--output", str(folder))
 
 
 def _verb(*arguments: str) -> None:

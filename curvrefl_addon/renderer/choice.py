@@ -37,7 +37,7 @@ SPLIT_TRIANGLES = 100.0
 """Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
 MOST_SHARE = 1.04
 """Points are solved up to this share of what rays cost: the costs are of all that differs between the two, and known to
-a few percent (figures: `tools/measure_auto.py`)"""
+a few percent (figures: `tools/measure/measure_auto.py`)"""
 KEPT_SHARE = 1.5
 """A way that was taken in the view before is kept until it costs so many times as much as the other"""
 STRICTER_SHARE = 0.7

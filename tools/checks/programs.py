@@ -33,7 +33,14 @@ def types(root: Path) -> bool:
     # (In the stubs of bpy nearly everything may be None.)
     loose = ("--namespace-packages", "--explicit-package-bases", "--disable-error-code", "union-attr")
     folders = os.pathsep.join(
-        str(folder) for folder in (package.parent, root / "tools", root / "tests", root / "tests" / "gui")
+        str(folder)
+        for folder in (
+            package.parent,
+            root / "tools",
+            root / "tools" / "measure",
+            root / "tests",
+            root / "tests" / "gui",
+        )
     )
     return _passes("mypy of the tools", root, *command, *loose, *tools, paths=folders) and ships
 

@@ -10,7 +10,7 @@ stops when the triangle's area on screen falls under a pixel's share. A small de
 discarded last (section 3.3.3).
 
 Two things go beyond the paper, because the search alone leaves 4 to 48 percent of the vertices off by half a pixel
-when contact and grazing are included (`tools/measure_solver.py`):
+when contact and grazing are included (`tools/measure/measure_solver.py`):
 
 * a step longer than `LONGEST_STEP` radians is shortened, so that an extrapolation cannot leave for the far side;
 * the end of the search is checked and polished by `descent.minimise`: Newton steps on the path length with second

@@ -25,6 +25,8 @@ SLIVER_SHARE = 1e-6
 INSIDE_SHARE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
 
+MOST_SHAPES = 5
+"""Resolutions whose maps are kept, none among them"""
 MOST_EYES = 8
 """Places of the eye of which it is remembered whether a mirror holds them"""
 
@@ -66,15 +68,19 @@ class Mirror:
 
     def shape(self, resolution: int = 0) -> BakedShape:
         """Its frame and map with so many texels along an edge, baked when first asked for; 0: a frame without a map."""
-        found = self._shapes.get(resolution)
+        found = self._shapes.pop(resolution, None)
         if found is None:
-            found = self._shapes[resolution] = BakedShape(self.facts, self._instance, resolution)
+            while len(self._shapes) >= MOST_SHAPES:
+                # (The one that was not asked for the longest.)
+                del self._shapes[next(iter(self._shapes))]
+            found = BakedShape(self.facts, self._instance, resolution)
             self._counters["maps baked"] += resolution > 0
+        self._shapes[resolution] = found
         return found
 
     @property
     def baked(self) -> list[BakedShape]:
-        """All that was baked, in that order."""
+        """What was baked and is kept, the one used last at the end."""
         return [shape for resolution, shape in self._shapes.items() if resolution > 0]
 
     @property

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether `auto` takes the faster way: its frames beside those of the methods that it chooses among.
 
-    python tools/measure_auto.py SCENES/sphere.blend .. [--reflector Mirror] [--tolerance 0.5] [--rounds 9]
+    python tools/measure/measure_auto.py SCENES/sphere.blend .. [--reflector Mirror] [--tolerance 0.5] [--rounds 9]
         [--sub-frames 1] [--sizes 320x240,640x480]
 
 Vertex methods work with what `auto` would give them (edges split to less than the tolerance, the map that the mirror's
@@ -23,6 +23,7 @@ from statistics import median
 from time import process_time
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy

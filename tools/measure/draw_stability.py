@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws one picture of what `./curvrefl stability` has written: a row per trial, a column per method.
 
-python tools/draw_stability.py FOLDER PICTURE.jpg [--trial NAME]
+python tools/measure/draw_stability.py FOLDER PICTURE.jpg [--trial NAME]
 
 With `--trial` that trial alone, in rows of four whole pictures. Needs matplotlib.
 """
@@ -12,8 +12,11 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import sys
 from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import matplotlib

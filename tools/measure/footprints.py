@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Footprints: solved points only bound where a triangle may be reflected, each pixel inside tests its own ray.
 
-    python tools/footprints.py [--triangles N] [--pixels N]
+    python tools/measure/footprints.py [--triangles N] [--pixels N]
 
 A candidate that is measured beside the methods (measure_methods.py) and is not part of the extension. The reflection
 points of a triangle's corners and of the middles of its edges, found by `newton`, span a box on screen, grown by as
@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy  # noqa: F401  (before gpu)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prints how the GPU's `newton` does around smooth convex mirrors, cold and warm, beside `secant_star`.
 
-python tools/measure_newton.py [--cases N] [--map TEXELS] [--methods newton,secant_star]
+python tools/measure/measure_newton.py [--cases N] [--map TEXELS] [--methods newton,secant_star]
 
 Every case is made from its reflection point, or from the point where the segment to it enters the mirror: on a convex
 mirror there is no other answer, so that no search is needed for the truth. Regimes: `study/solvers/regimes.py`.
@@ -14,8 +14,12 @@ horizon runs between.
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from time import perf_counter
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy  # noqa: F401  (before the package)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Counts the wrong pixels of `exact` on every kind of mirror, against every ray cast at every triangle in float64.
 
-    .venv/bin/python tools/measure_exact.py [--pixels N]
+    .venv/bin/python tools/measure/measure_exact.py [--pixels N]
 
 Rays that pass within a millionth of a triangle's size of its edge may go either way and are counted apart.
 """
@@ -13,13 +13,15 @@ import argparse
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "tests"))
+
 import bootstrap
 import bpy  # noqa: F401  (before gpu)
-import numpy as np
 
 bootstrap.load_package()
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
+import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402

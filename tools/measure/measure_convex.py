@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether `auto` keeps its word: random closed convex mirrors, its picture beside `exact`, pixel by pixel.
 
-    python tools/measure_convex.py [--cases 1000] [--first 0] [--most-pixels 1228800] [--verbose] [--force] [--cost]
+    python tools/measure/measure_convex.py [--cases 1000] [--first 0] [--most-pixels 1228800] [--verbose] [--force]
+        [--cost]
 
 A case is over its tolerance where the 99th percentile of the errors of the mirror's pixels is. `--force` takes
 reflection points wherever the choice by cost alone would not: the bound must hold there too. `--cost` compares
@@ -21,7 +22,8 @@ from statistics import median
 from time import process_time
 from unittest.mock import patch
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "tests"))
 
 import bootstrap
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How far straight edges are from the reflections that they stand for, and what splitting them takes.
 
-    python tools/measure_edges.py SCENES/sphere.blend .. [--method newton] [--tolerances 2,1,0.5,0.25] [--map 256]
-        [--six-node]
+    python tools/measure/measure_edges.py SCENES/sphere.blend .. [--method newton] [--tolerances 2,1,0.5,0.25]
+        [--map 256] [--six-node]
 
 Four views of each scene, 640 x 480: the camera's, turned by 90 and 200 degrees about the mirror, and by 300 degrees at
 0.6 of the distance. Three ways to split: by the bound that knows no eye (`split.py`: all that is done while a view
@@ -34,6 +34,7 @@ from typing import Any
 from unittest.mock import patch
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prints what the papers' own figures come to here, on scenes that are like theirs in kind and in number of vertices.
 
-python tools/measure_papers.py
+python tools/measure/measure_papers.py
 
 * Estalella et al. 2006, table 1: steps of the search on the screen over animations, each frame from the last one's
   texels, at half and at all of the number of frames.
@@ -13,9 +13,13 @@ python tools/measure_papers.py
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import mean
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy  # noqa: F401  (before the package)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where following rays beats solving vertices: frames of scenes that stand still, move and deform.
 
-    python tools/measure_methods.py --output DIR [--counts 1000,..] [--pixels 60,300] [--kinds static,..] [--repeats 5]
-    python tools/measure_methods.py --output DIR --draw-only
+    python tools/measure/measure_methods.py --output DIR [--counts 1000,..] [--pixels 60,300] [--kinds static,..]
+        [--repeats 5]
+    python tools/measure/measure_methods.py --output DIR --draw-only
 
 A frame is what differs between the methods: following the scene (geometry, hierarchies), and what the mirror shows
 (the walk of the rays; or the solve and the draw of solved triangles), not the surface buffer of what the eye sees, nor
@@ -26,6 +27,7 @@ from typing import Any
 # (numpy's products of small matrices go faster alone than in threads that wait for each other on a busy machine)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy  # noqa: F401  (before gpu)

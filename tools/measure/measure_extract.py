@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long the extraction of one mesh of a million vertices takes, and how much memory it adds.
 
-    .venv/bin/python tools/measure_extract.py [--side 1000] [--repeats 5]
+    .venv/bin/python tools/measure/measure_extract.py [--side 1000] [--repeats 5]
 
 Each kind of mesh is read by a process of its own. Before every repeat the mesh is tagged as changed, so Blender
 evaluates it again (not timed) and its normals and triangles are computed anew (timed).
@@ -16,7 +16,10 @@ import statistics
 import subprocess
 import sys
 import time
+from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Six different mirrors in one view: what the first step of their rays costs, and so what any other way could save.
 
-    python tools/measure_mirrors.py [--size 640x480] [--repeats 9] [--picture FILE.png]
+    python tools/measure/measure_mirrors.py [--size 640x480] [--repeats 9] [--picture FILE.png]
 
 A sphere, a bevelled slab, a torus, a bowl, a flat mirror and a vase, among cubes. Every mirror is seen in others, so
 what they show has to be followed on from mirror to mirror, and points of one mirror can take the place of the first
@@ -20,7 +20,8 @@ from time import process_time
 from typing import Any
 from unittest.mock import patch
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "tests"))
 
 import bootstrap
 

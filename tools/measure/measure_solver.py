@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prints how well the float64 solver does around three shapes, and what its secant search alone would leave.
 
-python tools/measure_solver.py [--vertices N]
+python tools/measure/measure_solver.py [--vertices N]
 """
 
 from __future__ import annotations
 
 import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy  # noqa: F401  (before the package)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times of baking a reflector, with the Python that has bpy: python tools/measure_bake.py [repeats]"""
+"""Times of baking a reflector, with the Python that has bpy: python tools/measure/measure_bake.py [repeats]"""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from time import perf_counter
 
 import bpy  # noqa: F401  (before gpu)
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests")]
 
 import bootstrap  # noqa: E402

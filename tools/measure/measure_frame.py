@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a picture's time goes into, pass by pass, beside Cycles with one sample in the same run.
 
-    python tools/measure_frame.py SCENES/sphere.blend .. [--reflector Mirror] [--method secant_star] [--samples 1,2]
-        [--repeats 15] [--cycles 5] [--dump DIR]
+    python tools/measure/measure_frame.py SCENES/sphere.blend .. [--reflector Mirror] [--method secant_star]
+        [--samples 1,2] [--repeats 15] [--cycles 5] [--dump DIR]
 
 *Frame* is a whole picture as `Renderer.render` makes it: forward pass, mirrors, shading. The passes are those of
 another render, in which each waits for the GPU (one pixel is read), so that they do not overlap: their sum is more than
@@ -27,6 +27,7 @@ from typing import Any
 from unittest.mock import patch
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import bootstrap
 import bpy
