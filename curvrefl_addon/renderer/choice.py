@@ -43,7 +43,7 @@ KEPT_SHARE = 1.5
 STRICTER_SHARE = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
 may be off. In stills solved midpoints see to it."""
-MAP_SHARE = 0.3
+MAP_SHARE = 0.25
 """Share of the error asked for that the map may be off"""
 KEPT_FIT = 1.2
 """A map that was good enough in the view before is kept up to so many times that"""

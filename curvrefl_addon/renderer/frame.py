@@ -13,6 +13,7 @@ import numpy as np
 from ..scene.arrays import Float32Array, Int32Array
 from .device.textures import read_texture
 from .reflection import Reflection
+from .shown.shown import SubFrame
 from .vertices.solve import statistics
 
 
@@ -102,3 +103,24 @@ class Frame:
         position[..., 3] = ids > 0
         position[~mask] = 0.0
         return position, ids
+
+
+def read_surfaces(reflection: Reflection, sub_frame: SubFrame) -> dict[str, Float32Array]:
+    """What `Frame.surfaces` holds, of a sub-frame whose primary pass is drawn; waits for the GPU."""
+    seen = sub_frame.targets.seen
+    arrays = {
+        "seen_position": read_texture(seen.position),
+        "seen_normal": read_texture(seen.normal),
+        "seen_color": read_texture(seen.color),
+    }
+    number = np.rint(arrays["seen_color"][..., 3]).astype(np.int32)
+    groups = reflection.groups
+    for kind, members in groups:
+        here = np.isin(number, [shown.mirror.number for shown in members])
+        for name, array in kind.read_back(members, sub_frame).items():
+            if len(groups) == 1:
+                arrays[name] = array
+            else:
+                arrays.setdefault(name, np.zeros_like(array))[here] = array[here]
+    arrays.setdefault("reflected_position", np.zeros_like(arrays["seen_position"]))
+    return arrays

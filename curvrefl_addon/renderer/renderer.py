@@ -6,46 +6,35 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
-from typing import Any
-
-import numpy as np
 
 from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.view import View
-from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.context import require_gpu
-from .device.cubes import cube_texture
-from .device.records import record_texture
-from .device.textures import read_texture
 from .environments.cube import EnvironmentCube
-from .frame import Frame
-from .geometry.chunk import Batches, Chunk
+from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.lighting import Lighting
-from .mirrors.baked_shape import BakedShape
 from .mirrors.mirror import Mirror
+from .preparation import Preparation
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
-from .shading.lookup import Environment
 from .shading.shade import ShadePass
-from .shown.environment import ShownEnvironment
 from .shown.nothing import ShownNothing
-from .shown.rays import ShownRays
-from .shown.shown import Light, Shown, Stage, SubFrame
+from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import Targets
-from .shown.vertices import ShownVertices
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
 from .surfaces.primary import draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
-from .vertices.mirror_solver import MirrorSolver, require
+from .vertices.mirror_solver import require
 
 MOST_TARGETS = 3
 """Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
@@ -74,11 +63,7 @@ class Renderer:
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
         self._targets: dict[tuple[int, int], Targets] = {}
-        self._solvers: dict[int, MirrorSolver] = {}
-        """By the mirror's id"""
-        self._scenery: Scenery | None = None
-        """Of this scene, for choosing"""
-        self._cubes: tuple[list[BakedShape], list[EnvironmentCube]] | None = None
+        self._preparation = Preparation()
         self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
         self._jitter = offsets(self.settings.samples)
@@ -102,7 +87,6 @@ class Renderer:
         self._shade.follow(scene)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
-        self._cubes = None
         self.revision += 1
 
     def configure(self, settings: Settings) -> None:
@@ -115,9 +99,9 @@ class Renderer:
             self._lighting.free()
             self._lighting = Lighting(self.scene, self.geometry, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
-            self._cubes = None
+            self._preparation.forget_cubes()
         if settings.environment_resolution != before.environment_resolution:
-            self._cubes = None
+            self._preparation.forget_cubes()
         self.revision += 1
 
     def free(self) -> None:
@@ -126,8 +110,8 @@ class Renderer:
         self.mirrors = []
         self.geometry = SceneGeometry()
         self._targets.clear()
-        self._solvers.clear()
-        self._cubes = self._diagnostics = self._rays = None
+        self._preparation = Preparation()
+        self._diagnostics = self._rays = None
 
     def _follow_scene(self, scene: SceneArrays) -> Difference:
         """Mirrors and geometry."""
@@ -147,8 +131,7 @@ class Renderer:
             mirrors.append(mirror)
         self._require(mirrors, self.settings)
         self.mirrors, self.scene = mirrors, scene
-        self._solvers = {key: solver for key, solver in self._solvers.items() if solver.mirror in mirrors}
-        self._scenery = None
+        self._preparation.follow(mirrors)
         return self.geometry.update(scene, self._numbers)
 
     @staticmethod
@@ -164,12 +147,20 @@ class Renderer:
         return {mirror.index: mirror.number for mirror in self.mirrors}
 
     @property
+    def _stage(self) -> Stage:
+        return Stage(self.mirrors, self.geometry, self._materials, self._lighting, self._shade, self.rays)
+
+    def environment_cubes(self) -> list[EnvironmentCube]:
+        """One per mirror, drawn when first asked for."""
+        return self._preparation.environment_cubes(self._stage, self.settings)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What is wrong with the scene whatever the view, one sentence each."""
         found = [*self.scene.warnings]
         if METHODS[self.settings.method].needs_map:
             for mirror in self.mirrors:
-                found += _map_warnings(mirror.shape(self.settings.map_resolution))
+                found += mirror.shape(self.settings.map_resolution).warnings
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         if METHODS[self.settings.method].solves_vertices:
@@ -226,102 +217,13 @@ class Renderer:
         only worth its time where the view rests is done `at_rest`: edges are split where their solved midpoints leave
         the chord. A picture on its own `is_still`: its sub-frames share one solve, which counts for `auto`.
         """
-        before = [None] * len(self.mirrors) if last is None else last.of(self.mirrors)
-        choice = self._choose(view, is_still, last)
-        if not solve:
-            return Reflection(view, self.settings, (), self.warnings, choice)
         # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
         # the full resolution may be drawn another way all the same.)
-        chosen: Sequence[MirrorChoice | None] = [None] * len(self.mirrors) if choice is None else choice.mirrors
-        settings = [self.settings if item is None else item.settings for item in chosen]
-        warnings: list[str] = []
-        self._split_scenery(view, settings)
-        shown: list[Shown] = []
-        for mirror, used, item, old in zip(self.mirrors, settings, chosen, before, strict=True):
-            if item is not None and item.shows_nothing:
-                shown.append(ShownNothing(mirror, used))
-                continue
-            shown.append(self._show(mirror, view, used, old, at_rest, warnings))
-            if item is not None and isinstance(shown[-1], ShownVertices):
-                warnings += _map_warnings(shown[-1].shape)
-        return Reflection(view, self.settings, tuple(shown), (*self.warnings, *dict.fromkeys(warnings)), choice)
-
-    def _choose(self, view: View, is_still: bool, last: Reflection | None) -> Choice | None:
-        """What `auto` does in a view; None for other methods."""
-        if not METHODS[self.settings.method].chooses:
-            return None
-        if self._scenery is None:
-            self._scenery = self._read_scenery()
-        before: dict[int, MirrorChoice] = {}
-        if last is not None and last.choice is not None:
-            before = {id(one.mirror): item for one, item in zip(last.shown, last.choice.mirrors, strict=False)}
-        return choose(
-            self.settings,
-            view,
-            self.mirrors,
-            self._scenery,
-            self._bumpy_mirrors(),
-            is_still,
-            [before.get(id(mirror)) for mirror in self.mirrors],
-        )
-
-    def _read_scenery(self) -> Scenery:
-        own = [mirror.index for mirror in self.mirrors]
-        there = [item.instance.visible_glossy and len(item.mesh.triangles) > 0 for item in self.geometry.placed]
-        mirrors = set(own)
-        shown = [index for index, is_there in enumerate(there) if is_there and index not in mirrors]
-        meshes = [self.geometry.placed[index].mesh for index in shown]
-        mirror_centers, mirror_radii = self.geometry.balls(np.array(own, np.int64))
-        return Scenery(
-            *self.geometry.balls(np.array(shown, np.int64)),
-            np.array([len(mesh.positions) for mesh in meshes], np.int64),
-            np.array([len(mesh.triangles) for mesh in meshes], np.int64),
-            mirror_centers,
-            np.where(np.array([there[index] for index in own], bool), mirror_radii, 0.0),
-        )
-
-    def _split_scenery(self, view: View, settings: Sequence[Settings]) -> None:
-        """Split edges that solved mirrors would show bent."""
-        sights = [
-            mirror.sight(view, used.pixel_tolerance, mirror.shape(used.map_resolution))
-            for mirror, used in zip(self.mirrors, settings, strict=True)
-            if METHODS[used.method].solves_vertices and not mirror.holds_eye(view, mirror.shape(used.map_resolution))
-        ]
-        if sights:
-            self.geometry.refine(sights)
-
-    def _show(
-        self, mirror: Mirror, view: View, settings: Settings, last: Shown | None, at_rest: bool, warnings: list[str]
-    ) -> Shown:
-        """By a method of the catalogue; `warnings` gets what is not shown."""
-        method = METHODS[settings.method]
-        if method.follows_rays:
-            self.rays()
-            return ShownRays(mirror, settings)
-        if mirror.holds_eye(view, mirror.shape(settings.map_resolution)):
-            black_cube = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
-            black = Environment("environment_cube", black_cube, lambda: black_cube, mirror=mirror.number)
-            warnings.append("The eye is inside a reflector, which shows only itself there: its reflection is black.")
-            return ShownEnvironment(mirror, settings, black)
-        if method.is_environment:
-            cube = self.environment_cubes()[mirror.number - 1]
-            return ShownEnvironment(mirror, settings, cube.environment(settings.method, view))
-        solver = self._solvers.get(id(mirror))
-        if solver is None:
-            solver = self._solvers[id(mirror)] = MirrorSolver(mirror)
-        own = self.geometry.of_instance(mirror.index)
-        known = last.found if isinstance(last, ShownVertices) else None
-        scenery = self._scenery_shown(mirror, view)
-        parts, found = solver.solve(view, settings, scenery, own, self._materials, known)
-        if method.curves_edges and at_rest:
-            parts = solver.with_curved_edges(view, settings, parts, own, self._materials, self.geometry.longest_edge)
-        return ShownVertices(mirror, settings, mirror.shape(settings.map_resolution), parts, found, at_rest)
-
-    def _scenery_shown(self, mirror: Mirror, view: View) -> list[tuple[Chunk, Batches]]:
-        """All that a mirror may show, but chunks that it cannot for sure: these are not solved."""
-        parts = self.geometry.scenery(mirror.index)
-        hidden = in_shadow(mirror, view, *self.geometry.chunk_balls([chunk for chunk, _ in parts]))
-        return [part for part, is_hidden in zip(parts, hidden.tolist(), strict=True) if not is_hidden]
+        if not solve:
+            return Reflection(view, self.settings, (), self.warnings)
+        bumpy = self._bumpy_mirrors()
+        found = self._preparation.reflect(self._stage, view, self.settings, bumpy, last, is_still, at_rest)
+        return replace(found, warnings=(*self.warnings, *found.warnings))
 
     def add_sub_frame(
         self,
@@ -349,14 +251,8 @@ class Renderer:
         if not groups:
             self._shade.add(canvas, sub_frame.targets.seen, None, sub_frame.uniforms, weight, window)
         for number, (kind, members) in enumerate(groups):
-            chosen = self._chosen(members) if len(groups) > 1 else None
+            chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             kind.add_light(members, sub_frame, Light(canvas, weight, chosen, with_others=number == 0))
-
-    def _chosen(self, members: Sequence[Shown]) -> Any:
-        """See `Light.chosen`."""
-        flags = np.zeros((len(self.mirrors) + 1, 4), np.float32)
-        flags[[shown.mirror.number for shown in members]] = 1.0
-        return record_texture(flags)
 
     def _add_diagnostic(
         self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic
@@ -380,29 +276,8 @@ class Renderer:
                 diagnostic.options,
                 methods,
                 [one.parts if one in members else () for one in reflection.shown],
-                self._chosen(members) if len(groups) > 1 else None,
+                chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None,
             )
-
-    def environment_cubes(self) -> list[EnvironmentCube]:
-        """One per mirror, drawn when first asked for."""
-        shapes = [mirror.shape(self.settings.map_resolution) for mirror in self.mirrors]
-        if self._cubes is None or self._cubes[0] != shapes:
-            centers, radii = self.geometry.balls()
-            cubes = [
-                EnvironmentCube(
-                    mirror.number,
-                    shape,
-                    self.geometry.scenery(mirror.index),
-                    float((np.linalg.norm(centers - shape.center, axis=1) + radii).max()),
-                    self._materials,
-                    self._lighting,
-                    self._shade,
-                    self.settings.environment_resolution,
-                )
-                for mirror, shape in zip(self.mirrors, shapes, strict=True)
-            ]
-            self._cubes = shapes, cubes
-        return self._cubes[1]
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -443,8 +318,7 @@ class Renderer:
         self, view: View, reflection: Reflection, window: Window | None = None, everywhere: bool = False
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        stage = Stage(self.mirrors, self.geometry, self._materials, self._lighting, self._shade, self.rays)
-        sub_frame = SubFrame(stage, view, view_block(view), self._targets_for(view), window)
+        sub_frame = SubFrame(self._stage, view, view_block(view), self._targets_for(view), window)
         smooth = {
             id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
         }
@@ -467,25 +341,5 @@ class Renderer:
         return self.surfaces_of(reflection)
 
     def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
-        """Surface buffers through the pixel centres, read back (see `Frame`)."""
-        sub_frame = self._draw_surfaces(reflection.view, reflection)
-        seen = sub_frame.targets.seen
-        arrays = {
-            "seen_position": read_texture(seen.position),
-            "seen_normal": read_texture(seen.normal),
-            "seen_color": read_texture(seen.color),
-        }
-        number = np.rint(arrays["seen_color"][..., 3]).astype(np.int32)
-        for kind, members in reflection.groups:
-            here = np.isin(number, [shown.mirror.number for shown in members])
-            for name, array in kind.read_back(members, sub_frame).items():
-                if len(reflection.groups) == 1:
-                    arrays[name] = array
-                else:
-                    arrays.setdefault(name, np.zeros_like(array))[here] = array[here]
-        arrays.setdefault("reflected_position", np.zeros_like(arrays["seen_position"]))
-        return arrays
-
-
-def _map_warnings(shape: BakedShape) -> tuple[str, ...]:
-    return () if shape.map is None else shape.map.warnings
+        """Surface buffers through the pixel centers, read back (see `Frame`)."""
+        return read_surfaces(reflection, self._draw_surfaces(reflection.view, reflection))

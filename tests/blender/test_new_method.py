@@ -108,7 +108,6 @@ def test_new_vertex_method_is_two_files(copy: Path, tmp_path: Path) -> None:
     assert np.percentile(np.abs(new["color"] - old["color"])[ball], 99) < 0.01
 
 
-@pytest.mark.xfail(strict=True, reason="renderer/shading/lookup.py asks for the sampler's kind of every lookup by name")
 def test_new_lookup_is_two_files(copy: Path, tmp_path: Path) -> None:
     add_method(copy, "gpu_shaders/environments/environment_plain.glsl", PLAIN, PLAIN_ENTRY)
     old, new, _ = drawn(copy, "environment_cube", "environment_plain", tmp_path)

@@ -34,10 +34,14 @@ class Case:
 
 
 def bevelled_box(rng: np.random.Generator) -> MeshArrays:
-    """Flat faces with one normal each, edges and corners rounded in a few steps."""
+    """Of any proportions and bevel."""
     size = np.exp(rng.uniform(np.log(0.05), 0.0, 3))
     bevel = float(size.min() * rng.uniform(0.05, 0.9))
-    steps = int(rng.integers(2, 6))
+    return rounded_box(size, bevel, int(rng.integers(2, 6)))
+
+
+def rounded_box(size: np.ndarray, bevel: float, steps: int) -> MeshArrays:
+    """Half sizes (3,); flat faces with one normal each, edges and corners rounded in so many steps."""
     quarter = np.linspace(0.0, 0.5 * np.pi, steps)
     around = np.concatenate([quarter + 0.5 * np.pi * index for index in range(4)])
     sign_x = np.repeat([1.0, -1.0, -1.0, 1.0], steps)

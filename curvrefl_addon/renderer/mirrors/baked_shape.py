@@ -21,7 +21,8 @@ from ..geometry.scene_geometry import CORNERS
 from .companion import closed_companion
 from .map_fit import MapFit
 from .mirror_plane import Plane, flat_parts
-from .reflector_bake import Limits, bake_placed, polar
+from .placed_mesh import polar
+from .reflector_bake import Limits, bake_placed
 from .reflector_map import ReflectorMap
 
 OPEN_LIMITS = Limits(holes=0.6)
@@ -79,6 +80,11 @@ class BakedShape:
     def nearest_surface(self) -> float:
         """Meters from the center to the surface, or less."""
         return self.map.r_min if self.map is not None else 1e-3 * self.bound
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Of the map, one sentence each."""
+        return () if self.map is None else self.map.warnings
 
     @property
     def is_open(self) -> bool:

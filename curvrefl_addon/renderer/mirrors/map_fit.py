@@ -23,11 +23,16 @@ from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays
 from ...scene.view import View
-from .reflector_bake import SurfaceSamples, surface_samples
+from .placed_mesh import SurfaceSamples, surface_samples
 from .reflector_map import ReflectorMap
 
 SAMPLES = 2048
 """Points of the mesh that are compared"""
+FEWEST_SAMPLES = 256
+"""Fewer of them say too little of a part of the mirror"""
+SHARE = 0.998
+"""Of the mirror's pixels that must be right: more than is asked for, as what hides most of the mirror from the eye is
+not known"""
 MOST_BALLS = 64
 """More objects are taken as being everywhere"""
 
@@ -67,7 +72,7 @@ class MapFit:
         world_to_map: Float64Array,
         centers: Float64Array,
         radii: Float64Array,
-        share: float = 0.99,
+        share: float = SHARE,
     ) -> float:
         """How far the map moves what the mirror shows in `view`, in pixels: the share's percentile over the mirror's
         pixels that may show any of the balls `centers` (n, 3), world space, and `radii` (n,).
@@ -81,7 +86,7 @@ class MapFit:
         to_eye /= np.maximum(away, 1e-30)[:, None]
         facing = np.einsum("ni,ni->n", to_eye, self._facing)
         cosine = np.einsum("ni,ni->n", to_eye, self._normals)
-        seen = np.flatnonzero(facing > 0.0)
+        seen = self._in_picture(np.flatnonzero(facing > 0.0), view, world_to_map)
         distance = self._distances(seen, to_eye, cosine, world_to_map, centers, radii)
         seen, distance = seen[distance > 0.0], distance[distance > 0.0]
         if len(seen) == 0:
@@ -121,6 +126,13 @@ class MapFit:
         order = np.argsort(errors)
         shares = np.cumsum(weight[order])
         return float(errors[order][min(np.searchsorted(shares, share * shares[-1]), len(order) - 1)])
+
+    def _in_picture(self, seen: NDArray[np.int64], view: View, world_to_map: Float64Array) -> NDArray[np.int64]:
+        """Those of the points that lie within the picture, or all where these are too few to speak for it."""
+        to_clip = view.world_to_clip @ np.linalg.inv(world_to_map)
+        clip = self._points[seen] @ to_clip[:, :3].T + to_clip[:, 3]
+        inside = seen[(np.abs(clip[:, :2]) <= clip[:, 3:]).all(axis=1)]
+        return inside if len(inside) >= FEWEST_SAMPLES else seen
 
     def _distances(
         self,

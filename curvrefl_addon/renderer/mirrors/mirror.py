@@ -16,7 +16,7 @@ from ..geometry.mesh_inside import holds_point
 from ..geometry.scene_geometry import CORNERS, Sight
 from ..geometry.split import split_angle
 from .baked_shape import BakedShape
-from .reflector_bake import polar
+from .placed_mesh import polar
 
 SAME_STRETCH = 1e-6
 """Relative: a matrix whose stretch differs less only moves and turns"""

@@ -16,12 +16,10 @@ from typing import Any
 from ..device.shaders import Piece, flags, named
 
 _SAMPLERS = {
-    "environment_cube": "FLOAT_CUBE",
     "environment_cube_vertex": "FLOAT_2D",
     "environment_sphere": "FLOAT_2D",
-    "environment_parallax": "FLOAT_CUBE",
 }
-"""Kind of the sampler `environment` by the lookup"""
+"""Kind of the sampler `environment` by the lookup, where it is no cube"""
 _CONSTANTS = {
     "environment_sphere": named("VEC3", "environment_right", "environment_up", "environment_axis"),
     "environment_parallax": {"environment_ball": "VEC4"},
@@ -54,7 +52,7 @@ class Environment:
 def lookup_piece(lookup: str) -> Piece:
     """A lookup's define ENVIRONMENT, sampler, push constants and GLSL."""
     return Piece(
-        samplers={"environment": _SAMPLERS[lookup]},
+        samplers={"environment": _SAMPLERS.get(lookup, "FLOAT_CUBE")},
         constants=_CONSTANTS.get(lookup, {}),
         defines=flags("ENVIRONMENT"),
         fragment=f"environments/{lookup}.glsl",

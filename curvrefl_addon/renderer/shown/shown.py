@@ -13,8 +13,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Self
 
+import numpy as np
+
 from ...scene.arrays import Float32Array
 from ...scene.view import View
+from ..device.records import record_texture
 from ..geometry.scene_geometry import SceneGeometry
 from ..lighting.lighting import Lighting
 from ..mirrors.mirror import Mirror
@@ -135,3 +138,10 @@ class Shown(ABC):
     @abstractmethod
     def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:
         """(h, w, 4) arrays `reflected_position` and, where there are surfaces, `reflected_color`; see `Frame`."""
+
+
+def chosen_mirrors(members: Sequence[Shown], count: int) -> Any:
+    """See `Light.chosen`; of so many mirrors in all."""
+    flags = np.zeros((count + 1, 4), np.float32)
+    flags[[shown.mirror.number for shown in members]] = 1.0
+    return record_texture(flags)

@@ -49,7 +49,7 @@ def _back_faces_shader() -> Any:
         Piece(
             smooth={"world_position": "VEC3"},
             outputs={"eye_distance": "FLOAT"},
-            vertex="surfaces/back_faces.vert.glsl",
-            fragment="surfaces/back_faces.frag.glsl",
+            vertex="vertices/back_faces.vert.glsl",
+            fragment="vertices/back_faces.frag.glsl",
         ),
     )

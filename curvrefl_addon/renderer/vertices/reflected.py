@@ -91,8 +91,8 @@ def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
             },
             flat={"object_id": "FLOAT"},
             writes_depth=True,
-            vertex="surfaces/reflected.vert.glsl",
-            fragment="surfaces/reflected.frag.glsl",
+            vertex="vertices/reflected.vert.glsl",
+            fragment="vertices/reflected.frag.glsl",
         ),
         *((back_faces,) if with_back_faces else ()),
     )
