@@ -12,7 +12,7 @@ from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.solvers.descent import minimise
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.renderer import choice as choices
-from curvrefl.curvrefl_addon.renderer import renderer as frame_module
+from curvrefl.curvrefl_addon.renderer import preparation
 from curvrefl.curvrefl_addon.renderer.choice import RAYS, VERTICES
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry import scene_geometry
@@ -131,7 +131,7 @@ def test_chunks_in_the_mirrors_shadow_are_not_solved(method: str, monkeypatch: p
     assert from_behind.solve["vertices"] > solved
     assert (from_behind.reflected_object() == number).any()
     with monkeypatch.context() as patched:
-        patched.setattr(frame_module, "in_shadow", lambda mirror, view, centers, radii: np.zeros(len(radii), bool))
+        patched.setattr(preparation, "in_shadow", lambda mirror, view, centers, radii: np.zeros(len(radii), bool))
         whole = renderer.render(view)
     assert whole.solve["vertices"] > solved
     np.testing.assert_array_equal(whole.color(), picture)

@@ -135,11 +135,12 @@ def test_an_unbaked_mirror_is_asked_once_for_each_eye_and_place(monkeypatch: pyt
 
     monkeypatch.setattr(mirror_module, "holds_point", counted)
     scene = hall("torus", 0)
-    mirror = Mirror(scene, 0, 1, MeshFactsCache().of(scene.meshes[0]), 0)
+    mirror = Mirror(scene, 0, 1, MeshFactsCache().of(scene.meshes[0]))
+    shape = mirror.shape()
     hole, tube = np.zeros(3), np.array([0.9, 0.0, 0.0])
     views = [look_at(eye, eye + np.array([0.0, 1.0, 0.1]), 60, 45, 1.0) for eye in (hole, tube)]
     for number in range(50):
-        assert [mirror.holds_eye(view.jittered(0.01 * number, 0.0)) for view in views] == [False, True]
+        assert [mirror.holds_eye(view.jittered(0.01 * number, 0.0), shape) for view in views] == [False, True]
     assert len(asked) == 2, "two viewports that draw in turn do not make each other forget"
 
     moved = scene.instances[0].matrix.copy()
@@ -147,13 +148,13 @@ def test_an_unbaked_mirror_is_asked_once_for_each_eye_and_place(monkeypatch: pyt
     instances = (replace(scene.instances[0], matrix=moved), *scene.instances[1:])
     assert mirror.follow(replace(scene, instances=instances), 0, 1)
     for _ in range(5):
-        assert [mirror.holds_eye(view) for view in views] == [True, False]
+        assert [mirror.holds_eye(view, shape) for view in views] == [True, False]
     assert len(asked) == 4, "elsewhere it is asked again"
 
     for number in range(100):
-        mirror.holds_eye(look_at(tube + np.array([0.0, 0.001 * number, 0.0]), hole, 60, 45, 1.0))
+        mirror.holds_eye(look_at(tube + np.array([0.0, 0.001 * number, 0.0]), hole, 60, 45, 1.0), shape)
     before = len(asked)
-    mirror.holds_eye(views[0])
+    mirror.holds_eye(views[0], shape)
     assert len(asked) == before + 1, "the answers of a long flight are not all kept"
 
 

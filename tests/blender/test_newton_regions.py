@@ -175,7 +175,7 @@ def test_a_convex_mirror_is_solved_once() -> None:
     try:
         reflection = renderer.reflect(trial.view)
         assert all(part.image == 0 for parts in reflection.parts for part in parts)
-        (solver,) = renderer._solvers.values()
+        (solver,) = renderer._preparation._solvers.values()
         assert solver._regions is None
     finally:
         renderer.free()
