@@ -15,7 +15,7 @@ from blender_process import run_script
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.registration import OPERATORS
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SHIPPED = {"blender_manifest.toml", "LICENSE", "README.md", "__init__.py", "curvrefl_addon", "gpu_shaders", "operators"}
 
 

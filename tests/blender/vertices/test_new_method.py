@@ -14,7 +14,7 @@ from blender_process import run_script
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 COPIED = ("curvrefl_addon", "gpu_shaders", "operators", "tools", "tests")
 CATALOGUE = "curvrefl_addon/optics/catalogue.py"
 HEADER = "// SPDX-FileCopyrightText: 2026 Curvrefl contributors\n// SPDX-License-Identifier: GPL-3.0-or-later\n"

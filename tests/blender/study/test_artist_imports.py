@@ -11,7 +11,7 @@ from blender_process import run_script
 
 
 def test_an_artists_session_imports_no_study() -> None:
-    result = run_script(Path(__file__).resolve().parent / "artist_imports.py")
+    result = run_script(Path(__file__).resolve().parents[1] / "artist_imports.py")
     (line,) = [line for line in result.stdout.splitlines() if line.startswith("IMPORTED ")]
     names = json.loads(line.removeprefix("IMPORTED "))
     assert "curvrefl.curvrefl_addon.viewport.handlers" in names

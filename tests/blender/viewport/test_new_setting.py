@@ -10,7 +10,7 @@ from pathlib import Path
 
 from blender_process import run_script
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 COPIED = ("__init__.py", "curvrefl_addon", "gpu_shaders", "operators", "tools")
 ENTRY = """    glow: float = setting(
         1.5,

@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.gpu_shaders.loader import Snippet, load
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 DEVICE = ROOT / "curvrefl_addon" / "renderer" / "device"
 
 

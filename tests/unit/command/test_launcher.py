@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SHELL_TOOLS = ("sh", "dirname", "readlink", "cat", "cmp")
 PROGRESS = "setting up once"
 

@@ -13,7 +13,7 @@ from curvrefl.curvrefl_addon.optics.solvers import newton
 from curvrefl.curvrefl_addon.renderer.device.uniform_struct import glsl_struct
 from curvrefl.gpu_shaders import loader
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SOLVERS = ROOT / "gpu_shaders" / "solvers"
 SHADERS = sorted([*(ROOT / "gpu_shaders").rglob("*.glsl"), *(ROOT / "tools").rglob("*.glsl")])
 MOST_COLUMNS = 119
