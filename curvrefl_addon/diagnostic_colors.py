@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import InputError
-from .optics.catalogue import METHODS
+from .optics.catalogue import METHODS, label_of
 from .scene.arrays import Float32Array, Float64Array
 from .settings_table import DIAGNOSTIC_CHOICES
 
@@ -191,6 +191,6 @@ def legend_of(
         )
         return Legend("Vertex Status", (*vertices, background))
     if mode == "METHOD":
-        used = tuple((method_color(name), METHODS[name].label) for name in METHODS if name in methods)
+        used = tuple((method_color(name), label_of(name)) for name in METHODS if name in methods)
         return Legend("Method", (*used, background))
     return None

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from .optics.catalogue import METHODS
+from .optics.catalogue import METHODS, Method
 from .setting import Choice, Flag, setting, settings_in
 
 STILL_SAMPLES = 16
@@ -176,6 +176,11 @@ class Settings:
         "time of another walk for each lamp",
         flags=(Flag("render", "--shadow-rays", _SHADOW_RAYS), Flag("compare", "--shadow-rays", _SHADOW_RAYS)),
     )
+
+    @property
+    def entry(self) -> Method:
+        """Of the method, in the catalogue."""
+        return METHODS[self.method]
 
 
 @dataclass(frozen=True, slots=True)

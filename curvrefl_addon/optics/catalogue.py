@@ -157,3 +157,8 @@ METHODS: dict[str, Method] = {
         ("environment_resolution", (64, 128, 256, 512)),
     ),
 }
+
+
+def label_of(name: str) -> str:
+    """What a user reads for a method, or for what stands in its place."""
+    return METHODS[name].label if name in METHODS else name.capitalize()

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..optics.catalogue import METHODS
 from ..scene.view import View
 from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.cubes import cube_texture
@@ -84,7 +83,7 @@ class Preparation:
         last: Reflection | None,
     ) -> Choice | None:
         """What `auto` does in a view; None for other methods."""
-        if not METHODS[settings.method].chooses:
+        if not settings.entry.chooses:
             return None
         if self._scenery is None:
             self._scenery = _read_scenery(stage)
@@ -107,7 +106,7 @@ class Preparation:
         sights = [
             mirror.sight(view, used.pixel_tolerance, mirror.shape(used.map_resolution))
             for mirror, used in zip(stage.mirrors, settings, strict=True)
-            if METHODS[used.method].solves_vertices and not mirror.holds_eye(view, mirror.shape(used.map_resolution))
+            if used.entry.solves_vertices and not mirror.holds_eye(view, mirror.shape(used.map_resolution))
         ]
         if sights:
             stage.geometry.refine(sights)
@@ -123,7 +122,7 @@ class Preparation:
         warnings: list[str],
     ) -> Shown:
         """By a method of the catalogue; `warnings` gets what is not shown."""
-        method = METHODS[settings.method]
+        method = settings.entry
         if method.follows_rays:
             stage.rays()
             return ShownRays(mirror, settings)

@@ -10,7 +10,6 @@ from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
-from ..optics.catalogue import METHODS
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.view import View
 from .device.context import require_gpu
@@ -137,9 +136,9 @@ class Renderer:
     @staticmethod
     def _require(mirrors: Sequence[Mirror], settings: Settings) -> None:
         """Bake what a method needs of all mirrors. Raises InputError for what a mirror cannot do."""
-        if METHODS[settings.method].needs_map:
+        if settings.entry.needs_map:
             for mirror in mirrors:
-                require(settings.method, mirror.shape(settings.map_resolution))
+                require(settings.entry, mirror.shape(settings.map_resolution))
 
     @property
     def _numbers(self) -> dict[int, int]:
@@ -158,12 +157,12 @@ class Renderer:
     def warnings(self) -> tuple[str, ...]:
         """What is wrong with the scene whatever the view, one sentence each."""
         found = [*self.scene.warnings]
-        if METHODS[self.settings.method].needs_map:
+        if self.settings.entry.needs_map:
             for mirror in self.mirrors:
                 found += mirror.shape(self.settings.map_resolution).warnings
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        if METHODS[self.settings.method].solves_vertices:
+        if self.settings.entry.solves_vertices:
             found += [
                 f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
                 for name in self._bumpy_mirrors()
@@ -322,7 +321,7 @@ class Renderer:
         smooth = {
             id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
         }
-        if not reflection.shown and METHODS[self.settings.method].solves_vertices:
+        if not reflection.shown and self.settings.entry.solves_vertices:
             smooth = {id(self.geometry.of_instance(mirror.index)[0]) for mirror in self.mirrors}
         draw_primary(
             sub_frame.targets.seen,

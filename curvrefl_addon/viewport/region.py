@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..diagnostic_colors import MODES, DiagnosticOptions
-from ..optics.catalogue import METHODS
+from ..optics.catalogue import label_of
 from ..renderer.choice import RAYS
 from ..renderer.device.batches import full_screen_triangle
 from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
@@ -136,7 +136,7 @@ class RegionPicture:
         choice = None if self._reflection is None else self._reflection.choice
         chosen = []
         if choice is not None:
-            labels = [METHODS[name].label if name in METHODS else "Nothing" for name in choice.methods]
+            labels = [label_of(name) for name in choice.methods]
             chosen = [
                 ("Chosen", ", ".join(labels)),
                 ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),

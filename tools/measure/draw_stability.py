@@ -24,7 +24,7 @@ import numpy as np
 
 bootstrap.load_package()
 
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS  # noqa: E402
+from curvrefl.curvrefl_addon.optics.catalogue import label_of  # noqa: E402
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -49,7 +49,7 @@ def draw_all(report: dict[str, Any], folder: Path, output: Path) -> None:
         for axis, method in zip(row, COLUMNS, strict=True):
             _draw(axis, report["trials"][name]["methods"][method], folder, CUT)
     for axis, method in zip(axes[0], COLUMNS, strict=True):
-        axis.set_title(METHODS[method].label.replace(" on ", "\non ").replace(" in ", "\nin "), fontsize=6)
+        axis.set_title(label_of(method).replace(" on ", "\non ").replace(" in ", "\nin "), fontsize=6)
     _save(figure, output)
 
 
@@ -62,7 +62,7 @@ def draw_trial(report: dict[str, Any], name: str, folder: Path, output: Path) ->
         axis.axis("off")
     for axis, (method, result) in zip(axes.ravel(), methods.items(), strict=False):
         _draw(axis, result, folder, 0)
-        axis.set_title(METHODS[method].label, fontsize=9)
+        axis.set_title(label_of(method), fontsize=9)
     _save(figure, output)
 
 

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
-from ...optics.catalogue import METHODS
 from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
 from ..mirrors.baked_shape import BakedShape
@@ -34,7 +33,7 @@ class ShownVertices(Shown):
 
     @property
     def is_final(self) -> bool:
-        return self.at_rest or not METHODS[self.method].curves_edges
+        return self.at_rest or not self.settings.entry.curves_edges
 
     @property
     def parts(self) -> tuple[SolvedChunk, ...]:

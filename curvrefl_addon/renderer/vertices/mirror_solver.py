@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ...optics.catalogue import METHODS
+from ...optics.catalogue import Method
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.curvature_regions import curvature_regions
 from ...scene.view import View
@@ -37,13 +37,12 @@ class Found:
     by_chunk: dict[int, tuple[Chunk, int, VertexSolution]] = field(default_factory=dict)
 
 
-def require(method: str, shape: BakedShape) -> None:
+def require(method: Method, shape: BakedShape) -> None:
     """Raise InputError where a method cannot work on a shape."""
-    maps = METHODS[method].maps
-    takes = METHODS[method].takes_open and shape.map is not None
-    if "radial" in maps and shape.refusal is not None and not takes:
+    takes = method.takes_open and shape.map is not None
+    if "radial" in method.maps and shape.refusal is not None and not takes:
         raise shape.refusal
-    if "parametric" in maps:
+    if "parametric" in method.maps:
         shape.parametric()
 
 
@@ -73,8 +72,8 @@ class MirrorSolver:
         stands. Raises InputError where the method cannot work on this shape.
         """
         shape = self.mirror.shape(settings.map_resolution)
-        require(settings.method, shape)
-        method = METHODS[settings.method]
+        require(settings.entry, shape)
+        method = settings.entry
         reflector = self.reflector(view, settings, own, materials)
         known_chunks = (
             last.by_chunk if last is not None and last.shape is shape and last.method == settings.method else {}
@@ -200,7 +199,7 @@ class MirrorSolver:
         """What a solve in this view knows of the mirror; `own` is its own surface. Draws the maps of methods that
         search in the view's own."""
         mirror, shape = self.mirror, self.mirror.shape(settings.map_resolution)
-        maps = METHODS[settings.method].maps
+        maps = settings.entry.maps
         reflector = Reflector(
             shape.world_to_map,
             shape.bound,

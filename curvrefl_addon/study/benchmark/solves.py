@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ...optics.catalogue import METHODS
 from ...optics.surfaces.radial_surfaces import Bumpy
 from ...renderer.device.context import most_texels
 from ...renderer.device.records import TEXTURE_WIDTH
@@ -90,7 +89,8 @@ def _measured(renderer: Renderer, materials: Materials, count: int) -> dict[str,
     mesh = radial_mesh(Bumpy(SHELL_BUMPS, SHELL * shape.bound), rows - 1, 2 * rows)
     instance = InstanceArrays("shell", 9, 0, np.eye(4), (0,))
     chunk = Chunk([Placed(instance, mesh, mesh, np.zeros(len(mesh.triangles), np.int8))])
-    method, settings = METHODS[renderer.settings.method], renderer.settings
+    settings = renderer.settings
+    method = settings.entry
 
     def prepared(turn: float, previous: VertexSolution | None = None) -> PreparedSolve:
         view = view_of_mirror(*SIZE, MIRROR_PIXELS, turn)

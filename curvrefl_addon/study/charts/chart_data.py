@@ -51,7 +51,7 @@ def default_value(method: Method) -> float:
 
 def step_count(comparison: Comparison) -> int:
     """How many steps `scene_steps` has."""
-    return 4 + 2 * sum(len(METHODS[name].sweep[1]) for name in comparison.methods) + len(comparison.peers)
+    return 4 + 2 * sum(len(list(sweep(name))) for name in comparison.methods) + len(comparison.peers)
 
 
 def scene_steps(
@@ -102,8 +102,8 @@ def _marks(
     marks: list[Mark] = []
     used: dict[int, Settings] = {}
     for name in comparison.methods:
-        setting = METHODS[name].sweep[0]
         for settings, value, is_default in sweep(name):
+            setting = settings.entry.sweep[0]
             if comparison.light == "direct":
                 # As Cycles there.
                 settings = replace(settings, bounces=1)
@@ -162,7 +162,7 @@ def _measured(
     image = image_error(frame.color, reference.pixels, geometry.mask != 0)
     shown = frame_geometry_error(frame, geometry)
     angle = shown["angle_deg"]
-    solves = METHODS[mark.name].solves_vertices
+    solves = settings.entry.solves_vertices
     return Mark(
         mark.scene,
         mark.name,

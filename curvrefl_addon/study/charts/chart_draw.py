@@ -17,7 +17,7 @@ import numpy as np
 
 from ...diagnostic_colors import GOLDEN_RATIO
 from ...errors import InputError
-from ...optics.catalogue import METHODS
+from ...optics.catalogue import METHODS, label_of
 from ...report.table import milliseconds
 from .chart_marks import LEVELS, MOST_WRONG, Level, Mark, front_marks, point
 from .vertex_curves import Curve
@@ -112,7 +112,7 @@ def draw_vertex_count(curves: Sequence[Curve], headline: str, folder: Path) -> N
             panel.errorbar(
                 curve.counts, median, spread, color=color, marker=marker, markersize=6, linestyle="", elinewidth=1
             )
-            label = METHODS[curve.method].label
+            label = label_of(curve.method)
             fit = curve.fit
             if fit is not None:
                 counts = np.geomspace(curve.counts[0], curve.counts[-1], 60)

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ...optics.catalogue import METHODS
 from ...renderer.geometry.chunk import Chunk, Placed
 from ...renderer.mirrors.baked_shape import BakedShape
 from ...renderer.renderer import Renderer
@@ -32,7 +31,7 @@ def vertex_count_steps(
     arrays: SceneArrays, view: View, methods: Sequence[str], largest: int
 ) -> Generator[str, None, list[Curve]]:
     """Solve more and more vertices on a shell around the first reflector; yields before each of `counts_up_to`."""
-    solving = [name for name in methods if METHODS[name].solves_vertices]
+    solving = [name for name in methods if Settings(method=name).entry.solves_vertices]
     if not solving:
         return []
     renderer = Renderer(arrays, Settings(method="environment_cube"))

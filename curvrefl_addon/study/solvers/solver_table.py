@@ -138,7 +138,7 @@ def solver_table(
                 if method.grid_search:
                     mesh_truth = mesh_truth or _Truth(oracle, mesh_cases(cases, max(count // MESH_VERTICES, 1)))
                     judge = mesh_truth
-                for settings, value in _settings(method_name, only_defaults):
+                for settings, value in _settings(method_name, method, only_defaults):
                     try:
                         found = _solve(reflector, method_name, settings, judge)
                         key = (method_name, value)
@@ -156,8 +156,7 @@ def solver_table(
     return rows, refusals
 
 
-def _settings(name: str, only_defaults: bool) -> Iterator[tuple[Settings, float]]:
-    method = METHODS[name]
+def _settings(name: str, method: Method, only_defaults: bool) -> Iterator[tuple[Settings, float]]:
     if only_defaults or not method.solves_vertices:
         field = method.sweep[0]
         default = float(getattr(Settings(), field)) or float(method.steps)
@@ -237,7 +236,7 @@ class _Truth:
 
 def _solve(reflector: StudyReflector, method: str, settings: Settings, truth: _Truth) -> _Found:
     cases = truth.cases
-    if METHODS[method].solves_vertices:
+    if settings.entry.solves_vertices:
         solution = reflector.solver(method, settings, cases.vertices, MESH_VERTICES)(study_view(cases.eye), None)
         points, code, iterations, _ = solution.read()
         return _Found(points.astype(np.float64), code, iterations)

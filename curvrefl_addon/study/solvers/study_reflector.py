@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...optics.catalogue import METHODS
 from ...optics.fermat import sample
 from ...optics.surfaces.cube_map import texel_directions
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
@@ -111,7 +110,7 @@ class StudyReflector:
 
         Every `mesh_size` of the vertices are a mesh of their own; 0: all of them are one.
         """
-        grid_search = METHODS[method].grid_search
+        grid_search = settings.entry.grid_search
 
         def search(view: View, positions: Any, count: int, previous: VertexSolution | None) -> VertexSolution:
             return solve_vertices(
@@ -135,7 +134,7 @@ class StudyReflector:
         return lambda view, _: grid.solve(chunk, lambda corners, count: search(view, corners, count, None))
 
     def _reflector(self, method: str, view: View, settings: Settings) -> Reflector:
-        maps = METHODS[method].maps
+        maps = settings.entry.maps
         textures: dict[str, Any] = {}
         to_search, start = np.eye(4), (0.0, 0.0)
         if "radial" in maps:

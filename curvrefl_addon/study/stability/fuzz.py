@@ -63,7 +63,7 @@ def fuzz(
     progress: Callable[[str], None] = lambda _: None,
 ) -> list[Fuzz]:
     """At least `triples` random eyes, vertices and reflectors, the same for every method that solves vertices."""
-    methods = [name for name, entry in METHODS.items() if entry.solves_vertices]
+    methods = {name: entry for name, entry in METHODS.items() if entry.solves_vertices}
     counts = {method: np.zeros(8, np.int64) for method in methods}
     batches = max(-(-triples // BATCH), 1)
     for first, name in enumerate(reflectors):
@@ -75,9 +75,9 @@ def fuzz(
         for number in numbers:
             eye, vertices = _random(np.random.default_rng([seed, number]), STUDIES[name].surface.bound)
             view = study_view(eye)
-            for method in methods:
+            for method, entry in methods.items():
                 solution = reflector.solve(method, view, Settings(method=method), vertices)
-                counts[method] += _counts(solution, vertices, STUDIES[name].surface.bound, METHODS[method])
+                counts[method] += _counts(solution, vertices, STUDIES[name].surface.bound, entry)
     return [Fuzz(method, *(int(number) for number in counts[method])) for method in methods]
 
 

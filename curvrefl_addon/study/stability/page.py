@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
-from ...optics.catalogue import METHODS
+from ...optics.catalogue import label_of
 from ...report.html import STYLE
 from ...report.table import percent
 from .fuzz import Fuzz
@@ -78,7 +78,7 @@ def stability_page(
 def _trial(trial: Trial, results: Mapping[str, TrialPicture]) -> str:
     figures = []
     for method, result in results.items():
-        label = escape(METHODS[method].label)
+        label = escape(label_of(method))
         if result.file:
             source = escape(result.file, quote=True)
             figures.append(
@@ -86,7 +86,7 @@ def _trial(trial: Trial, results: Mapping[str, TrialPicture]) -> str:
                 f"{percent(result.differs)} differs</figcaption></figure>"
             )
     refused = [
-        f'<p class="refused"><strong>{escape(METHODS[method].label)}</strong>: {escape(result.refusal)}</p>'
+        f'<p class="refused"><strong>{escape(label_of(method))}</strong>: {escape(result.refusal)}</p>'
         for method, result in results.items()
         if not result.file
     ]
@@ -104,7 +104,7 @@ def _trial(trial: Trial, results: Mapping[str, TrialPicture]) -> str:
 
 def _motion_row(motion: Motion) -> tuple[str, ...]:
     return (
-        METHODS[motion.method].label,
+        label_of(motion.method),
         motion.reflector,
         motion.path,
         str(motion.vertices),
@@ -121,7 +121,7 @@ def _fuzz_row(item: Fuzz) -> tuple[str, ...]:
     counts = (item.triples, item.not_finite, item.wild, item.without_code)
     shares = (item.reflected, item.hidden, item.unsolved)
     return (
-        METHODS[item.method].label,
+        label_of(item.method),
         *(f"{count:,}" for count in counts),
         *(percent(share / max(item.triples, 1)) for share in shares),
     )

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...optics.catalogue import METHODS
+from ...optics.catalogue import METHODS, label_of
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...report.display import display_transform
@@ -45,7 +45,7 @@ def draw_trial(trial: Trial, folder: Path, progress: Callable[[str], None]) -> d
         frame = renderer.render(trial.view)
         right, mask = display_transform(frame.color()[..., :3]), frame.mask() > 0
         for method, found in _colors(renderer, trial):
-            progress(f"Drawing {trial.name}: {METHODS[method].label}")
+            progress(f"Drawing {trial.name}: {label_of(method)}")
             if isinstance(found, str):
                 results[method] = TrialPicture("", found, float("nan"))
                 continue
