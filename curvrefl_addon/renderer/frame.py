@@ -13,7 +13,7 @@ import numpy as np
 from ..scene.arrays import Float32Array, Int32Array
 from .device.textures import read_texture
 from .reflection import Reflection
-from .vertices.solve import statistics
+from .vertices.solution import statistics
 
 
 class Frame:

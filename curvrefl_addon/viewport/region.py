@@ -21,7 +21,7 @@ from ..renderer.device.state import drawing_state, set_viewport, write_depth_aga
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
-from ..renderer.vertices.solve import statistics
+from ..renderer.vertices.solution import statistics
 from ..scene.view import View
 
 if TYPE_CHECKING:

@@ -23,7 +23,8 @@ from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
     _islands,
     bake_parametric,
 )
-from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
+from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
+from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
 from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds, read_mesh
 from curvrefl.curvrefl_addon.scene.view import View

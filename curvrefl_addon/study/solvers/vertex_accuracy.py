@@ -26,7 +26,7 @@ from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
 from ...renderer.vertices.mirror_solver import MirrorSolver
-from ...renderer.vertices.solve import SolvedChunk
+from ...renderer.vertices.solution import SolvedChunk
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float64Array, SceneArrays
 from ...scene.view import View
