@@ -31,7 +31,8 @@ from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float64Array, SceneArrays
 from ...scene.view import View
 from ..charts.chart_marks import VertexAccuracy
-from .oracle import Oracle, ReflectionPoints
+from .oracle import Oracle
+from .reflection_points import ReflectionPoints
 
 FINER = 2
 JUDGED = 4000
