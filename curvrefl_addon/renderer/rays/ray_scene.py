@@ -30,7 +30,8 @@ from ...scene.arrays import (
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
 from ..geometry.mesh_facts import MeshFactsCache
-from .hierarchy import Boxes, Hierarchy, HierarchyBuild, build, build_all, build_all_quickly
+from .hierarchy import Boxes, Hierarchy
+from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
