@@ -14,7 +14,7 @@ from ..scene.arrays import Float32Array, Int32Array
 from .device.textures import read_texture
 from .reflection import Reflection
 from .shown.shown import SubFrame
-from .vertices.solve import statistics
+from .vertices.solution import statistics
 
 
 class Frame:

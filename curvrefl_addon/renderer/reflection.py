@@ -13,7 +13,7 @@ from .choice import Choice
 from .mirrors.mirror import Mirror
 from .settings import Settings
 from .shown.shown import Shown
-from .vertices.solve import SolvedChunk, VertexSolution
+from .vertices.solution import SolvedChunk, VertexSolution
 
 
 @dataclass(frozen=True, slots=True)

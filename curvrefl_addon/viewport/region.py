@@ -22,7 +22,7 @@ from ..renderer.device.textures import read_texture
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
-from ..renderer.vertices.solve import statistics
+from ..renderer.vertices.solution import statistics
 from ..scene.view import View
 
 if TYPE_CHECKING:

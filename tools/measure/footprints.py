@@ -47,7 +47,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.primary import draw_primary  # no
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import VIEW, view_block  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import Found, MirrorSolver  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.solution import SolvedChunk  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Int32Array, MeshArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.study.benchmark.scenes import hall, view_of_mirror  # noqa: E402

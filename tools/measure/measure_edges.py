@@ -52,7 +52,8 @@ from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import _Cutting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, VertexSolution, solve_vertices  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, Float64Array, SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402

@@ -103,17 +103,17 @@ def build_shader(label: str, *pieces: Piece) -> Any:
     # (Held until it is compiled.)
     interface = _add_declarations(info, label, pieces)
     sources = _add_sources(info, pieces)
-    shader = None
-    cause: Exception | None = None
+    shader = failure = None
     with captured_output() as output:
         try:
             shader = gpu.shader.create_from_info(info)
         except Exception as error:  # (Blender raises no narrower one.)
-            cause = error
+            failure = error
     del interface
     output.write_rest()
-    if shader is None:
-        raise ShaderError(f"the shader {label} does not compile: {explain(output.errors, sources)}") from cause
+    if failure is not None:
+        # (Blender's own exception says no more than that; its traceback would be a second one for the user.)
+        raise ShaderError(f"the shader {label} does not compile: {explain(output.errors, sources)}") from None
     return shader
 
 

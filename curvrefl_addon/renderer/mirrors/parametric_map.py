@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...optics.solvers.secant_uv import SampledMap
 from ...optics.surfaces.cube_map import texel_directions
+from ...optics.surfaces.parametric_surfaces import SampledMap
 from ...optics.surfaces.radial_surfaces import unit
 from ...optics.surfaces.star_center import solid_angles
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays

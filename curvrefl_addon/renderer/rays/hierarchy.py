@@ -11,7 +11,6 @@ et al. 2009, "Fast BVH construction on GPUs") and asks the heuristic only about 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -23,16 +22,6 @@ from ...scene.arrays import Float32Array
 type IntArray = NDArray[np.int64]
 type Boxes = tuple[Float32Array, Float32Array]
 """Lowest and highest corners (items, 3)"""
-
-BINS = 8
-LEAF = 4
-"""Most items of a leaf"""
-CLUSTER = 16
-"""Neighbours on Morton's curve that the quick build does not take apart by the heuristic"""
-LARGE = 1 / 512
-"""An item with this share of the whole's area is a cluster of its own: it would blow up its neighbours' box"""
-HEURISTIC_LEVELS = 30
-"""Deeper down nodes are halved by number, so that no input makes a deep tree"""
 
 
 @dataclass(frozen=True)
@@ -63,7 +52,7 @@ class Hierarchy:
 
     def fitted(self, low: Float32Array, high: Float32Array) -> Hierarchy:
         """The same tree over the same items when their boxes (items, 3) have changed."""
-        low, high = _fit(self.link, self.count, self.levels, *_taken(low, high, self.order))
+        low, high = fit(self.link, self.count, self.levels, *taken(low, high, self.order))
         return replace(self, low=low, high=high)
 
     def cost(self) -> float:
@@ -72,272 +61,18 @@ class Hierarchy:
         return float((areas * np.where(self.count > 0, self.count, 2)).sum() / max(areas[0], 1e-30))
 
 
-class HierarchyBuild:
-    """A build by the heuristic, a level at each `step`, so that it can go on between the frames of a viewport."""
-
-    def __init__(self, low: Float32Array, high: Float32Array, leaf: int = LEAF, counts: IntArray | None = None) -> None:
-        """Boxes (items, 3), at least one; with `counts`, of several trees: the first `counts[0]` are of one, and so on,
-        and the first nodes are the roots."""
-        self._low, self._high, self._leaf = low, high, leaf
-        counts = np.array([len(low)]) if counts is None else counts
-        self._growth = _Growth(np.arange(len(low)), np.cumsum(counts) - counts, counts)
-        # Lower ends and negated upper ends, so that everything is a minimum; a row each, which numpy likes best.
-        self._boxes = np.ascontiguousarray(np.concatenate([low, -high], axis=1).T)
-
-    def step(self) -> bool:
-        """Split a level; False when there was nothing left to split."""
-        growth = self._growth
-        nodes = growth.splittable(self._leaf)
-        if len(nodes) == 0:
-            return False
-        if growth.level >= HEURISTIC_LEVELS:
-            growth.halve(nodes)
-        else:
-            growth.split(nodes, self._boxes)
-        return True
-
-    def finished(self) -> Hierarchy:
-        """All steps that are left, and the tree."""
-        while self.step():
-            pass
-        return self._growth.tree(self._low, self._high)
-
-
-def build(low: Float32Array, high: Float32Array, leaf: int = LEAF) -> Hierarchy:
-    """The best tree over boxes (items, 3), at least one."""
-    return HierarchyBuild(low, high, leaf).finished()
-
-
-def build_all(boxes: Sequence[Boxes], leaf: int = LEAF) -> list[Hierarchy]:
-    """The best tree over each of these."""
-    low, high, counts = _joined_boxes(boxes)
-    growing = HierarchyBuild(low, high, leaf, counts)
-    return _apart(growing.finished(), counts)
-
-
-def build_quickly(low: Float32Array, high: Float32Array, leaf: int = LEAF) -> Hierarchy:
-    """A good tree in a fraction of the time."""
-    return build_all_quickly([(low, high)], leaf)[0]
-
-
-def build_all_quickly(boxes: Sequence[Boxes], leaf: int = LEAF) -> list[Hierarchy]:
-    """A good tree over each of these in a fraction of the time."""
-    low, high, counts = _joined_boxes(boxes)
-    firsts = np.cumsum(counts) - counts
-    orders, starts, clusters = [], [], []
-    for first, (own_low, own_high) in zip(firsts, boxes, strict=True):
-        own_order, own_starts = _clusters(own_low, own_high)
-        orders.append(first + own_order)
-        starts.append(first + own_starts)
-        clusters.append(len(own_starts))
-    order, start = np.concatenate(orders), np.concatenate(starts)
-    sizes = np.diff(np.append(start, len(order)))
-    # (numpy reduces short runs of columns slowly: a row each)
-    low_rows, high_rows = np.ascontiguousarray(low[order].T), np.ascontiguousarray(high[order].T)
-    cluster_low = np.stack([np.minimum.reduceat(row, start) for row in low_rows], axis=1)
-    cluster_high = np.stack([np.maximum.reduceat(row, start) for row in high_rows], axis=1)
-    above = HierarchyBuild(cluster_low, cluster_high, 1, np.array(clusters)).finished()
-    growth = _Growth.below(above, order, start, sizes)
-    while len(nodes := growth.splittable(leaf)):
-        growth.halve(nodes)
-    return _apart(growth.tree(low, high), counts)
-
-
-def _joined_boxes(boxes: Sequence[Boxes]) -> tuple[Float32Array, Float32Array, IntArray]:
-    """All boxes, and how many of them are whose."""
-    counts = np.array([len(low) for low, _ in boxes])
-    return np.concatenate([low for low, _ in boxes]), np.concatenate([high for _, high in boxes]), counts
-
-
-def _clusters(low: Float32Array, high: Float32Array) -> tuple[IntArray, IntArray]:
-    """Items (n,) in the order of their clusters, and where each of these begins."""
-    count = len(low)
-    if count <= 4 * CLUSTER:
-        return np.arange(count), np.arange(count)
-    whole = half_area(low.min(axis=0), high.max(axis=0))
-    areas = half_area(low, high)
-    few = count // CLUSTER
-    threshold = max(LARGE * whole, np.partition(areas, count - few)[count - few])
-    is_large = areas > threshold
-    large, small = np.flatnonzero(is_large), np.flatnonzero(~is_large)
-    order = np.concatenate([large, small[np.argsort(_morton(low[small] + high[small]))]])
-    return order, np.concatenate([np.arange(len(large)), np.arange(len(large), count, CLUSTER)])
-
-
-def _apart(forest: Hierarchy, counts: IntArray) -> list[Hierarchy]:
-    """The trees whose roots are the first nodes of a forest; each is over so many items, in turn."""
-    trees = len(counts)
-    if trees == 1:
-        return [forest]
-    first_item = np.cumsum(counts) - counts
-    root = np.empty(len(forest.link), np.int64)
-    root[:trees] = np.arange(trees)
-    in_level = []
-    for begin, end in zip(forest.levels[:-1], forest.levels[1:], strict=True):
-        inner = begin + np.flatnonzero(forest.count[begin:end] == 0)
-        child = forest.link[inner]
-        root[child] = root[child + 1] = root[inner]
-        in_level.append(np.bincount(root[begin:end], minlength=trees))
-    # Nodes keep their order: children stay neighbours, and come after their parent.
-    nodes = np.argsort(root, kind="stable")
-    sizes = np.bincount(root, minlength=trees)
-    number = np.empty(len(nodes), np.int64)
-    number[nodes] = np.arange(len(nodes)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    is_leaf = forest.count > 0
-    link = np.where(is_leaf, forest.link - first_item[root], number[np.where(is_leaf, 0, forest.link)])
-    ends = np.cumsum(in_level, axis=0)
-    found = []
-    for tree, own in enumerate(np.split(nodes, np.cumsum(sizes)[:-1])):
-        levels = (0, *dict.fromkeys(ends[:, tree].tolist()))
-        items = slice(first_item[tree], first_item[tree] + counts[tree])
-        order = forest.order[items] - first_item[tree]
-        found.append(Hierarchy(order, link[own], forest.count[own], levels, forest.low[own], forest.high[own]))
-    return found
-
-
 def half_area(low: Float32Array, high: Float32Array) -> Float32Array:
     """(...,) half the surface of boxes (..., 3)."""
     x, y, z = np.moveaxis(high - low, -1, 0)
     return x * y + y * z + z * x
 
 
-class _Growth:
-    """A tree that grows level by level. Boxes come last."""
-
-    def __init__(self, order: IntArray, start: IntArray, count: IntArray) -> None:
-        self.order = order
-        self._start, self._count, self._link = [start], [count], [np.full(len(start), -1)]
-        self._levels = [0, len(start)]
-        self._open = np.arange(len(start))
-
-    @classmethod
-    def below(cls, top: Hierarchy, order: IntArray, starts: IntArray, sizes: IntArray) -> _Growth:
-        """To go on below a tree of one-item leaves: item i of `top` is order[starts[i] : starts[i] + sizes[i]]."""
-        is_leaf = top.count > 0
-        item = top.order[np.where(is_leaf, top.link, 0)]
-        growth = cls(order, np.where(is_leaf, starts[item], 0), np.where(is_leaf, sizes[item], 0))
-        growth._link = [np.where(is_leaf, -1, top.link)]
-        growth._levels = list(top.levels)
-        growth._open = np.flatnonzero(is_leaf)
-        return growth
-
-    @property
-    def level(self) -> int:
-        """Splits that led here."""
-        return len(self._levels) - 2
-
-    def splittable(self, leaf: int) -> IntArray:
-        """(n,) nodes made by the last split, or the first ones, that hold more than `leaf` items."""
-        count = self._joined(self._count)[self._open]
-        return self._open[count > leaf]
-
-    def halve(self, nodes: IntArray) -> None:
-        """Split nodes by the number of their items."""
-        self._grow(nodes, self._joined(self._count)[nodes] // 2)
-
-    def split(self, nodes: IntArray, boxes: Float32Array) -> None:
-        """Split nodes where the heuristic says; `boxes` (6, items): lower ends and negated upper ends."""
-        start, count = self._joined(self._start)[nodes], self._joined(self._count)[nodes]
-        first = np.concatenate([[0], np.cumsum(count)])[:-1]
-        segment = np.repeat(np.arange(len(nodes)), count)
-        rows = np.arange(len(segment)) + np.repeat(start - first, count)
-        items = self.order[rows]
-        here = [row[items] for row in boxes]
-        goes_left = _best_split(here, segment, first, count)
-        left = np.add.reduceat(goes_left, first, dtype=np.int64)
-        # Where all centers coincide any half will do.
-        stuck = (left == 0) | (left == count)
-        if stuck.any():
-            by_number = np.arange(len(segment)) - first[segment] < (count // 2)[segment]
-            goes_left = np.where(stuck[segment], by_number, goes_left)
-            left = np.where(stuck, count // 2, left)
-        before = np.cumsum(goes_left) - goes_left
-        left_rank = before - before[first][segment]
-        right_rank = np.arange(len(segment)) - first[segment] - left_rank
-        place = first[segment] + np.where(goes_left, left_rank, left[segment] + right_rank)
-        self.order[rows[place]] = items
-        self._grow(nodes, left)
-
-    def _grow(self, nodes: IntArray, left: IntArray) -> None:
-        start, count = self._joined(self._start), self._joined(self._count)
-        total = len(start)
-        self._link = [self._joined(self._link)]
-        self._link[0][nodes] = total + 2 * np.arange(len(nodes))
-        self._start.append(np.stack([start[nodes], start[nodes] + left], axis=1).ravel())
-        self._count.append(np.stack([left, count[nodes] - left], axis=1).ravel())
-        self._link.append(np.full(2 * len(nodes), -1))
-        self._open = total + np.arange(2 * len(nodes))
-        self._levels.append(total + 2 * len(nodes))
-
-    def tree(self, low: Float32Array, high: Float32Array) -> Hierarchy:
-        """The tree about boxes (items, 3)."""
-        link, count = self._joined(self._link), self._joined(self._count)
-        is_leaf = link < 0
-        link, count = np.where(is_leaf, self._joined(self._start), link), np.where(is_leaf, count, 0)
-        levels = tuple(self._levels)
-        fitted = _fit(link, count, levels, *_taken(low, high, self.order))
-        return Hierarchy(self.order, link, count, levels, *fitted)
-
-    @staticmethod
-    def _joined(parts: list[IntArray]) -> IntArray:
-        if len(parts) > 1:
-            parts[:] = [np.concatenate(parts)]
-        return parts[0]
-
-
-def _best_split(boxes: list[Float32Array], segment: IntArray, first: IntArray, count: IntArray) -> NDArray[np.bool_]:
-    """(items,) which go to the first child. `boxes`: six rows as in `HierarchyBuild`, of items whose node is `segment`
-    (ascending; begins at `first`, `count` items)."""
-    nodes = len(first)
-    best = np.full(nodes, np.inf, np.float32)
-    goes_left = np.zeros(len(segment), bool)
-    for axis in range(3):
-        center = boxes[axis] - boxes[axis + 3]
-        least = np.minimum.reduceat(center, first)
-        extent = np.maximum.reduceat(center, first) - least
-        scale = np.where(extent > 0.0, BINS * (1.0 - 1e-6) / np.where(extent > 0.0, extent, 1.0), 0.0).astype(
-            np.float32
-        )
-        bins = ((center - least[segment]) * scale[segment]).astype(np.int64)
-        key = segment * BINS + np.minimum(bins, BINS - 1)
-        cost, split = _cheapest(boxes, key, nodes)
-        better = cost < best
-        best = np.where(better, cost, best)
-        chosen = better[segment]
-        goes_left = np.where(chosen, bins <= split[segment], goes_left)
-    return goes_left
-
-
-def _cheapest(boxes: list[Float32Array], key: IntArray, nodes: int) -> tuple[Float32Array, IntArray]:
-    """Per node the least cost of a split between bins, and the last bin before it; `key`: node * BINS + bin."""
-    number = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
-    by_bin = np.full((6, nodes * BINS), np.inf, np.float32)
-    for row, target in zip(boxes, by_bin, strict=True):
-        # (Ten times as fast as sorting by bin and reducing what then lies side by side.)
-        np.minimum.at(target, key, row)
-    ends = by_bin.reshape(6, nodes, BINS)
-    left = _areas(np.minimum.accumulate(ends, axis=2)[..., :-1])
-    right = _areas(np.minimum.accumulate(ends[..., ::-1], axis=2)[..., -2::-1])
-    left_number = np.cumsum(number, axis=1)[:, :-1]
-    right_number = number.sum(axis=1, keepdims=True) - left_number
-    cost = np.where((left_number > 0) & (right_number > 0), left * left_number + right * right_number, np.inf)
-    split = cost.argmin(axis=1)
-    return cost[np.arange(nodes), split].astype(np.float32), split
-
-
-def _areas(ends: Float32Array) -> Float32Array:
-    """Half areas of boxes (6, ...); 0 of empty ones."""
-    with np.errstate(invalid="ignore"):
-        x, y, z = -ends[3:] - ends[:3]
-    return np.where(x >= 0.0, x * y + y * z + z * x, 0.0)
-
-
-def _taken(low: Float32Array, high: Float32Array, order: IntArray) -> tuple[Float32Array, Float32Array]:
+def taken(low: Float32Array, high: Float32Array, order: IntArray) -> tuple[Float32Array, Float32Array]:
     """Rows in another order (`take` is twice as fast as an index)."""
     return np.take(low, order, axis=0), np.take(high, order, axis=0)
 
 
-def _fit(
+def fit(
     link: IntArray, count: IntArray, levels: tuple[int, ...], low: Float32Array, high: Float32Array
 ) -> tuple[Float32Array, Float32Array]:
     """Boxes (nodes, 3) of a tree over items' boxes in the tree's order."""
@@ -357,18 +92,3 @@ def _fit(
         node_low[inner] = np.minimum(node_low[child], node_low[child + 1])
         node_high[inner] = np.maximum(node_high[child], node_high[child + 1])
     return node_low, node_high
-
-
-def _morton(doubled_centers: Float32Array) -> NDArray[np.uint32]:
-    """(n,) ten bits of each axis, interleaved."""
-    least = doubled_centers.min(axis=0)
-    extent = doubled_centers.max(axis=0) - least
-    scale = np.where(extent > 0.0, 1023.0 / np.where(extent > 0.0, extent, 1.0), 0.0)
-    cells = ((doubled_centers - least) * scale).astype(np.uint32)
-    code = np.zeros(len(cells), np.uint32)
-    for axis in range(3):
-        bits = cells[:, axis]
-        for shift, mask in ((16, 0x030000FF), (8, 0x0300F00F), (4, 0x030C30C3), (2, 0x09249249)):
-            bits = (bits | (bits << np.uint32(shift))) & np.uint32(mask)
-        code |= bits << np.uint32(axis)
-    return code

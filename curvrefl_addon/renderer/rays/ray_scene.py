@@ -24,21 +24,27 @@ from ...scene.arrays import (
     Float32Array,
     Float64Array,
     InstanceArrays,
-    Int32Array,
     MeshArrays,
     SceneArrays,
 )
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
-from ..geometry.chunk import pack_color
 from ..geometry.mesh_facts import MeshFactsCache
-from .hierarchy import Boxes, Hierarchy, HierarchyBuild, build, build_all, build_all_quickly
+from .hierarchy import Boxes, Hierarchy
+from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
+from .ray_records import (
+    NODE_RECORDS,
+    TRIANGLE_RECORDS,
+    corner_records,
+    material_records,
+    node_records,
+    triangle_corners,
+    triangle_records,
+)
 
 SEEN_IN_MIRRORS, CASTS_SHADOWS, NEVER_SEES_ITSELF, IS_CLOSED, IS_MIRRORED = 1, 2, 4, 8, 16
 """What sees an instance, how a mirror sees itself, and whether its matrix turns space inside out"""
-NODE_RECORDS = 4
 INSTANCE_RECORDS = 6
-TRIANGLE_RECORDS = 4
 STACK = 64
 """Levels of the top and the deepest mesh together"""
 RAYS = Piece(
@@ -68,8 +74,6 @@ AT_ONCE = 500_000
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
-OUT_OF_THE_WAY = 1e30
-"""Where a box is that no ray need enter"""
 WORSE = 1.4
 """A top level whose cost has grown by this factor since it was built is built anew"""
 
@@ -293,9 +297,9 @@ class RayScene:
             part
             for tree in trees
             for part in (
-                _node_records(tree.hierarchy, tree.hierarchy.link, tree.hierarchy.count),
-                _triangle_records(tree.mesh, tree.kept[tree.hierarchy.order]),
-                _corner_records(tree.mesh),
+                node_records(tree.hierarchy, tree.hierarchy.link, tree.hierarchy.count),
+                triangle_records(tree.mesh, tree.kept[tree.hierarchy.order]),
+                corner_records(tree.mesh),
             )
         ]
         places = iter(zip(self.regions.put(parts), (len(part) for part in parts), strict=True))
@@ -317,7 +321,7 @@ class RayScene:
         """The top level; the tree over the instances may be kept where they are the `same`."""
         self._items = [self._meshes[id(mesh)] for mesh in self._mesh_of]
         self._deepest = max(item.hierarchy.depth for item in self._items)
-        self._materials, firsts = _material_records(self._instances)
+        self._materials, firsts = material_records(self._instances)
         count = len(self._items)
         self._low, self._high = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
         self._records = np.zeros((count, INSTANCE_RECORDS, 4), np.float32)
@@ -359,7 +363,7 @@ class RayScene:
         self._top = top
         if top.depth + self._deepest > STACK:
             raise InputError("The scene's objects are nested too deeply for ray walks: choose another method.")
-        nodes = _node_records(top, top.order[np.where(top.count > 0, top.link, 0)], np.full(len(top.count), -1))
+        nodes = node_records(top, top.order[np.where(top.count > 0, top.link, 0)], np.full(len(top.count), -1))
         instances = self._records.reshape(-1, 4)
         joined = np.concatenate([nodes, instances, self._materials])
         start, size = self._top_region
@@ -426,17 +430,9 @@ def _triangles_with_a_place(mesh: MeshArrays) -> tuple[NDArray[np.int64], bool]:
     return kept, len(kept) < int(np.isfinite(places).all(axis=(1, 2)).sum())
 
 
-def _triangle_corners(mesh: MeshArrays, corners: Int32Array) -> tuple[Float32Array, Float32Array, Float32Array]:
-    """Where the three corners (n, 3) are, (n, 3) each, object space."""
-    # (`take` gathers rows in half the time of an index)
-    vertices = np.take(mesh.corner_vertex, corners)
-    a, b, c = (np.take(mesh.positions, vertices[:, k], axis=0) for k in range(3))
-    return a, b, c
-
-
 def _triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> tuple[Float32Array, Float32Array]:
     is_all = len(kept) == len(mesh.triangles)
-    a, b, c = _triangle_corners(mesh, mesh.triangles if is_all else mesh.triangles[kept])
+    a, b, c = triangle_corners(mesh, mesh.triangles if is_all else mesh.triangles[kept])
     return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
 
 
@@ -449,58 +445,3 @@ def _world_boxes(items: list[_MeshRays], matrices: Float64Array) -> tuple[Float3
     reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
     reach += 1e-6 * (np.abs(middle) + reach)
     return (middle - reach).astype(np.float32), (middle + reach).astype(np.float32)
-
-
-def _node_records(hierarchy: Hierarchy, leaf_link: NDArray[np.int64], leaf_count: NDArray[np.int64]) -> Float32Array:
-    """Of all inner nodes; `leaf_link`, `leaf_count`: what stands for leaves (nodes,)."""
-    is_inner = hierarchy.count == 0
-    number = np.cumsum(is_inner) - 1
-    if not is_inner.any():
-        # The root is a leaf: it gets an inner node above it, with itself once more as other child, out of the way.
-        records = np.zeros((1, 2, 2, 4), np.float32)
-        records[:, :, 0, 3], records[:, :, 1, 3] = leaf_link[0], leaf_count[0]
-        records[0, 0, 0, :3], records[0, 0, 1, :3] = hierarchy.low[0], hierarchy.high[0]
-        records[0, 1, :, :3] = OUT_OF_THE_WAY
-        return records.reshape(-1, 4)
-    children = hierarchy.link[is_inner][:, None] + np.arange(2)
-    records = np.empty((len(children), 2, 2, 4), np.float32)
-    records[:, :, 0, :3], records[:, :, 1, :3] = hierarchy.low[children], hierarchy.high[children]
-    records[:, :, 0, 3] = np.where(is_inner, number, leaf_link)[children]
-    records[:, :, 1, 3] = np.where(is_inner, 0, leaf_count)[children]
-    return records.reshape(-1, 4)
-
-
-def _triangle_records(mesh: MeshArrays, order: NDArray[np.int64]) -> Float32Array:
-    corners = np.take(mesh.triangles, order, axis=0)
-    a, b, c = _triangle_corners(mesh, corners)
-    records = np.empty((len(order), TRIANGLE_RECORDS, 4), np.float32)
-    records[:, 0, :3] = a
-    np.subtract(b, a, out=records[:, 1, :3])
-    np.subtract(c, a, out=records[:, 2, :3])
-    records[:, :3, 3] = 0.0
-    records[:, 3, :3] = corners
-    records[:, 3, 3] = np.take(mesh.triangle_slot, order)
-    return records.reshape(-1, 4)
-
-
-def _corner_records(mesh: MeshArrays) -> Float32Array:
-    records = np.zeros((len(mesh.corner_vertex), 2, 4), np.float32)
-    records[:, 0, :3] = mesh.corner_normals
-    records[:, 1, 2] = 0xFFFFFF
-    if mesh.corner_uv is not None:
-        records[:, 1, :2] = mesh.corner_uv
-    if mesh.corner_color is not None:
-        records[:, 1, 2] = pack_color(mesh.corner_color)
-    return records.reshape(-1, 4)
-
-
-def _material_records(instances: list[InstanceArrays]) -> tuple[Float32Array, list[int]]:
-    """Material numbers, four to a record, and the first record of each instance's; equal lists are stored once."""
-    firsts: dict[tuple[int, ...], int] = {}
-    numbers: list[int] = []
-    for instance in instances:
-        if instance.materials not in firsts:
-            firsts[instance.materials] = len(numbers) // 4
-            numbers += instance.materials
-            numbers += [0] * (-len(numbers) % 4)
-    return np.array(numbers, np.float32).reshape(-1, 4), [firsts[instance.materials] for instance in instances]

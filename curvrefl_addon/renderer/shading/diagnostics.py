@@ -33,7 +33,7 @@ from ..geometry.chunk import CHUNK
 from ..surfaces.pixel_classes import CHOSEN_MIRRORS
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import VIEW
-from ..vertices.solve import SolvedChunk
+from ..vertices.solution import SolvedChunk
 from .lookup import Environment, lookup_piece
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")

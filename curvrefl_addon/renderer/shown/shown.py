@@ -29,7 +29,7 @@ from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
-from ..vertices.solve import SolvedChunk, VertexSolution
+from ..vertices.solution import SolvedChunk, VertexSolution
 from .targets import Targets
 
 type Reflected = SurfaceBuffer | Sequence[Environment]

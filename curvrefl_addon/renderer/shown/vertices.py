@@ -14,7 +14,7 @@ from ..mirrors.baked_shape import BakedShape
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..vertices.mirror_solver import Found
 from ..vertices.reflected import draw_reflected
-from ..vertices.solve import Pieces, SolvedChunk, VertexSolution
+from ..vertices.solution import Pieces, SolvedChunk, VertexSolution
 from .shown import Shown, SubFrame
 
 

@@ -29,7 +29,7 @@ from ...scene.view import View
 from ..device.records import read_records, record_texture
 from ..geometry.chunk import Chunk, by_material, pack_color, unpack_color
 from ..geometry.split import number_pairs, subdivide
-from .solve import Pieces, SolvedChunk, VertexSolution
+from .solution import Pieces, SolvedChunk, VertexSolution
 
 MOST_ROUNDS = 6
 """Halvings of one edge: what leaves its chord then lies between vertices that show different images"""

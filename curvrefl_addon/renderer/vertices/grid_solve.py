@@ -15,7 +15,8 @@ from ..device.records import empty_record_texture, record_texture
 from ..device.shaders import Piece, dispatch, named, uniform_block
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
-from .solve import GROUP, VertexSolution, build_solver, plain_block
+from .solution import VertexSolution
+from .solve import GROUP, build_solver, plain_block
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 

@@ -21,7 +21,8 @@ from ..settings import Settings
 from ..surfaces.materials import Materials
 from .curved_edges import SHORTEST, Solve, with_curved_edges
 from .grid_solve import ChunkGrid
-from .solve import Reflector, RegionTextures, SolvedChunk, VertexSolution, solve_region, solve_vertices
+from .solution import SolvedChunk, VertexSolution
+from .solve import Reflector, RegionTextures, solve_region, solve_vertices
 
 SOLVER_SHARE = 0.1
 """Of the pixels that a reflected chord may be off, what the search may be off"""

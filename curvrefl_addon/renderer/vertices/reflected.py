@@ -19,7 +19,7 @@ from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
 from .back_faces import BackFaces
-from .solve import SolvedChunk
+from .solution import SolvedChunk
 
 STRETCHED_COSINE = float(np.cos(np.radians(8.0)))
 """Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows"""

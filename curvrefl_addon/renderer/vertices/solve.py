@@ -15,21 +15,18 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...optics import status
 from ...optics.catalogue import METHODS
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
-from ...scene.arrays import LARGEST_COORDINATE, Float64Array, Int32Array
+from ...scene.arrays import LARGEST_COORDINATE, Float64Array
 from ...scene.view import View
 from ..device.cubes import cube_texture
-from ..device.frame_buffers import frame_buffer, wait_for
-from ..device.records import empty_index_texture, empty_record_texture, read_records, record_texture
+from ..device.records import empty_index_texture, empty_record_texture, record_texture
 from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
 from ..device.uniform_struct import glsl_struct
-from ..geometry.chunk import Batches, Chunk
+from .solution import VertexSolution
 
 GROUP = 64
 MOST_STRAGGLERS_AT_ONCE = 1 << 14
@@ -93,81 +90,6 @@ class Reflector:
     """Texel where a search on the screen maps begins"""
     is_convex: bool = False
     """Closed and convex: a line enters it once"""
-
-
-@dataclass(frozen=True)
-class VertexSolution:
-    """Record textures of one solve (see `solver.glsl`); world space."""
-
-    reflection_points: Any
-    """Per position: P xyz, status + 4 iterations"""
-    virtual_positions: Any
-    """Per position: where the vertex seems to be, and |PV|"""
-    count: int
-    inputs: bytes = b""
-    """All that it was solved from beside positions and maps"""
-
-    def read(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """P (n, 3), status (n,), iterations (n,), virtual positions with |PV| (n, 4); waits for the GPU."""
-        points = read_records(self.reflection_points, self.count)
-        packed = np.rint(points[:, 3]).astype(np.int32)
-        return points[:, :3], packed & 3, packed >> 2, read_records(self.virtual_positions, self.count)
-
-    def wait(self) -> None:
-        """Return when the GPU has finished."""
-        wait_for(frame_buffer(self.reflection_points))
-
-
-@dataclass(frozen=True)
-class Pieces:
-    """Parts of triangles as record textures, laid out as those of a `Chunk`."""
-
-    positions: Any
-    corners: Any
-    triangles: Int32Array
-    """(n, 3) index into corners"""
-    corner_position: Int32Array
-    """(corners,) index into positions"""
-
-
-@dataclass(frozen=True)
-class SolvedChunk:
-    """A part of a mirror's scenery with its reflection points."""
-
-    chunk: Chunk | Pieces
-    """Whose triangles `batches` index; pieces are of triangles that had an edge split (`curved_edges`)"""
-    batches: Batches
-    solution: VertexSolution
-    image: int = 0
-    """0 for the image that every vertex has, or that says why not; 1, 2, ... for one in a region of the mirror"""
-    whole: NDArray[np.bool_] | None = None
-    """(triangles of the chunk,) which are in `batches`, the others' parts are pieces; None: all"""
-
-    @property
-    def places(self) -> Int32Array:
-        """(n, 3) the triangles that `batches` draw, index into positions."""
-        places = self.chunk.corner_position[self.chunk.triangles]
-        return places if self.whole is None else places[self.whole]
-
-
-def statistics(solutions: Sequence[VertexSolution]) -> dict[str, Any]:
-    """Counts and iterations over all solutions as `report.json` has them; waits for the GPU."""
-    parts = [solution.read() for solution in solutions]
-    code = np.concatenate([np.zeros(0, np.int32), *(part[1] for part in parts)])
-    iterations = np.concatenate([np.zeros(0, np.int32), *(part[2] for part in parts)])
-    searched = iterations[code == status.REFLECTED]
-    some = len(searched) > 0
-    return {
-        "vertices": len(code),
-        "reflected": len(searched),
-        "hidden": int((code == status.HIDDEN).sum()),
-        "unconverged": int((code >= status.UNSOLVED).sum()),
-        "iterations": {
-            "mean": float(searched.mean()) if some else 0.0,
-            "p99": float(np.percentile(searched, 99)) if some else 0.0,
-            "max": int(searched.max()) if some else 0,
-        },
-    }
 
 
 def solve_vertices(

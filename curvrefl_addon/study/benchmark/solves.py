@@ -22,7 +22,8 @@ from ...renderer.surfaces.surface_buffer import SurfaceBuffer
 from ...renderer.surfaces.view_block import view_block
 from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...renderer.vertices.reflected import draw_reflected
-from ...renderer.vertices.solve import PreparedSolve, SolvedChunk, VertexSolution, prepare_solve, statistics
+from ...renderer.vertices.solution import SolvedChunk, VertexSolution, statistics
+from ...renderer.vertices.solve import PreparedSolve, prepare_solve
 from ...report.repeats import timing_columns
 from ...scene.arrays import InstanceArrays
 from .gpu_timing import empty_wait, time_on_gpu

@@ -23,7 +23,8 @@ from ...renderer.mirrors.screen_maps import ScreenMaps, map_to_texels, widened
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
 from ...renderer.vertices.grid_solve import ChunkGrid
-from ...renderer.vertices.solve import Reflector, VertexSolution, solve_vertices
+from ...renderer.vertices.solution import VertexSolution
+from ...renderer.vertices.solve import Reflector, solve_vertices
 from ...scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from ...scene.view import View
 from .study_surfaces import Study

@@ -26,12 +26,13 @@ from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
 from ...renderer.vertices.mirror_solver import MirrorSolver
-from ...renderer.vertices.solve import SolvedChunk
+from ...renderer.vertices.solution import SolvedChunk
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float64Array, SceneArrays
 from ...scene.view import View
 from ..charts.chart_marks import VertexAccuracy
-from .oracle import Oracle, ReflectionPoints
+from .oracle import Oracle
+from .reflection_points import ReflectionPoints
 
 FINER = 2
 JUDGED = 4000

@@ -14,7 +14,7 @@ from ...optics import status
 from ...optics.catalogue import METHODS, Method
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
-from ...renderer.vertices.solve import VertexSolution
+from ...renderer.vertices.solution import VertexSolution
 from ...scene.arrays import LARGEST_COORDINATE
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import StudyReflector

@@ -13,7 +13,7 @@ from ...optics import status
 from ...optics.catalogue import METHODS
 from ...optics.surfaces.radial_surfaces import Float64Array
 from ...renderer.settings import Settings
-from ...renderer.vertices.solve import VertexSolution
+from ...renderer.vertices.solution import VertexSolution
 from ..solvers.oracle import Oracle
 from ..solvers.regimes import MESH_VERTICES, make_cases, mesh_cases
 from ..solvers.solver_table import study_view

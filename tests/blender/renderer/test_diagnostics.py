@@ -35,7 +35,7 @@ from curvrefl.curvrefl_addon.renderer.shading.lookup import Environment
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block
-from curvrefl.curvrefl_addon.renderer.vertices.solve import SolvedChunk, VertexSolution, statistics
+from curvrefl.curvrefl_addon.renderer.vertices.solution import SolvedChunk, VertexSolution, statistics
 from curvrefl.curvrefl_addon.scene.view import View
 from scenes.mirror_room import Room
 from scenes.views import look_at

@@ -21,13 +21,8 @@ from curvrefl.curvrefl_addon.renderer.reflection import Reflection
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import SHORTEST
-from curvrefl.curvrefl_addon.renderer.vertices.solve import (
-    Pieces,
-    Reflector,
-    SolvedChunk,
-    VertexSolution,
-    solve_vertices,
-)
+from curvrefl.curvrefl_addon.renderer.vertices.solution import Pieces, SolvedChunk, VertexSolution
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.view import View
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture

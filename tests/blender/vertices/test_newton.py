@@ -18,12 +18,8 @@ from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.vertices.solve import (
-    MOST_STRAGGLERS_AT_ONCE,
-    Reflector,
-    VertexSolution,
-    solve_vertices,
-)
+from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
+from curvrefl.curvrefl_addon.renderer.vertices.solve import MOST_STRAGGLERS_AT_ONCE, Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.view import View
 from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
 from curvrefl.curvrefl_addon.study.solvers.solver_table import study_view

@@ -22,13 +22,8 @@ from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver
-from curvrefl.curvrefl_addon.renderer.vertices.solve import (
-    Reflector,
-    RegionTextures,
-    VertexSolution,
-    solve_region,
-    solve_vertices,
-)
+from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, RegionTextures, solve_region, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
 from curvrefl.curvrefl_addon.study.solvers.solver_table import study_view

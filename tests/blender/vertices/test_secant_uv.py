@@ -13,8 +13,8 @@ from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.solvers import secant_uv
-from curvrefl.curvrefl_addon.optics.solvers.secant_uv import SampledMap
 from curvrefl.curvrefl_addon.optics.surfaces import sphere
+from curvrefl.curvrefl_addon.optics.surfaces.parametric_surfaces import SampledMap
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
@@ -23,7 +23,8 @@ from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import (
     _islands,
     bake_parametric,
 )
-from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, VertexSolution, solve_vertices
+from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
+from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
 from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds, read_mesh
 from curvrefl.curvrefl_addon.scene.view import View

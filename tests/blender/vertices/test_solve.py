@@ -13,7 +13,8 @@ from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
-from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices, statistics
+from curvrefl.curvrefl_addon.renderer.vertices.solution import statistics
+from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from scenes.radial_maps import SURFACES, radial_map, vertices_around
 from scenes.views import look_at
 

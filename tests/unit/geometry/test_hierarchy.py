@@ -8,11 +8,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.rays.hierarchy import (
+from curvrefl.curvrefl_addon.renderer.rays.hierarchy import Boxes, Hierarchy
+from curvrefl.curvrefl_addon.renderer.rays.hierarchy_build import (
     HEURISTIC_LEVELS,
     LEAF,
-    Boxes,
-    Hierarchy,
     HierarchyBuild,
     build,
     build_all,

@@ -11,9 +11,14 @@ import pytest
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.screen import Screen
 from curvrefl.curvrefl_addon.optics.solvers import secant_uv
-from curvrefl.curvrefl_addon.optics.solvers.secant_uv import EllipsoidMap, ParametricSample, SampledMap, TorusSection
 from curvrefl.curvrefl_addon.optics.surfaces import sphere
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import texel_directions
+from curvrefl.curvrefl_addon.optics.surfaces.parametric_surfaces import (
+    EllipsoidMap,
+    ParametricSample,
+    SampledMap,
+    TorusSection,
+)
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Float64Array, unit
 
 FOCAL = 660.0

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces import sphere
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
-from curvrefl.curvrefl_addon.study.solvers.oracle import MAXIMUM, MINIMUM, SADDLE, Oracle
+from curvrefl.curvrefl_addon.study.solvers.oracle import Oracle
+from curvrefl.curvrefl_addon.study.solvers.reflection_points import MAXIMUM, MINIMUM, SADDLE
 from curvrefl.curvrefl_addon.study.solvers.regimes import BLOCK, REGIMES, _first, make_cases
 from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 
