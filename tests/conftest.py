@@ -30,7 +30,7 @@ else:
     settings.load_profile("repeatable")
 
 TESTS = Path(__file__).resolve().parent
-# Helpers beside the tests that use them; tests/scenes is a package of scene builders.
+# Helpers beside the tests that use them, those of a room as `room.helper`; tests/scenes is a package of scene builders.
 sys.path[:0] = [str(TESTS.parent / "tools"), str(TESTS), str(TESTS / "blender")]
 
 import bootstrap  # noqa: E402

@@ -49,6 +49,18 @@ def add_square(name: str = "square", size: float = 2.0) -> bpy.types.Object:
     return obj
 
 
+def add_mesh(name: str, size: float = 1.0) -> bpy.types.Object:
+    """A tetrahedron with a material of its name."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(
+        [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)], [], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
+    )
+    mesh.materials.append(bpy.data.materials.new(name))
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
 def link(obj: bpy.types.Object, collection: bpy.types.Collection | None = None) -> bpy.types.Object:
     """Into the scene, or into a collection."""
     (collection or bpy.context.scene.collection).objects.link(obj)

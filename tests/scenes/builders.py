@@ -49,7 +49,7 @@ from curvrefl.curvrefl_addon.demo.shapes import (  # noqa: E402
     star_normals,
 )
 
-from .hidden_surfaces import LENS, MIRROR, SIZE, Case, Float64Array  # noqa: E402
+from .sheets import LENS, MIRROR, SIZE, Case, Float64Array  # noqa: E402
 
 CELLS = 64
 """The mirrors have 6 CELLS^2 quads: 49152 triangles"""

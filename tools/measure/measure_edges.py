@@ -27,7 +27,7 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from time import process_time
 from typing import Any
@@ -44,110 +44,26 @@ bootstrap.load_package()
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.optics import status  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.device.records import read_records  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.mirrors.baked_shape import BakedShape  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import _Cutting  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices  # noqa: E402
-from curvrefl.curvrefl_addon.scene.arrays import Float32Array, Float64Array, SceneArrays  # noqa: E402
+from curvrefl.curvrefl_addon.scene.arrays import Float64Array, SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
 from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from edges.judge import NEAR, VIEWS, Judge, Seen, numbers, turned  # noqa: E402
+from edges.six_node import measure_six_node  # noqa: E402
 
-VIEWS = ((0.0, 1.0), (90.0, 1.0), (200.0, 1.0), (300.0, 0.6))
-"""Degrees about the mirror's vertical axis, share of the camera's distance"""
 WIDTH, HEIGHT = 640, 480
-JUDGED_TO = 0.02
-"""Pixels"""
-NEAR = 0.1
-"""Of the mirror's size: a point is seen at a pixel whose own point is nearer"""
 COARSE = 1e6
 """Pixels: the bound splits to the largest angle that it allows"""
 REPEATS = 3
-LONG = 4.0
-"""Pixels of a triangle's longest side, for --six-node"""
 WAYS = {"bound": (1.0, False), "bound, midpoints": (1.0, True), "midpoints alone": (COARSE, True)}
 """Tolerance of the bound over that asked for; whether midpoints are solved"""
-
-
-class Judge:
-    """Reflection points in one view by `newton`, better than anything that is measured."""
-
-    def __init__(self, mirror: Mirror, shape: BakedShape, view: View) -> None:
-        self.view = view
-        self._reflector = Reflector(shape.world_to_map, shape.bound, {"radial": shape.radial}, mirror.side(view, shape))
-
-    def points(self, places: Float64Array, start: Float64Array | None = None) -> tuple[Float64Array, np.ndarray]:
-        """P (n, 3) of world places (n, 3), searched for from `start`, and whether (n,) each is reflected."""
-        before = None
-        if start is not None:
-            texture = _records(start)
-            before = VertexSolution(texture, texture, len(start))
-        solution = solve_vertices(
-            "newton", self.view, self._reflector, _records(places), len(places), tolerance=JUDGED_TO, previous=before
-        )
-        points, code, _, _ = solution.read()
-        return points.astype(np.float64), code == status.REFLECTED
-
-
-def _records(places: np.ndarray) -> Any:
-    records = np.zeros((len(places), 4), np.float32)
-    records[:, :3] = places
-    return record_texture(records)
-
-
-@dataclass(frozen=True)
-class Seen:
-    """What mirror pixels show."""
-
-    view: View
-    surfaces: dict[str, Float32Array]
-    near: float
-
-    @property
-    def mirror(self) -> np.ndarray:
-        """(h, w)"""
-        return self.surfaces["seen_color"][..., 3] > 0.5
-
-    @property
-    def objects(self) -> np.ndarray:
-        """(h, w) shown by mirror pixels, 0 elsewhere and for the background."""
-        return np.where(self.mirror, np.rint(self.surfaces["reflected_position"][..., 3]), 0).astype(int)
-
-    def shows(self, points: Float64Array) -> np.ndarray:
-        """(n,) whether points of the mirror (n, 3) are at a pixel of it."""
-        pixels = np.floor(self.view.project(points))
-        inside = ((pixels >= 0.0) & (pixels < (self.view.width, self.view.height))).all(axis=1)
-        column, row = np.where(inside[:, None], pixels, 0.0).astype(int).T
-        off = np.linalg.norm(self.surfaces["seen_position"][row, column, :3] - points, axis=1)
-        return inside & self.mirror[row, column] & (off < self.near)
-
-    def errors(self, judge: Judge) -> Float64Array:
-        """(n,) pixels, of those that show an object."""
-        shown = self.objects > 0
-        points, is_reflected = judge.points(
-            self.surfaces["reflected_position"][shown][:, :3].astype(np.float64),
-            self.surfaces["seen_position"][shown][:, :3].astype(np.float64),
-        )
-        row, column = np.nonzero(shown)
-        off = self.view.project(points) - np.column_stack([column + 0.5, row + 0.5])
-        return np.linalg.norm(off, axis=1)[is_reflected]
-
-
-def turned(view: View, center: Float64Array, degrees: float, closer: float) -> View:
-    """The eye turned about the vertical axis through `center`, then brought closer to it."""
-    angle = np.radians(degrees)
-    turn = np.eye(4)
-    turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    turn[:3, 3] = center - turn[:3, :3] @ center
-    world_to_view = view.world_to_view @ np.linalg.inv(turn)
-    world_to_view[:3, 3] -= (1.0 - closer) * (world_to_view @ np.append(center, 1.0))[:3]
-    return replace(view, world_to_view=world_to_view)
 
 
 @contextmanager
@@ -189,10 +105,6 @@ def edge_errors(reflection: Reflection, judge: Judge, seen: Seen) -> tuple[Float
         off = judge.view.project(middles[chosen]) - judge.view.project(drawn)
         found.append(np.linalg.norm(off, axis=1))
     return np.concatenate(found), count
-
-
-def numbers(values: Float64Array, percents: tuple[float, ...]) -> str:
-    return " ".join(f"{value:7.3f}" for value in np.percentile(values, percents))
 
 
 def measure(arrays: SceneArrays, camera: View, settings: Settings, way: str) -> str:
@@ -239,85 +151,6 @@ def measure(arrays: SceneArrays, camera: View, settings: Settings, way: str) -> 
         f"{numbers(edge, (50, 99, 100))} {(edge > tolerance).mean():6.2%}   {numbers(pixel, (50, 95, 99, 99.9))} "
         f"{(pixel > tolerance).mean():6.2%} {np.concatenate(wrong).mean():6.3%}"
     )
-
-
-def measure_six_node(arrays: SceneArrays, camera: View, settings: Settings) -> str:
-    """One line: straight triangles and quadratic patches through the same points."""
-    renderer = Renderer(arrays, settings)
-    mirror = renderer.mirrors[0]
-    shape = mirror.shape(settings.map_resolution)
-    found: dict[str, list[Float64Array]] = {"straight": [], "four straight": [], "six-node": []}
-    solves = count = 0
-    for degrees, closer in VIEWS:
-        view = turned(camera, shape.center, degrees, closer)
-        reflection = renderer.reflect(view)
-        judge = Judge(mirror, shape, view)
-        seen = Seen(view, renderer.surfaces_of(reflection), NEAR * shape.bound)
-        for part in (part for part in reflection.parts[0] if part.image == 0):
-            points, code, _, _ = part.solution.read()
-            world = read_records(part.chunk.positions, part.solution.count)[:, :3].astype(np.float64)
-            places = part.places
-            pixels = view.project(points.astype(np.float64))
-            sides = np.linalg.norm(pixels[places] - pixels[places[:, [1, 2, 0]]], axis=2)
-            chosen = (code[places] == status.REFLECTED).all(axis=1) & (sides.max(axis=1) >= LONG)
-            chosen &= seen.shows(points.astype(np.float64))[places].any(axis=1)
-            corners = world[places[chosen]]
-            nodes = np.concatenate([corners, 0.5 * (corners + corners[:, [1, 2, 0]])], axis=1)
-            solves += len(np.unique(nodes.reshape(-1, 3).round(5), axis=0))
-            at_nodes = _virtual(judge, nodes)
-            at_samples = _virtual(judge, np.einsum("sk,nkc->nsc", SAMPLES, corners))
-            usable = np.isfinite(at_nodes).all(axis=(1, 2)) & np.isfinite(at_samples).all(axis=(1, 2))
-            count += int(usable.sum())
-            truth = view.project(at_samples[usable].reshape(-1, 3))
-            for name, weights in (("straight", CORNERS), ("four straight", HALVES), ("six-node", QUADRATIC)):
-                drawn = np.einsum("sk,nkc->nsc", weights, at_nodes[usable]).reshape(-1, 3)
-                found[name].append(np.linalg.norm(view.project(drawn) - truth, axis=1))
-    renderer.free()
-    errors = "   ".join(numbers(np.concatenate(parts), (50, 99, 99.9)) for parts in found.values())
-    return f"{settings.pixel_tolerance:5g} {count // len(VIEWS):9} {solves // len(VIEWS):7}   {errors}"
-
-
-def _virtual(judge: Judge, places: Float64Array) -> Float64Array:
-    """(n, k, 3) where places (n, k, 3) seem to be, NaN where they are not reflected."""
-    flat = places.reshape(-1, 3)
-    points, is_reflected = judge.points(flat)
-    eye = judge.view.eye
-    to_eye = eye[:3] - points * eye[3]
-    to_eye /= np.linalg.norm(to_eye, axis=1, keepdims=True)
-    virtual = points - np.linalg.norm(flat - points, axis=1, keepdims=True) * to_eye
-    return np.where(is_reflected[:, None], virtual, np.nan).reshape(places.shape)
-
-
-def _samples() -> Float64Array:
-    """(9, 3) barycentric: the quarters of the sides, and half way from each corner's to the opposite midpoint."""
-    lattice = [(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]
-    return np.array([weights for weights in lattice if any(weight % 2 for weight in weights)]) / 4.0
-
-
-def _quadratic(samples: Float64Array) -> Float64Array:
-    """(s, 6) shape functions of corners and of the midpoints of the sides 01, 12, 20."""
-    a, b, c = samples.T
-    return np.column_stack([*(x * (2.0 * x - 1.0) for x in (a, b, c)), 4.0 * a * b, 4.0 * b * c, 4.0 * c * a])
-
-
-def _halves(samples: Float64Array) -> Float64Array:
-    """(s, 6) weights in the four triangles of corners and midpoints: barycentric in the one that holds the sample."""
-    corner = samples.argmax(axis=1)
-    at_corner = samples.max(axis=1) >= 0.5
-    weights = np.zeros((len(samples), 6))
-    for row, (sample, k, near) in enumerate(zip(samples, corner, at_corner, strict=True)):
-        if near:
-            rest = [(k + 1) % 3, (k + 2) % 3]
-            weights[row, k] = 2.0 * sample[k] - 1.0
-            weights[row, 3 + k], weights[row, 3 + (k + 2) % 3] = 2.0 * sample[rest[0]], 2.0 * sample[rest[1]]
-        else:
-            weights[row, [4, 5, 3]] = 1.0 - 2.0 * sample
-    return weights
-
-
-SAMPLES = _samples()
-CORNERS = np.column_stack([SAMPLES, np.zeros((len(SAMPLES), 3))])
-HALVES, QUADRATIC = _halves(SAMPLES), _quadratic(SAMPLES)
 
 
 def main() -> None:

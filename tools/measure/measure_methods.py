@@ -8,7 +8,7 @@
 
 A frame is what differs between the methods: following the scene (geometry, hierarchies), and what the mirror shows
 (the walk of the rays; or the solve and the draw of solved triangles), not the surface buffer of what the eye sees, nor
-the shading. One sub-frame, 640 x 480. `footprint` is no method of the extension: see footprints.py. The methods take
+the shading. One sub-frame, 640 x 480. `footprint` is no method of the extension: see footprints/. The methods take
 turns, frame by frame. Writes methods.csv as it goes, then methods.png and methods.svg.
 """
 
@@ -47,7 +47,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block  # n
 from curvrefl.curvrefl_addon.renderer.vertices.reflected import draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.study.benchmark.scenes import THINGS, deformed, hall, moved, view_of_mirror  # noqa: E402
-from footprints import Footprints  # noqa: E402
+from footprints.method import Footprints  # noqa: E402
 
 SIZE = (640, 480)
 PIXELS = (60, 300)

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting.world import image_directions
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MaterialArrays, WorldArrays
-from lighting_harness import Body, Stage, ball, box, cycles_picture, lamp, our_picture, plane
+from lighting.cycles import cycles_picture
+from lighting.harness import our_picture
+from lighting.stage import Body, Stage, ball, box, lamp, plane
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

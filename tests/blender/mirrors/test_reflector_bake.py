@@ -17,21 +17,9 @@ from curvrefl.curvrefl_addon.renderer.mirrors.reflector_bake import (
     bake_reflector,
     bake_reflectors,
 )
-from curvrefl.curvrefl_addon.renderer.mirrors.reflector_map import ReflectorMap, Spread, pixel_error
-from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
-from scenes.star_meshes import (
-    centroids,
-    corner_block,
-    inverted,
-    joined,
-    mesh_of,
-    moved,
-    only,
-    prism,
-    scene_of,
-    star_mesh,
-    torus,
-)
+from curvrefl.curvrefl_addon.renderer.mirrors.reflector_map import Spread, pixel_error
+from mirrors.star_baking import ANYTHING, CAP, ORIGIN, affine, bake, capped_ball, rotation
+from scenes.star_meshes import centroids, corner_block, inverted, joined, moved, only, prism, scene_of, star_mesh
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -41,28 +29,11 @@ SURFACES: dict[str, RadialSurface] = {
     "ellipsoid": Ellipsoid(2.0, 1.0, 0.5),
     "bumpy": Bumpy(0.3),
 }
-ANYTHING = Limits(1.0, 1.0)
-ORIGIN = (0.0, 0.0, 0.0)
-
-
-def bake(mesh: MeshArrays, resolution: int = 64, **options: object) -> ReflectorMap:
-    return bake_reflector(scene_of(mesh), 1, resolution, **options)  # type: ignore[arg-type]
 
 
 def normal_angles(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     crossed = np.linalg.norm(np.cross(one, other), axis=-1)
     return np.degrees(np.arctan2(crossed, (one * other).sum(axis=-1)))
-
-
-def rotation(seed: int) -> np.ndarray:
-    turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    return turn * np.sign(np.linalg.det(turn))
-
-
-def affine(linear: np.ndarray, place: tuple[float, float, float]) -> np.ndarray:
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = linear, place
-    return matrix
 
 
 @pytest.mark.parametrize("name", SURFACES)
@@ -188,17 +159,6 @@ def test_the_inner_wall_of_a_shell_does_not_count() -> None:
     assert baked.r_min > 0.99
 
 
-CAP = 0.8
-"""Cosine of a cap's angle: it covers (1 - 0.8) / 2 = 10 percent of all directions"""
-
-
-def capped_ball() -> MeshArrays:
-    """A ball with a cap of another one, half as large again, hovering over it."""
-    ball = star_mesh(Ellipsoid(), 96)
-    top = centroids(ball)[:, 2] > CAP
-    return joined(ball, moved(only(ball, top), ORIGIN, 1.5))
-
-
 def test_the_share_of_multiple_hits_is_measured() -> None:
     baked = bake(capped_ball(), 128, center=ORIGIN, limits=ANYTHING)
     assert baked.multiple_hits == pytest.approx(0.1, abs=0.004)
@@ -217,110 +177,6 @@ def test_the_share_of_holes_is_measured_and_holes_are_filled() -> None:
     np.testing.assert_allclose(baked.radial[hole][:, 0], 1.0, atol=1e-3)
     np.testing.assert_allclose(baked.radial[hole][:, 1:], 0.0, atol=0.05)
     assert "bridged" in bake(only(ball, centroids(ball)[:, 2] < 0.97), center=ORIGIN).warnings[0]
-
-
-def two_balls() -> MeshArrays:
-    ball = star_mesh(Ellipsoid(), 32)
-    return joined(moved(ball, (2.0, 0.0, 0.0)), moved(ball, (-2.0, 0.0, 0.0)))
-
-
-def bowl() -> MeshArrays:
-    ball = star_mesh(Ellipsoid(), 32)
-    return only(ball, centroids(ball)[:, 2] < 0.0)
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (capped_ball, ("not star-shaped", "%", "split")),
-        (lambda: torus(1.0, 0.4), ("not star-shaped", "%", "split")),
-        (lambda: torus(1.0, 0.95), ("not star-shaped", "%", "split")),
-        (two_balls, ("not star-shaped", "%", "split")),
-        (bowl, ("open", "%", "fill its holes")),
-        (lambda: only(star_mesh(Ellipsoid(), 32), np.arange(1)), ("flat", "closed")),
-    ],
-    ids=["capped ball", "torus", "fat torus", "two balls", "bowl", "one triangle"],
-)
-def test_what_no_map_can_hold_is_refused(make: object, words: tuple[str, ...]) -> None:
-    with pytest.raises(InputError) as caught:
-        bake(make())  # type: ignore[operator]
-    message = str(caught.value)
-    assert '"Ball"' in message and "\n" not in message
-    assert all(word in message for word in words)
-
-
-def test_limits_are_the_caller_s() -> None:
-    for mesh in (torus(1.0, 0.4), two_balls(), bowl()):
-        baked = bake(mesh, 32, limits=ANYTHING)
-        assert np.isfinite(baked.radial).all() and baked.r_min > 0.0
-    with pytest.raises(InputError, match="open"):
-        ball = star_mesh(Ellipsoid(), 32)
-        bake(only(ball, np.arange(len(ball.triangles)) != 7), limits=Limits(0.0, 0.0))
-
-
-def spoilt_position(value: float) -> MeshArrays:
-    mesh = star_mesh(Ellipsoid(), 8)
-    mesh.positions[5, 1] = value
-    return mesh
-
-
-def spoilt_normal() -> MeshArrays:
-    mesh = star_mesh(Ellipsoid(), 8)
-    mesh.corner_normals[3] = np.nan
-    return mesh
-
-
-def flat() -> MeshArrays:
-    points = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
-    return mesh_of(points, np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
-
-
-@pytest.mark.parametrize(
-    ("mesh", "words"),
-    [
-        (replace(star_mesh(Ellipsoid(), 8), triangles=np.zeros((0, 3), np.int32)), "no faces"),
-        (spoilt_position(np.nan), "finite"),
-        (spoilt_position(np.inf), "finite"),
-        (spoilt_normal(), "finite"),
-        (moved(star_mesh(Ellipsoid(), 8), (1.0, 2.0, 3.0), 0.0), "single point"),
-        (flat(), "flat"),
-    ],
-    ids=["empty", "nan", "infinite", "nan normal", "point", "flat"],
-)
-def test_broken_meshes_are_refused(mesh: MeshArrays, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        bake(mesh)
-
-
-@pytest.mark.parametrize(
-    ("matrix", "words"),
-    [
-        (np.diag([1.0, 1.0, 0.0, 1.0]), "scale"),
-        (np.diag([0.0, 0.0, 0.0, 1.0]), "scale"),
-        (affine(np.diag([1.0, np.nan, 1.0]), ORIGIN), "finite"),
-        (affine(np.eye(3), (np.inf, 0.0, 0.0)), "finite"),
-    ],
-)
-def test_broken_transforms_are_refused(matrix: np.ndarray, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        bake_reflector(scene_of(star_mesh(Ellipsoid(), 8), matrix), 1)
-
-
-@pytest.mark.parametrize("resolution", [0, 7, 4096, -1])
-def test_resolutions_out_of_range_are_refused(resolution: int) -> None:
-    with pytest.raises(InputError, match="out of range"):
-        bake(star_mesh(Ellipsoid(), 8), resolution)
-
-
-@pytest.mark.parametrize("center", [(0.0, 0.0), (np.nan, 0.0, 0.0)])
-def test_bad_centres_are_refused(center: tuple[float, ...]) -> None:
-    with pytest.raises(InputError, match="three finite numbers"):
-        bake(star_mesh(Ellipsoid(), 8), center=center)
-
-
-def test_a_centre_outside_is_refused() -> None:
-    with pytest.raises(InputError, match="star-shaped"):
-        bake(star_mesh(Ellipsoid(), 16), center=(5.0, 0.0, 0.0))
 
 
 def test_every_instance_has_its_own_map() -> None:

@@ -6,157 +6,16 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import bpy
-import gpu
 import numpy as np
-import pytest
-from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.report.compare import Comparison, compare_blend, compare_open_scene
-from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
-from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
+from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.html import report_page
 from curvrefl.curvrefl_addon.report.table import format_table
-from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
-
-WIDTH, HEIGHT, SAMPLES = 64, 48, 4
-SOLVE = {
-    "vertices": 8,
-    "reflected": 5,
-    "hidden": 3,
-    "unconverged": 0,
-    "iterations": {"mean": 4.5, "p99": 9.0, "max": 11.0},
-}
-
-
-class CyclesFrame:
-    """What Cycles itself shows, as a renderer's frame: by construction without error."""
-
-    warnings = ("A warning <of the renderer>.",)
-    solve = SOLVE
-
-    def __init__(self, scene: SceneArrays, frame_ms: float) -> None:
-        blender_scene, view_layer = bpy.context.scene, bpy.context.view_layer
-        ids = {instance.object_name: instance.object_id for instance in scene.instances}
-        self._geometry = render_geometry(blender_scene, view_layer, WIDTH, HEIGHT, ids, scene.reflectors)
-        self._color = render_reference(blender_scene, view_layer, WIDTH, HEIGHT, SAMPLES).pixels
-        self.choice = None
-        self.times_ms = {"bake": 7.0, "solve": 1.0, "draw": frame_ms - 1.0, "frame": frame_ms}
-
-    def color(self) -> np.ndarray:
-        return self._color
-
-    def mask(self) -> np.ndarray:
-        return self._geometry.mask
-
-    def reflected_position(self) -> np.ndarray:
-        return self._geometry.reflected_position
-
-    def reflected_object(self) -> np.ndarray:
-        return self._geometry.reflected_object
-
-
-class CyclesRenderer:
-    """Stands in for the renderer; its frames take 1000 (shaders compile), then 30, 10, 20 ms."""
-
-    frame_type: type[CyclesFrame] = CyclesFrame
-    freed = 0
-
-    def __init__(self, scene: SceneArrays, _method: str) -> None:
-        self._scene = scene
-        self._times = iter((1000.0, 30.0, 10.0, 20.0))
-
-    def settle(self) -> None:
-        pass
-
-    def render(self, view: View) -> CyclesFrame:
-        assert (view.width, view.height) == (WIDTH, HEIGHT)
-        return self.frame_type(self._scene, next(self._times))
-
-    def free(self) -> None:
-        type(self).freed += 1
-
-
-class BlackFrame(CyclesFrame):
-    """Sees the reflector and shows a black background straight up in it."""
-
-    warnings = ()
-
-    def color(self) -> np.ndarray:
-        return np.zeros_like(self._color)
-
-    def reflected_position(self) -> np.ndarray:
-        up = np.zeros_like(self._geometry.reflected_position)
-        up[..., 2] = 1.0
-        return up
-
-    def reflected_object(self) -> np.ndarray:
-        return np.zeros_like(self._geometry.reflected_object)
-
-
-class BlackRenderer(CyclesRenderer):
-    frame_type = BlackFrame
-
-
-class FailingRenderer(CyclesRenderer):
-    def render(self, view: View) -> CyclesFrame:
-        raise RuntimeError("the renderer broke down")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _gpu_context() -> None:
-    gpu.init()
-
-
-@pytest.fixture
-def blend(tmp_path: Path) -> Path:
-    """A chrome ball over a red floor in a grey world, saved as a file."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
-    scene.world = bpy.data.worlds.new("world")
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.3, 0.4, 0.5, 1)
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24)
-    ball = bpy.context.object
-    ball.name = "ball"
-    bpy.ops.object.shade_smooth()
-    chrome = bpy.data.materials.new("chrome")
-    shader = chrome.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Metallic"].default_value, shader.inputs["Roughness"].default_value = 1.0, 0.0
-    ball.data.materials.append(chrome)
-    bpy.ops.mesh.primitive_plane_add(size=12, location=(0, 0, -1.1))
-    bpy.context.object.name = "floor"
-    red = bpy.data.materials.new("red")
-    red.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.8, 0.1, 0.1, 1)
-    bpy.context.object.data.materials.append(red)
-    bpy.ops.object.light_add(type="POINT", location=(2, -2, 4))
-    bpy.context.object.data.energy = 500
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.location, camera.rotation_euler = (0, -5, 1.5), (np.radians(75.0), 0, 0)
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    path = tmp_path / "ball & floor.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
-    return path
-
-
-def run(
-    blend: Path, output: Path, make_renderer: Callable[..., Any] = CyclesRenderer, **changes: Any
-) -> dict[str, Any]:
-    arguments: dict[str, Any] = {
-        "reflector_names": ["ball"],
-        "methods": ["secant_star"],
-        "width": WIDTH,
-        "height": HEIGHT,
-        "samples": SAMPLES,
-        "light": "direct",
-        "peers": ["cycles1"],
-    }
-    return compare_blend(blend, output=output, make_renderer=make_renderer, **{**arguments, **changes})
+from report.stand_ins import HEIGHT, SAMPLES, SOLVE, WIDTH, BlackRenderer, CyclesRenderer, run
 
 
 def test_report_of_a_perfect_renderer(blend: Path, tmp_path: Path) -> None:
@@ -260,18 +119,6 @@ def test_the_camera_and_frame_that_are_asked_for(blend: Path, tmp_path: Path) ->
     assert turned["mask_pixels"] > 300
 
 
-def test_nothing_is_left_by_a_failure(blend: Path, tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError, match="broke down"):
-        run(blend, tmp_path / "out", FailingRenderer)
-    existing = tmp_path / "existing"
-    existing.mkdir()
-    (existing / "mine.txt").write_text("kept")
-    with pytest.raises(RuntimeError, match="broke down"):
-        run(blend, existing, FailingRenderer)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["ball & floor.blend", "existing"]
-    assert [path.name for path in existing.iterdir()] == ["mine.txt"]
-
-
 def test_an_existing_folder_keeps_its_other_files(blend: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "mine.txt").write_text("kept")
@@ -279,59 +126,6 @@ def test_an_existing_folder_keeps_its_other_files(blend: Path, tmp_path: Path) -
     report = run(blend, tmp_path / "out", peers=[])
     assert (tmp_path / "out" / "mine.txt").read_text() == "kept"
     assert json.loads((tmp_path / "out" / "report.json").read_text()) == report
-
-
-@pytest.mark.parametrize(
-    ("changes", "sentence"),
-    [
-        ({"width": 0}, "resolution"),
-        ({"height": 100_000}, "resolution"),
-        ({"samples": 0}, "samples"),
-        ({"light": "moon"}, "direct, full"),
-        ({"methods": ["secant_moon"]}, "secant_star"),
-        ({"methods": []}, "secant_star"),
-        ({"peers": ["cycles2"]}, "cycles1"),
-        ({"reflector_names": ["bal"]}, "ball"),
-        ({"camera": "nobody"}, "camera"),
-    ],
-)
-def test_bad_input_is_named_and_writes_nothing(
-    blend: Path, tmp_path: Path, changes: dict[str, Any], sentence: str
-) -> None:
-    with pytest.raises(InputError, match=sentence):
-        run(blend, tmp_path / "out", **changes)
-    assert [path.name for path in tmp_path.iterdir()] == ["ball & floor.blend"]
-
-
-class PickyRenderer(CyclesRenderer):
-    """Refuses the reflector for some methods."""
-
-    refused = ("secant_uv", "planar")
-
-    def __init__(self, scene: SceneArrays, method: str) -> None:
-        if method in self.refused:
-            raise InputError(f"Not by {method}.")
-        super().__init__(scene, method)
-
-
-def test_method_that_cannot_show_the_reflector_is_left_out_and_said(blend: Path, tmp_path: Path) -> None:
-    methods = ["secant_uv", "secant_star", "planar"]
-    report = run(blend, tmp_path / "out", PickyRenderer, methods=methods, peers=[])
-    assert list(report["methods"]) == ["secant_star"]
-    assert report["warnings"][:2] == ["Without secant_uv: Not by secant_uv.", "Without planar: Not by planar."]
-    assert not (tmp_path / "out" / "planar.png").exists()
-
-
-def test_reflector_that_no_method_can_show_is_an_error(blend: Path, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"Not by secant_uv\."):
-        run(blend, tmp_path / "out", PickyRenderer, methods=["secant_uv", "planar"])
-    assert not (tmp_path / "out").exists()
-
-
-def test_output_that_cannot_be_a_folder(blend: Path, tmp_path: Path) -> None:
-    for output in (blend, blend / "inside"):
-        with pytest.raises(InputError, match="folder"):
-            run(blend, output)
 
 
 class Page(HTMLParser):

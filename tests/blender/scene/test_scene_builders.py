@@ -20,7 +20,8 @@ from scenes.builders import (  # noqa: E402
     ellipsoid_radius,
     sphere_radius,
 )
-from scenes.hidden_surfaces import CASES, MIRROR, SIZE  # noqa: E402
+from scenes.hidden_surfaces import CASES  # noqa: E402
+from scenes.sheets import MIRROR, SIZE  # noqa: E402
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -10,11 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, MeshArrays, SceneArrays
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.changes import Changes
 from curvrefl.curvrefl_addon.scene.extract import SceneReader
-from curvrefl.curvrefl_addon.scene.meshes.mesh_store import MeshStore
-from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds
+from extraction import add_mesh
 
 
 class Session:
@@ -38,17 +37,6 @@ class Session:
     def end(self) -> None:
         bpy.app.handlers.depsgraph_update_post.remove(self._note)
         bpy.app.handlers.frame_change_post.remove(self._note)
-
-
-def add_mesh(name: str, size: float = 1.0) -> bpy.types.Object:
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(
-        [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)], [], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
-    )
-    mesh.materials.append(bpy.data.materials.new(name))
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(obj)
-    return obj
 
 
 @pytest.fixture
@@ -265,39 +253,6 @@ def test_a_view_layers_own_world_comes_and_goes(session: Session) -> None:
     assert radiance(session) == (0.0, 0.0, 1.0)
     layer.world_override = None
     assert radiance(session) == (1.0, 0.0, 0.0)
-
-
-class Unsearchable(list[MeshArrays]):
-    """May be read at a place, not searched."""
-
-    def __iter__(self) -> Any:
-        raise AssertionError("searched")
-
-    def __contains__(self, _item: object) -> bool:
-        raise AssertionError("searched")
-
-
-def test_a_free_number_for_a_mesh_is_not_searched_for() -> None:
-    """The lowest that is free, so that there are no more numbers than meshes were ever there at once."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    objects = [add_mesh(f"Mesh {index}", 1.0 + index) for index in range(20)]
-    bpy.context.view_layer.update()
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    evaluated = [obj.evaluated_get(depsgraph) for obj in objects]
-    store = MeshStore()
-    store.meshes = Unsearchable()
-
-    def walk(chosen: list[int]) -> list[int]:
-        store.begin()
-        numbers = [store.read(evaluated[index], 1 + index, MeshNeeds(), False).number for index in chosen]
-        store.end()
-        return numbers
-
-    assert walk(list(range(12))) == list(range(12))
-    assert walk([0, 1, 4, 5, 8, 9]) == [0, 1, 4, 5, 8, 9]
-    assert walk([0, 1, 4, 5, 8, 9, *range(12, 20)]) == [0, 1, 4, 5, 8, 9, 2, 3, 6, 7, 10, 11, 12, 13]
-    for number, index in zip([2, 13], [12, 19], strict=True):
-        assert store.meshes[number].positions.max() == 1.0 + index
 
 
 def test_what_stays_is_the_same_object(session: Session) -> None:

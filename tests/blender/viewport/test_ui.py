@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings, presets, menus and panels: what they are set to, what they change, and that they draw in every state."""
+"""Settings, presets and operators: what they are set to, what they change, and what their tooltips say."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -15,88 +13,11 @@ import pytest
 from curvrefl.curvrefl_addon import options, registration, settings_table
 from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
 from curvrefl.curvrefl_addon.setting import Choice, Setting
-from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, properties, table_properties
-from curvrefl.curvrefl_addon.viewport import handlers as viewport
+from curvrefl.curvrefl_addon.ui import choices, panel, preferences, properties, table_properties
 from curvrefl.operators.mirror_settings import CURVREFL_OT_apply_preset, CURVREFL_OT_toggle_mirror
+from viewport.layouts import add_cubes, context, draw
 
-ENTRIES = {
-    "VIEW3D_MT_object_context_menu": menus.draw_object_entry,
-    "VIEW3D_MT_object": menus.draw_object_entry,
-    "VIEW3D_PT_overlay": menus.draw_overlay_entry,
-}
-
-
-@pytest.fixture(autouse=True)
-def registered() -> Iterator[None]:
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    registration.register()
-    yield
-    registration.unregister()
-
-
-class Layout:
-    """Takes what a draw function puts into a layout; every property must be there."""
-
-    def __init__(self, root: Layout | None = None) -> None:
-        self.root = root or self
-        self.texts: list[str] = []
-        self.shown: list[str] = []
-
-    def __getattr__(self, _name: str) -> Any:
-        return self._nested
-
-    def _nested(self, *_arguments: Any, **_keywords: Any) -> Layout:
-        return Layout(self.root)
-
-    def prop(self, owner: Any, name: str, text: str | None = None, **_keywords: Any) -> None:
-        assert name in owner.bl_rna.properties, name
-        self.root.shown.append(name)
-        if text:
-            self.root.texts.append(text)
-
-    def label(self, text: str = "", icon: str = "NONE") -> None:
-        assert icon in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
-        self.root.texts.append(text)
-
-    def operator(self, name: str, text: str | None = None, **_keywords: Any) -> SimpleNamespace:
-        group, _, verb = name.partition(".")
-        assert getattr(getattr(bpy.ops, group), verb).get_rna_type().properties is not None
-        self.root.shown.append(name)
-        return SimpleNamespace()
-
-    def menu(self, name: str, text: str = "", **_keywords: Any) -> None:
-        assert hasattr(bpy.types, name), name
-        self.root.texts.append(text)
-
-
-def context(**changed: Any) -> Any:
-    region = SimpleNamespace(width=300)
-    # Without a window Blender's interface scale is 0.
-    scale = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
-    view = {name: getattr(bpy.context, name) for name in ("scene", "object", "window_manager", "view_layer")}
-    return SimpleNamespace(**(view | {"preferences": scale, "region": region} | changed))
-
-
-def draw(cls: Any, seen: Any) -> Layout | None:
-    """The panel's header, preset and body into one layout; None where it does not apply."""
-    if hasattr(cls, "poll") and not cls.poll(seen):
-        return None
-    layout = Layout()
-    for part in ("draw_header", "draw_header_preset", "draw"):
-        # Called as plain functions: Blender alone makes instances of panels.
-        if (function := cls.__dict__.get(part)) is not None:
-            function(SimpleNamespace(layout=layout), seen)
-    return layout
-
-
-def add_cubes(count: int) -> list[bpy.types.Object]:
-    for number in range(count):
-        bpy.ops.mesh.primitive_cube_add(location=(3.0 * number, 0.0, 0.0))
-    cubes = [item for item in bpy.context.scene.objects if item.type == "MESH"]
-    for cube in cubes:
-        cube.select_set(True)
-    bpy.context.view_layer.objects.active = cubes[0]
-    return cubes
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def test_defaults_are_those_of_the_balanced_preset() -> None:
@@ -225,98 +146,6 @@ def _type(item: Setting) -> str:
     return {bool: "BOOLEAN", int: "INT"}.get(type(item.start), "FLOAT")
 
 
-def _no_scene() -> Any:
-    return context(scene=None, object=None)
-
-
-def _nothing() -> Any:
-    return context()
-
-
-def _light() -> Any:
-    bpy.ops.object.light_add()
-    return context()
-
-
-def _plain_mesh() -> Any:
-    add_cubes(1)
-    return context()
-
-
-def _mirror(**settings: Any) -> Any:
-    (cube,) = add_cubes(1)
-    cube.curvrefl.is_mirror = True
-    for name, value in settings.items():
-        setattr(cube.curvrefl, name, value)
-    return context()
-
-
-def _glass() -> Any:
-    return _mirror(override=True, fresnel="DIELECTRIC")
-
-
-def _many_hidden() -> Any:
-    for cube in add_cubes(panel.MOST_LISTED + 3):
-        cube.curvrefl.is_mirror = True
-        cube.hide_set(True)
-    return context()
-
-
-def _stripes() -> Any:
-    bpy.context.scene.curvrefl.show = "ZEBRA"
-    bpy.context.scene.curvrefl.environment = "IMAGE"
-    return _mirror()
-
-
-STATES = (_no_scene, _nothing, _light, _plain_mesh, _mirror, _glass, _many_hidden, _stripes)
-
-
-@pytest.mark.parametrize("state", STATES, ids=lambda state: state.__name__)
-def test_every_panel_and_menu_draws(state: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    seen = state()
-    for found in ([], ["Two sentences. They are long enough to need more than one line of the panel."]):
-        monkeypatch.setattr(viewport, "messages", lambda found=found: found)
-        for cls in panel.CLASSES:
-            draw(cls, seen)
-        for entry in set(ENTRIES.values()):
-            entry(SimpleNamespace(layout=Layout()), seen)
-    if seen.scene is not None:
-        menu = Layout()
-        menus.CURVREFL_MT_presets.draw(SimpleNamespace(layout=menu), seen)
-        assert menu.shown == ["curvrefl.apply_preset"] * len(choices.PRESETS)
-    preferences.CurvreflPreferences.draw(
-        SimpleNamespace(layout=Layout(), bl_rna=preferences.CurvreflPreferences.bl_rna), seen
-    )
-
-
-def test_the_mirror_panel_is_for_mirrors_alone() -> None:
-    assert draw(panel.CURVREFL_PT_mirror, _nothing()) is None
-    assert draw(panel.CURVREFL_PT_mirror, _plain_mesh()) is None
-    bpy.context.object.curvrefl.is_mirror = True
-    metal = draw(panel.CURVREFL_PT_mirror, context())
-    assert {"override", "fresnel", "tint", "curvrefl.bake_reflector"} <= set(metal.shown) and "ior" not in metal.shown
-    bpy.context.object.curvrefl.fresnel = "DIELECTRIC"
-    glass = draw(panel.CURVREFL_PT_mirror, context())
-    assert "ior" in glass.shown and "tint" not in glass.shown
-
-
-def test_a_long_list_of_mirrors_says_how_many_more() -> None:
-    assert "and 3 more" in draw(panel.CURVREFL_PT_main, _many_hidden()).texts
-
-
-def test_sub_panels_are_closed_by_default() -> None:
-    for cls in panel.CLASSES[1:]:
-        assert cls.bl_parent_id == "CURVREFL_PT_main" and "DEFAULT_CLOSED" in cls.bl_options
-
-
-def test_a_message_is_wrapped_and_loses_no_word() -> None:
-    sentence = "The mirror is open: close it, or choose another object that is seen whole from a point inside."
-    lines = messages.wrapped(sentence, 30)
-    assert " ".join(lines) == sentence
-    assert all(len(line) <= 30 for line in lines) and len(lines) > 2
-    assert messages.wrapped("short incomprehensibilities", 10) == ["short", "incomprehensibilities"]
-
-
 def _groups() -> list[Any]:
     operators = [cls for name in registration.OPERATORS for cls in registration._module(f"operators.{name}").CLASSES]
     return [
@@ -342,14 +171,3 @@ def test_everything_has_a_tooltip_without_a_period() -> None:
                 if not tip or tip.endswith(".") or tip[0] != tip[0].upper()
             ]
     assert not bad, bad
-
-
-def test_the_menus_are_as_before_once_unregistered() -> None:
-    for name, entry in ENTRIES.items():
-        assert entry in getattr(bpy.types, name).draw._draw_funcs
-    menus.remove()
-    try:
-        for name, entry in ENTRIES.items():
-            assert entry not in getattr(bpy.types, name).draw._draw_funcs
-    finally:
-        menus.add()

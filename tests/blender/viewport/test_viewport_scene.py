@@ -1,20 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a viewport holds of a scene: any number of mirrors that come and go, messages, lights, and nothing left over."""
+"""What a viewport holds of a scene: any number of mirrors that come and go, messages, and nothing left over."""
 
 from __future__ import annotations
 
 import gc
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.diagnostic_colors import Legend
 from curvrefl.curvrefl_addon.optics.catalogue import METHODS
 from curvrefl.curvrefl_addon.options import current_options
@@ -24,59 +20,11 @@ from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.viewport import handlers
-from curvrefl.curvrefl_addon.viewport.light import ViewportLight, light_of
 from curvrefl.curvrefl_addon.viewport.region import RegionPicture
-from curvrefl.curvrefl_addon.viewport.shown_scene import MOST_RENDERERS, Look, ViewportScene
 from scenes.views import look_at
+from viewport.shown_session import Session, mark
 
 pytestmark = pytest.mark.usefixtures("gpu")
-PLAIN = Look(ViewportLight())
-SETTINGS = Settings(samples=1, map_resolution=32)
-CAP = 1 << 30
-
-
-class Session:
-    """A ViewportScene that hears of updates as in a window."""
-
-    def __init__(self) -> None:
-        self.scene = ViewportScene()
-        bpy.app.handlers.depsgraph_update_post.append(self._note)
-
-    def _note(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        self.scene.note(depsgraph.updates)
-
-    def draw(self, look: Look = PLAIN, cap: int = CAP) -> Renderer | None:
-        bpy.context.view_layer.update()
-        return self.scene.renderer(bpy.context, look, SETTINGS, cap)
-
-    def mirrors(self) -> list[str]:
-        renderer = self.draw()
-        return [] if renderer is None else sorted(mirror.object_name for mirror in renderer.mirrors)
-
-
-@pytest.fixture
-def session() -> Iterator[Session]:
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    registration.register()
-    chrome = bpy.data.materials.new("Chrome")
-    shader = chrome.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Metallic"].default_value, shader.inputs["Roughness"].default_value = 1.0, 0.0
-    for name, x in (("Mirror", 0.0), ("Other", 4.0), ("Ball", 2.0)):
-        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2, location=(x, 0.0, 0.0))
-        bpy.context.object.name = name
-        bpy.context.object.data.materials.append(chrome)
-    bpy.data.objects["Mirror"].curvrefl.is_mirror = True
-    bpy.context.scene.world = bpy.data.worlds.new("World")
-    made = Session()
-    yield made
-    made.scene.free()
-    bpy.app.handlers.depsgraph_update_post.remove(made._note)
-    registration.unregister()
-
-
-def mark(session: Session, name: str, value: bool = True) -> None:
-    bpy.data.objects[name].curvrefl.is_mirror = value
-    session.scene.mirrors_changed()  # (the property tells the viewport, which is not this one)
 
 
 def test_mirrors_come_and_go(session: Session) -> None:
@@ -168,10 +116,8 @@ def test_a_mirror_without_faces_is_told_from_those_that_its_name_quotes(session:
 
 
 @pytest.mark.parametrize("method", ["secant_star", "secant_uv"])
-def test_a_shape_without_map_is_told_from_those_that_its_name_quotes(
-    session: Session, method: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys.modules[__name__], "SETTINGS", Settings(method=method, samples=1, map_resolution=32))
+def test_a_shape_without_map_is_told_from_those_that_its_name_quotes(session: Session, method: str) -> None:
+    session.settings = Settings(method=method, samples=1, map_resolution=32)
     if method == "secant_uv":
         for name in ("Mirror", "Other"):
             bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8)
@@ -189,24 +135,6 @@ def test_a_shape_without_map_is_told_from_those_that_its_name_quotes(
     assert len(session.scene.messages) == 1 and f'"{NESTED}"' in session.scene.messages[0]
 
 
-def test_a_view_without_a_world_is_dark(session: Session) -> None:
-    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
-    bpy.data.worlds["World"].node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 1.0, 0.0, 1.0)
-
-    def brightest() -> float:
-        renderer = session.draw()
-        assert renderer is not None
-        return float(renderer.render(view).color()[..., :3].max())
-
-    assert brightest() == pytest.approx(1.0, abs=1e-3)
-    bpy.context.scene.world = None
-    assert brightest() == 0.0
-    bpy.context.view_layer.world_override = bpy.data.worlds["World"]
-    assert brightest() == pytest.approx(1.0, abs=1e-3)
-    bpy.context.view_layer.world_override = None
-    assert brightest() == 0.0
-
-
 @pytest.mark.parametrize("method", ["auto", "secant_star"])
 def test_the_legend_names_the_methods_of_the_picture(
     session: Session, method: str, monkeypatch: pytest.MonkeyPatch
@@ -214,7 +142,7 @@ def test_the_legend_names_the_methods_of_the_picture(
     settings = bpy.context.scene.curvrefl
     settings.method, settings.show = method, "METHOD"
     bpy.data.objects["Ball"].location = (2.0, -2.0, 0.0)
-    monkeypatch.setattr(sys.modules[__name__], "SETTINGS", Settings(method=method, samples=1, map_resolution=32))
+    session.settings = Settings(method=method, samples=1, map_resolution=32)
     renderer = session.draw()
     assert renderer is not None
     picture = RegionPicture(session.scene, renderer)
@@ -279,80 +207,6 @@ def test_override_changes_the_mirror_alone(session: Session) -> None:
     again = session.draw()
     assert again is before
     np.testing.assert_allclose(again.render(view).color(), plain, atol=1e-5)
-
-
-class _Space:
-    """Of a viewport, what chooses its light."""
-
-    def __init__(self, kind: str, **shading: Any) -> None:
-        light = type("Light", (), {"type": "WORLD", "path": "/light.exr"})
-        options = {
-            "type": kind,
-            "use_scene_lights": False,
-            "use_scene_world": False,
-            "use_scene_lights_render": True,
-            "use_scene_world_render": True,
-            "selected_studio_light": light,
-            "studiolight_intensity": 0.5,
-            "studiolight_rotate_z": 1.0,
-            **shading,
-        }
-        self.shading = type("Shading", (), options)
-
-
-def test_environment_is_the_viewports(session: Session) -> None:
-    settings = bpy.context.scene.curvrefl
-    studio = ViewportLight(False, "/light.exr", strength=0.5, rotation=1.0)
-    assert light_of(_Space("MATERIAL"), settings) == studio  # type: ignore[arg-type]
-    assert light_of(_Space("MATERIAL", use_scene_world=True), settings) == ViewportLight(False)  # type: ignore[arg-type]
-    assert light_of(_Space("RENDERED"), settings) == ViewportLight()  # type: ignore[arg-type]
-    assert light_of(_Space("SOLID"), settings) == ViewportLight()  # type: ignore[arg-type]
-    settings.environment = "SCENE"
-    assert light_of(_Space("MATERIAL"), settings) == ViewportLight()  # type: ignore[arg-type]
-
-
-def test_image_lights_the_scene(session: Session) -> None:
-    view = look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3), 60, 60, np.radians(30))
-    image = bpy.data.images.new("Sky", 8, 4, float_buffer=True)
-    image.pixels.foreach_set(np.tile(np.array([0.0, 0.0, 3.0, 1.0], np.float32), 32))
-    settings = bpy.context.scene.curvrefl
-    settings.environment, settings.environment_image, settings.environment_strength = "IMAGE", image, 2.0
-    look = Look(light_of(_Space("SOLID"), settings))  # type: ignore[arg-type]
-    renderer = session.draw(look)
-    assert renderer is not None
-    color = renderer.render(view).color()
-    np.testing.assert_allclose(color[0, 0, :3], [0.0, 0.0, 6.0], atol=1e-3)
-
-
-@pytest.mark.parametrize("module", ["OpenImageIO", "images"])
-def test_studio_light_file(session: Session, tmp_path: Path, module: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """By either reader; no image is left in the file."""
-    from curvrefl.curvrefl_addon.report.images import save_exr
-
-    if module == "images":
-        monkeypatch.setitem(sys.modules, "OpenImageIO", None)
-    pixels = np.zeros((4, 8, 3), np.float32)
-    pixels[:2] = (0.0, 3.0, 0.0)  # below the horizon: row 0 is at the bottom
-    pixels[2:] = (0.0, 0.0, 5.0)
-    save_exr(tmp_path / "light.exr", pixels)
-    look = Look(ViewportLight(False, str(tmp_path / "light.exr"), strength=0.5))
-    renderer = session.draw(look)
-    assert renderer is not None
-    up, down = (
-        renderer.render(look_at(np.array([0.0, 9.0, 9.0]), np.array([0.0, 30.0, 9.0 + 30 * z]), 8, 8, 0.2)).color()
-        for z in (1, -1)
-    )
-    np.testing.assert_allclose(up[4, 4, :3], [0.0, 0.0, 2.5], atol=1e-2)
-    np.testing.assert_allclose(down[4, 4, :3], [0.0, 1.5, 0.0], atol=1e-2)
-    assert not bpy.data.images
-    assert session.draw(Look(ViewportLight(path=str(tmp_path / "none.exr")))) is None
-    assert "none.exr" in session.scene.messages[0]
-
-
-def test_few_looks_are_kept(session: Session) -> None:
-    for index in range(MOST_RENDERERS + 3):
-        session.draw(Look(ViewportLight(strength=1.0 + index, scene_lights=bool(index % 2))))
-    assert len(session.scene.renderers) == MOST_RENDERERS
 
 
 def alive(kind: type) -> int:

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scenes.hidden_surfaces import CASES, SIZE, hit_mirror, mirror_normal, mirror_ray, pixel_ray, trace
+from scenes.hidden_surfaces import CASES
+from scenes.sheet_rays import hit_mirror, mirror_normal, mirror_ray, pixel_ray, trace
+from scenes.sheets import SIZE
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What diagnostic views are asked for, and the legends that explain their colors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticOptions, legend_of, ramp_colors, view_axis
+from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
+from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
+from curvrefl.curvrefl_addon.renderer.shading.diagnostic_legend import draw_layout, layout
+from shading.mirror_ball import COLORS, EYE, PLAIN, VIEW
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+
+def test_ramp_goes_through_its_stops_ever_lighter() -> None:
+    ramp = ramp_colors(COLORS.ramp, 257)
+    np.testing.assert_allclose(ramp[::64], np.array(COLORS.ramp), atol=1e-5)
+    lightness = np.cbrt(ramp @ np.array([0.2126, 0.7152, 0.0722]))
+    assert (np.diff(lightness) > 0).all()
+
+
+def test_axis_of_the_view() -> None:
+    np.testing.assert_allclose(view_axis("Z", VIEW.world_to_view), unit(EYE), atol=1e-12)
+    np.testing.assert_allclose(np.dot(view_axis("X", VIEW.world_to_view), (0, 0, 1)), 0.0, atol=1e-12)
+    for axis in ((0.0, 0.0, 2.0), (1.0, 2.0, 3.0), view_axis("Y", VIEW.world_to_view)):
+        axes = DiagnosticOptions(axis=axis).axes
+        np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+        np.testing.assert_allclose(axes[0], unit(np.array(axis)))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"iterations": (5.0, 5.0)},
+        {"angles": (0.0, 1.0)},
+        {"angles": (2.0, 1.0)},
+        {"stripes": 0},
+        {"lines": 0},
+        {"line_width": 0.0},
+        {"axis": (0.0, 0.0, 0.0)},
+        {"axis": (np.nan, 0.0, 1.0)},
+    ],
+)
+def test_options_out_of_range(wrong: dict[str, Any]) -> None:
+    with pytest.raises(InputError):
+        DiagnosticOptions(**wrong)
+
+
+def test_legends_say_what_the_colors_mean() -> None:
+    angles = legend_of("ANGLE_ERROR", COLORS, PLAIN)
+    assert angles is not None
+    assert [label for _, label in angles.ticks] == ["0.01°", "0.1°", "1°", "10°"]
+    np.testing.assert_allclose([place for place, _ in angles.ticks], [0, 1 / 3, 2 / 3, 1], atol=1e-12)
+    iterations = legend_of("ITERATIONS", COLORS, DiagnosticOptions(iterations=(0.0, 8.0)))
+    assert iterations is not None
+    assert [label for _, label in iterations.ticks] == ["0", "2", "4", "6", "8+"]
+    found = legend_of("STATUS", COLORS, PLAIN)
+    assert found is not None
+    assert found.swatches[2] == (COLORS.failed, "Not Found")
+    used = legend_of("METHOD", COLORS, PLAIN, ("environment_cube", "environment_cube"))
+    assert used is not None
+    assert [label for _, label in used.swatches] == ["Environment Cube", "Background"]
+    assert legend_of("ZEBRA", COLORS, PLAIN) is None and legend_of("LINES", COLORS, PLAIN) is None
+
+
+def test_legend_is_drawn_in_the_corner() -> None:
+    import gpu
+    from mathutils import Matrix
+
+    width, height = 400, 160
+    legend = legend_of("STATUS", COLORS, PLAIN)
+    assert legend is not None
+    placed = layout(legend, width - 30.0, 20.0, 1.0)
+    x, y, w, h = placed.panel
+    assert x > 0 and x + w == pytest.approx(width - 46.0)
+    assert y == pytest.approx(36.0) and y + h < height
+    offscreen = gpu.types.GPUOffScreen(width, height, format="RGBA32F")
+    with offscreen.bind():
+        gpu.state.active_framebuffer_get().clear(color=(0.0, 0.0, 0.0, 0.0))
+        with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            gpu.matrix.load_matrix(Matrix.Identity(4))
+            pixels = Matrix(((2 / width, 0, 0, -1), (0, 2 / height, 0, -1), (0, 0, -1, 0), (0, 0, 0, 1)))
+            gpu.matrix.load_projection_matrix(pixels)
+            draw_layout(placed)
+    assert gpu.state.blend_get() == "NONE"
+    picture = read_texture(offscreen.texture_color)
+    outside = np.ones((height, width), bool)
+    outside[int(y) : int(y + h) + 1, int(x) : int(x + w) + 1] = False
+    assert (picture[outside] == 0.0).all()
+    for (left, low, wide, high), color in placed.colors:
+        shown = picture[int(low + high / 2), int(left + wide / 2), :3]
+        linear = np.where(shown > 0.04045, ((shown + 0.055) / 1.055) ** 2.4, shown / 12.92)
+        np.testing.assert_allclose(linear, color, atol=5e-3)
+    text = picture[int(y) : int(y + h), int(x + 30) : int(x + w), :3]
+    assert (text.min(-1) > 0.6).sum() > 50, "there are letters"
+    offscreen.free()
