@@ -22,7 +22,7 @@ from ..optics.catalogue import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
 from . import verbs
-from .verbs import say
+from .inputs import SETTING, say
 
 DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -222,7 +222,7 @@ def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
 
 def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> None:
     default = item.flag_value(flag)
-    dest = f"{verbs.SETTING}{item.name}"
+    dest = f"{SETTING}{item.name}"
     if isinstance(default, bool):
         action = "store_false" if default else "store_true"
         parser.add_argument(flag.spelling, dest=dest, action=action, help=flag.text)

@@ -9,54 +9,51 @@ and the renderer are imported inside, so that bad usage is answered at once.
 from __future__ import annotations
 
 import argparse
-import contextlib
-import importlib.util
-import os
-import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
-from ..settings_table import Settings
+from .inputs import (
+    STDOUT,
+    chosen_settings,
+    dropped,
+    open_scene,
+    read_names,
+    read_scene,
+    repository_tool,
+    require_known,
+    resolution_of,
+    start_gpu,
+    view_of_options,
+    warn_of,
+)
 
 if TYPE_CHECKING:
     import bpy
 
     from ..report.compare import Comparison
-    from ..scene.arrays import SceneArrays
-    from ..scene.view import View
     from ..study.charts.chart import ChartFile
 
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
-STDOUT, STDERR = 1, 2
-ROOT = Path(__file__).resolve().parent.parent.parent
 LAYERS = ("unit", "blender", "gui")
-SETTING = "setting_"
-"""Before the names of settings among the parsed options"""
 PASSES = ("color", "position", "object", "iterations")
-
-
-def say(text: str) -> None:
-    """A line on stderr: stdout is for results."""
-    print(f"curvrefl: {text}", file=sys.stderr, flush=True)
 
 
 def render(options: argparse.Namespace) -> int:
     """Render the file's picture, and what is behind it as passes."""
-    passes = _names(options.passes, "pass")
-    _known(passes, PASSES, "pass")
-    reflectors = _names(options.reflector, "reflector")
+    passes = read_names(options.passes, "pass")
+    require_known(passes, PASSES, "pass")
+    reflectors = read_names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
-    _start_gpu()
-    scene = _open_scene(options.file, options.frame)
-    view = _view(options, scene)
-    arrays = _read_scene(scene, reflectors)
+    start_gpu()
+    scene = open_scene(options.file, options.frame)
+    view = view_of_options(options, scene)
+    arrays = read_scene(scene, reflectors)
 
     from ..renderer.renderer import Renderer
     from ..report.images import save_exr, save_png
@@ -64,9 +61,9 @@ def render(options: argparse.Namespace) -> int:
     renderer = Renderer(arrays, chosen_settings(options))
     try:
         frame = renderer.render(view)
-        _warn(frame.warnings)
+        warn_of(frame.warnings)
         if not frame.mask().any():
-            _warn(["No reflector is in view: the picture has no reflections."])
+            warn_of(["No reflector is in view: the picture has no reflections."])
         with folder_to_publish(output.parent) as folder:
             if "color" in passes:
                 save = save_png if output.suffix.lower() == ".png" else save_exr
@@ -89,12 +86,12 @@ def render(options: argparse.Namespace) -> int:
 
 def compare(options: argparse.Namespace) -> int:
     """Compare methods with Cycles and peers; see `report.compare`."""
-    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
-    _known(methods, list(METHODS), "method")
-    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
-    reflectors = _names(options.reflector, "reflector")
+    methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
+    require_known(methods, list(METHODS), "method")
+    peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
+    reflectors = read_names(options.reflector, "reflector")
     output = checked_folder(options.output)
-    _start_gpu()
+    start_gpu()
 
     from ..report.compare import Comparison
 
@@ -105,8 +102,8 @@ def compare(options: argparse.Namespace) -> int:
         peers=tuple(peers),
         settings=chosen_settings(options),
     )
-    scene = _open_scene(options.file, options.frame)
-    width, height = _resolution(options, scene)
+    scene = open_scene(options.file, options.frame)
+    width, height = resolution_of(options, scene)
     comparison = replace(comparison, width=width, height=height)
     _compare_and_print(scene, reflectors, comparison, output, options.camera)
     return 0
@@ -114,12 +111,12 @@ def compare(options: argparse.Namespace) -> int:
 
 def chart(options: argparse.Namespace) -> int:
     """Time against error, and against vertices; see `study.charts.chart`."""
-    methods = list(METHODS) if options.method.strip() == "all" else _names(options.method, "method")
-    _known(methods, list(METHODS), "method")
-    peers = [] if options.peers.strip() == "none" else _names(options.peers, "peer")
-    reflectors = [] if options.reflector is None else _names(options.reflector, "reflector")
+    methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
+    require_known(methods, list(METHODS), "method")
+    peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
+    reflectors = [] if options.reflector is None else read_names(options.reflector, "reflector")
     output = checked_folder(options.output)
-    _start_gpu()
+    start_gpu()
 
     from ..report.compare import Comparison
     from ..study.charts.chart import chart_steps
@@ -130,7 +127,7 @@ def chart(options: argparse.Namespace) -> int:
     comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
     # All files are looked at first: what is wrong with the last one shows before minutes of Cycles.
     files = [_chart_file(options, file, name, reflectors) for file, name in _scene_names(options.files)]
-    with _dropped(STDOUT) as stdout:
+    with dropped(STDOUT) as stdout:
         steps = chart_steps(files, comparison, options.vertices, output)
         while True:
             try:
@@ -139,7 +136,7 @@ def chart(options: argparse.Namespace) -> int:
                 charts = end.value
                 break
             print(f"{100.0 * step.done:3.0f} %  {step.label}", file=stdout, flush=True)
-    _warn(charts.warnings)
+    warn_of(charts.warnings)
     print(format_chart(charts))
     print(f"Charts: {output / 'chart.png'}")
     return 0
@@ -148,11 +145,11 @@ def chart(options: argparse.Namespace) -> int:
 def stability(options: argparse.Namespace) -> int:
     """Where methods fail; see `study.stability.stability`."""
     output = checked_folder(options.output)
-    _start_gpu()
+    start_gpu()
 
     from ..study.stability.stability import format_stability, measure_stability
 
-    with _dropped(STDOUT) as stdout:
+    with dropped(STDOUT) as stdout:
         report = measure_stability(
             output, options.vertices, options.fuzz, lambda line: print(line, file=stdout, flush=True)
         )
@@ -164,12 +161,12 @@ def stability(options: argparse.Namespace) -> int:
 def benchmark(options: argparse.Namespace) -> int:
     """Solves and rays per second; see `study.benchmark.benchmark`."""
     output = checked_folder(options.output)
-    _start_gpu()
+    start_gpu()
 
     from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
 
     output.mkdir(parents=True, exist_ok=True)
-    with _dropped(STDOUT) as stdout:
+    with dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
             options.triangles,
@@ -195,7 +192,7 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
     from ..scene.blend_file import find_camera, find_reflectors
     from ..study.charts.chart import ChartFile
 
-    scene = _open_scene(file)
+    scene = open_scene(file)
     find_camera(scene)
     chosen = list(reflectors) or _marked_mirrors(scene)
     if not chosen:
@@ -203,7 +200,7 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
             f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
         )
     find_reflectors(scene, chosen)
-    return ChartFile(name, Path(file), tuple(chosen), *_resolution(options, scene))
+    return ChartFile(name, Path(file), tuple(chosen), *resolution_of(options, scene))
 
 
 def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
@@ -226,26 +223,26 @@ def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
 
 def bake(options: argparse.Namespace) -> int:
     """Bake one reflector, save its maps, and print how well they fit."""
-    reflectors = _names(options.reflector, "reflector")
+    reflectors = read_names(options.reflector, "reflector")
     if len(reflectors) > 1:
         raise InputError("Name one reflector: the maps of each go to a folder of its own.")
     output = checked_folder(options.output)
-    _start_gpu()
-    scene = _open_scene(options.file, options.frame)
-    arrays = _read_scene(scene, reflectors)
+    start_gpu()
+    scene = open_scene(options.file, options.frame)
+    arrays = read_scene(scene, reflectors)
 
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
 
     baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
-    _warn(baked.warnings)
+    warn_of(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
     for sentence in baked.describe():
         print(sentence)
     if scene.camera is not None:
-        view = _view(options, scene)
+        view = view_of_options(options, scene)
         error = pixel_error(baked, view)
         print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
@@ -254,16 +251,16 @@ def bake(options: argparse.Namespace) -> int:
 def demo(options: argparse.Namespace) -> int:
     """Build the demo scene, save it, and compare its picture."""
     output = checked_folder(options.output)
-    _start_gpu()
+    start_gpu()
 
     from ..demo.scene import KETTLE, build_demo
     from ..report.compare import Comparison
 
     print("Building the demo scene", flush=True)
     file = output / "demo.blend"
-    with folder_to_publish(output) as folder, _dropped(STDOUT):
+    with folder_to_publish(output) as folder, dropped(STDOUT):
         build_demo(folder / file.name)
-    _compare_and_print(_open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
+    _compare_and_print(open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
     print(f"Scene: {file}")
     return 0
 
@@ -283,7 +280,7 @@ def _compare_and_print(
 
     view_layer = bpy.context.view_layer
     assert view_layer is not None, "an open scene has a view layer"
-    with _dropped(STDOUT) as stdout:
+    with dropped(STDOUT) as stdout:
 
         def progress(text: str) -> None:
             print(text, file=stdout, flush=True)
@@ -295,20 +292,20 @@ def _compare_and_print(
 
 def test(options: argparse.Namespace) -> int:
     """Run the checks of the source; see tools/run_tests.py."""
-    _known(options.layers, LAYERS, "layer of tests")
-    return int(_repository_tool("run_tests", "test").run(options.layers or LAYERS))
+    require_known(options.layers, LAYERS, "layer of tests")
+    return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
 
 def check(options: argparse.Namespace) -> int:
     """Check the source without Blender; see tools/checks/source.py."""
-    tool = _repository_tool("checks/source", "check")
-    _known(options.checks, tool.NAMES, "check")
+    tool = repository_tool("checks/source", "check")
+    require_known(options.checks, tool.NAMES, "check")
     return int(tool.run(options.checks or tool.NAMES))
 
 
 def images(options: argparse.Namespace) -> int:
     """Make the pictures of the documents; see tools/make_images.py."""
-    tool = _repository_tool("make_images", "images")
+    tool = repository_tool("make_images", "images")
     tool.make(options.images or list(tool.IMAGES))
     return 0
 
@@ -316,125 +313,15 @@ def images(options: argparse.Namespace) -> int:
 def release(options: argparse.Namespace) -> int:
     """Make a release of the source; see tools/release.py."""
     output = checked_folder(options.output)
-    print(_repository_tool("release", "release").release(options.version, output, options.tag, options.images))
+    print(repository_tool("release", "release").release(options.version, output, options.tag, options.images))
     return 0
 
 
 def build(options: argparse.Namespace) -> int:
     """Pack the extension; see tools/build_extension.py."""
     output = checked_folder(options.output)
-    tool = _repository_tool("build_extension", "build")
+    tool = repository_tool("build_extension", "build")
     with folder_to_publish(output) as folder:
         name = tool.build(folder).name
     print(output / name)
     return 0
-
-
-def _open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
-    """Open the file and go to a frame of it; returns the file's active scene."""
-    import bpy
-
-    from ..scene.blend_file import open_blend
-
-    with _dropped(STDOUT):
-        open_blend(file)
-    scene = bpy.context.scene
-    assert scene is not None, "an open file has a scene"
-    if frame is not None:
-        scene.frame_set(frame)
-    return scene
-
-
-def _resolution(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:
-    """The chosen width and height, or those that the scene renders with."""
-    if options.resolution:
-        return options.resolution
-    scale = scene.render.resolution_percentage / 100.0
-    return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
-
-
-def _read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays:
-    """The open scene at its frame, with these mirrors."""
-    import bpy
-
-    from ..scene.blend_file import find_reflectors
-    from ..scene.extract import extract_scene
-
-    chosen = find_reflectors(scene, reflectors)
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
-
-
-def _view(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
-    """What the chosen camera sees in the chosen resolution."""
-    from ..scene.blend_file import find_camera, view_of_camera
-
-    return view_of_camera(scene, find_camera(scene, options.camera), *_resolution(options, scene))
-
-
-def chosen_settings(options: argparse.Namespace) -> Settings:
-    """Those that the verb's arguments set; the others are as by default."""
-    return Settings(
-        **{name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
-    )
-
-
-def _names(text: str, what: str) -> list[str]:
-    """The parts of a list with commas, once each. Raises InputError when there are none."""
-    names = list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
-    if not names:
-        raise InputError(f"Name at least one {what}.")
-    return names
-
-
-def _known(names: Sequence[str], known: Sequence[str], what: str) -> None:
-    for name in names:
-        if name not in known:
-            raise InputError(f'There is no {what} "{name}": choose from {", ".join(known)}.')
-
-
-def _warn(warnings: Sequence[str]) -> None:
-    for warning in dict.fromkeys(warnings):
-        say(f"Warning: {warning}")
-
-
-@contextlib.contextmanager
-def _dropped(descriptor: int) -> Iterator[TextIO]:
-    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere; yields the way past that."""
-    stream = sys.stdout if descriptor == STDOUT else sys.stderr
-    stream.flush()
-    kept = os.dup(descriptor)
-    with open(kept, "w", encoding="utf-8") as past:
-        try:
-            nowhere = os.open(os.devnull, os.O_WRONLY)
-            os.dup2(nowhere, descriptor)
-            os.close(nowhere)
-            yield past
-        finally:
-            stream.flush()
-            os.dup2(kept, descriptor)
-
-
-def _start_gpu() -> None:
-    """Make the GPU context. Raises InputError, with how to get one, where there is none."""
-    import bpy  # noqa: F401  (with the wheel, before gpu)
-
-    from ..renderer.device.context import GpuUnavailableError, require_gpu
-
-    try:
-        # EGL tries configurations that do not match and says so, at length, though all is well.
-        with _dropped(STDERR):
-            require_gpu()
-    except GpuUnavailableError as error:
-        message = str(error).rstrip(".")
-        raise InputError(f"{message[:1].upper()}{message[1:]}.") from error
-
-
-def _repository_tool(name: str, verb: str) -> ModuleType:
-    """`tools/<name>.py`, which is there in a copy of the source and not in the installed extension."""
-    path = ROOT / "tools" / f"{name}.py"
-    spec = importlib.util.spec_from_file_location(f"curvrefl_tools_{path.stem}", path) if path.is_file() else None
-    if spec is None or spec.loader is None:
-        raise InputError(f"The verb {verb} needs a copy of Curvrefl's source: call ./curvrefl {verb} there.")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module

@@ -8,29 +8,36 @@ object as in the last `SceneArrays`, and the renderer goes by that.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from operator import is_
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..errors import InputError
-from .arrays import Float64Array, InstanceArrays, LightArrays, MaterialArrays, SceneArrays, WorldArrays
+from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .lights import read_light
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
-from .meshes.meshes import MeshNeeds
+from .reads import (
+    SURELY_REGULAR,
+    PlainObject,
+    ShownInstance,
+    is_same_light,
+    is_singular,
+    listing_of,
+    needs_of,
+    object_of,
+    slot_materials,
+    uid_of_block,
+    with_kept,
+)
 from .visibility import Visibility
 from .world import read_world
 
-SMALLEST_STRETCH = 1e-6
-"""Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
-SURELY_REGULAR = 1e-4
-"""Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
 SHOWN = ("LIGHT", "MESH")
 """Curves, texts, surfaces, metaballs and what geometry nodes make come as instances of meshes, too"""
 
@@ -50,35 +57,6 @@ def extract_scene(
     return SceneReader(for_render).read(depsgraph, scene, reflectors, Changes(everything=True))
 
 
-@dataclass(frozen=True, slots=True)
-class _Plain:
-    """An object as an instance of itself, as `DepsgraphObjectInstance`."""
-
-    object: Any
-    matrix_world: Any
-    show_self: bool = True
-    is_instance: bool = False
-    parent: Any = None
-
-
-@dataclass(slots=True)
-class _Shown:
-    """What one object of the scene, or one that instances it, shows: in the order of the depsgraph."""
-
-    instance: InstanceArrays | None = None
-    light: LightArrays | None = None
-    warnings: tuple[str, ...] = ()
-    has_faces: bool = True
-    made_of: tuple[Any, ...] = ()
-    """All that `instance` is made of"""
-    error: str = ""
-    """Why it cannot be a reflector"""
-    is_visible: bool = False
-    """Anything can see it"""
-    name: str = ""
-    """Of the object"""
-
-
 class SceneReader:
     """Reads one scene, one view layer."""
 
@@ -88,7 +66,7 @@ class SceneReader:
         self._images = ImageReader()
         self._materials = MaterialReader(self._images)
         self._meshes = MeshStore()
-        self._shown: dict[tuple[int, int, int], _Shown] = {}
+        self._shown: dict[tuple[int, int, int], ShownInstance] = {}
         """By (object, what instances it or 0, which of these)"""
         self._instancers: set[int] = set()
         self._ids: dict[int, int] = {}
@@ -148,22 +126,22 @@ class SceneReader:
         self._meshes.forget(changes.geometry)
         walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)
         if not walk and changes.listing:
-            listing = _listing(depsgraph, view_layer)
+            listing = listing_of(depsgraph, view_layer)
             walk = listing != self._listing
         visibility = Visibility(view_layer, self._for_render)
         objects = self._plain_objects(changes) if not walk else None
         if objects is None:
-            self._listing = _listing(depsgraph, view_layer)
+            self._listing = listing_of(depsgraph, view_layer)
             self._walk(depsgraph, visibility, view_layer.material_override)
         else:
             for uid, obj in objects:
                 evaluated = obj.evaluated_get(depsgraph)
-                placed = _Plain(evaluated, evaluated.matrix_world)
+                placed = PlainObject(evaluated, evaluated.matrix_world)
                 self._shown[uid, 0, 0] = self._read_instance(
                     placed, uid, 0, visibility, view_layer.material_override, self._shown[uid, 0, 0]
                 )
         world = view_layer.world_override or scene.world
-        if changes.world or _uid(world) != self._world_uid:
+        if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
         self._last = self._arrays(reflectors)
         return self._last
@@ -196,7 +174,7 @@ class SceneReader:
         found = []
         for uid in changes.objects:
             shown = self._shown.get((uid, 0, 0))
-            obj = _object(uid, "" if shown is None else shown.name)
+            obj = object_of(uid, "" if shown is None else shown.name)
             if obj is None:
                 return None
             if shown is not None:
@@ -234,21 +212,21 @@ class SceneReader:
         parent: int,
         visibility: Visibility,
         override: bpy.types.Material | None,
-        before: _Shown | None,
-    ) -> _Shown:
+        before: ShownInstance | None,
+    ) -> ShownInstance:
         self.counters["objects read"] += 1
         if instance.object.type == "LIGHT":
             return self._read_light(instance, visibility, before)
         return self._read_surface(instance, uid, parent, visibility, override, before)
 
-    def _read_light(self, instance: Any, visibility: Visibility, before: _Shown | None) -> _Shown:
+    def _read_light(self, instance: Any, visibility: Visibility, before: ShownInstance | None) -> ShownInstance:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         light = read_light(obj.data, obj.name, matrix, visibility.rays(instance).glossy, warnings)
-        if light is not None and before is not None and before.light is not None and _is_same(light, before.light):
+        if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
-        return _Shown(light=light, warnings=tuple(warnings), name=obj.original.name)
+        return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
 
     def _read_surface(
         self,
@@ -257,19 +235,19 @@ class SceneReader:
         parent: int,
         visibility: Visibility,
         override: bpy.types.Material | None,
-        before: _Shown | None,
-    ) -> _Shown:
+        before: ShownInstance | None,
+    ) -> ShownInstance:
         obj = instance.object
         rays = visibility.rays(instance)
         if len(obj.data.polygons) == 0 and not obj.data.is_editmode:
-            return _Shown(has_faces=False)
+            return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
         determinant = instance.matrix_world.to_3x3().determinant()
         squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
-        if not abs(determinant) > SURELY_REGULAR * squared**1.5 and _is_singular(matrix):
-            return _Shown(
+        if not abs(determinant) > SURELY_REGULAR * squared**1.5 and is_singular(matrix):
+            return ShownInstance(
                 warnings=(f'"{name}" is flattened by a zero or endless scale and left out.',) if rays.any else (),
                 error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
             )
@@ -277,7 +255,7 @@ class SceneReader:
         warnings: list[str] = [slot.warning for slot in slots if slot.warning]
         if uid not in self._mapped and any(slot.has_relief for slot in slots):
             warnings.append(f'"{name}" is drawn without its bumps: only mirrors show theirs.')
-        needs = _needs(name, slots, warnings)
+        needs = needs_of(name, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
@@ -286,7 +264,7 @@ class SceneReader:
             f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
         )
         if len(self._meshes.meshes[stored.number].triangles) == 0:
-            return _Shown(warnings=tuple(warnings), has_faces=False, error=error)
+            return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
         if obj.original.is_shadow_catcher:
             warnings.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
         materials = tuple(slot.index for slot in slots)
@@ -304,16 +282,16 @@ class SceneReader:
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,
             )
-        return _Shown(made, None, tuple(warnings), True, made_of, error, rays.any, name)
+        return ShownInstance(made, None, tuple(warnings), True, made_of, error, rays.any, name)
 
     def _slots(self, obj: bpy.types.Object, uid: int, override: bpy.types.Material | None) -> list[ReadMaterial]:
         if uid in self._overrides:
             return [self._materials.plain(self._overrides[uid])]
-        return [self._materials.read(material) for material in _slot_materials(obj, override)]
+        return [self._materials.read(material) for material in slot_materials(obj, override)]
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
-        self._world_uid = _uid(world)
+        self._world_uid = uid_of_block(world)
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
@@ -336,7 +314,7 @@ class SceneReader:
             reflectors=tuple(self._ids[uid] for uid in chosen),
             warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
         )
-        return arrays if self._last is None else _with_kept(arrays, self._last)
+        return arrays if self._last is None else with_kept(arrays, self._last)
 
     def _check(self, chosen: Mapping[int, str]) -> None:
         """Raises InputError where a reflector cannot be one."""
@@ -350,95 +328,3 @@ class SceneReader:
                 if any(not item.has_faces for item in items):
                     problem = "has no faces: choose a reflector with a surface."
                 raise InputError(f'"{chosen[uid]}" {problem}', self._id(uid))
-
-
-def _object(uid: int, name: str) -> bpy.types.Object | None:
-    """The object with this session_uid, probably the one with this name."""
-    obj = bpy.data.objects.get(name)
-    if obj is not None and obj.session_uid == uid:
-        return obj
-    return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
-
-
-def _uid(block: bpy.types.ID | None) -> int:
-    """Its `session_uid`; 0 for none."""
-    return 0 if block is None else block.session_uid
-
-
-def _listing(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:
-    """Who is there, cheaply: the same before and after a selection, another one after hiding."""
-    return (
-        [(item.object.original.session_uid, item.show_self) for item in depsgraph.object_instances],
-        list(_layer_flags(view_layer.layer_collection)),
-        _uid(view_layer.material_override),
-    )
-
-
-def _layer_flags(layer: bpy.types.LayerCollection) -> Iterable[tuple[bool, ...]]:
-    yield layer.exclude, layer.holdout, layer.indirect_only, layer.hide_viewport, layer.collection.hide_render
-    for child in layer.children:
-        yield from _layer_flags(child)
-
-
-def _slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -> list[bpy.types.Material | None]:
-    """What each slot shows; one empty slot where there are none."""
-    assert isinstance(obj.data, bpy.types.Mesh)
-    materials = list(obj.data.materials)
-    for index, slot in enumerate(obj.material_slots):
-        if index >= len(materials):
-            materials.append(slot.material)
-        elif slot.link == "OBJECT":
-            materials[index] = slot.material
-    if override is not None:
-        materials = [override] * len(materials) or [override]
-    return materials or [None]
-
-
-def _needs(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
-    """What the first slots that need a UV map or colours say: a mesh has one of each here."""
-    uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
-    colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
-    for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):
-        if len(set(wanted)) > 1:
-            warnings.append(f'"{name}" has several materials; the {what} of the first serve all.')
-    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
-
-
-def _is_same(one: LightArrays, other: LightArrays) -> bool:
-    plain = [item.name for item in fields(LightArrays) if item.name != "matrix"]
-    return np.array_equal(one.matrix, other.matrix) and all(getattr(one, n) == getattr(other, n) for n in plain)
-
-
-def _with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
-    """With the last state's tuples where all members are the same objects."""
-
-    def kept[T](new: tuple[T, ...], old: tuple[T, ...]) -> tuple[T, ...]:
-        return old if len(new) == len(old) and all(map(is_, new, old)) else new
-
-    result = replace(
-        arrays,
-        meshes=kept(arrays.meshes, last.meshes),
-        instances=kept(arrays.instances, last.instances),
-        materials=kept(arrays.materials, last.materials),
-        images=kept(arrays.images, last.images),
-        lights=kept(arrays.lights, last.lights),
-    )
-    same = (
-        result.meshes is last.meshes
-        and result.instances is last.instances
-        and result.materials is last.materials
-        and result.images is last.images
-        and result.lights is last.lights
-        and result.world is last.world
-        and result.reflectors == last.reflectors
-        and result.warnings == last.warnings
-    )
-    return last if same else result
-
-
-def _is_singular(matrix: Float64Array) -> bool:
-    """Without an inverse, or with one that single precision cannot hold."""
-    if not np.isfinite(matrix).all():
-        return True
-    stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])

@@ -13,7 +13,7 @@ import bpy
 from ..errors import InputError
 from ..optics.catalogue import METHODS
 from ..options import marked_mirrors, newer_settings, overrides_of
-from ..renderer.geometry.scene_geometry import estimated_bytes
+from ..renderer.geometry.placed_instances import estimated_bytes
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings
 from ..scene.arrays import SceneArrays

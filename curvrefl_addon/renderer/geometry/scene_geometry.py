@@ -15,10 +15,19 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from ...scene.arrays import Float64Array, InstanceArrays, SceneArrays
 from ...scene.view import View
 from .chunk import Batches, Chunk, Placed
 from .mesh_facts import MeshFactsCache
+from .placed_instances import (
+    CORNERS,
+    Sight,
+    corners_of_boxes,
+    differs_in_place_only,
+    instance_keys,
+    relative_positions,
+    stretches_of,
+)
 from .split import has_long_edges, split_mesh
 
 CHUNK_TRIANGLES = 1 << 16
@@ -26,21 +35,8 @@ CHUNK_TRIANGLES = 1 << 16
 enough that a scene has few"""
 SLACK = 0.8
 """What has to be split again while it moves is split so much finer, so that it need not be at every move"""
-CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
-"""(8, 3) which end of a box each of its corners has"""
 TOO_FINE = 3.9
 """Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
-
-
-@dataclass(frozen=True, slots=True)
-class Sight:
-    """How finely a mirror needs its scenery split (see `split`)."""
-
-    center: tuple[float, float, float]
-    """Star centre, world space"""
-    angle: float
-    own: int
-    """Index of the mirror's instance"""
 
 
 @dataclass(slots=True)
@@ -96,7 +92,7 @@ class SceneGeometry:
         for index in changed:
             item, instance, number = known[index], scene.instances[index], numbers[index]
             mesh = meshes[instance.mesh]
-            if item is not None and item.mesh is mesh and _differs_in_place_only(item, instance, number):
+            if item is not None and item.mesh is mesh and differs_in_place_only(item, instance, number):
                 known[index] = replace(item, instance=instance, mirror=number)
                 difference.moved.append(index)
                 continue
@@ -181,7 +177,7 @@ class SceneGeometry:
         """(8, 4) homogeneous corners of a box around a chunk, world space."""
         box = self._boxes.get(id(chunk))
         if box is None:
-            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
+            corners = corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
             low, high = corners.min(axis=0), corners.max(axis=0)
             box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
         return box
@@ -223,18 +219,18 @@ class SceneGeometry:
         matrices = np.array([self.placed[index].instance.matrix for index in chosen])
         middle = boxes.mean(axis=1)
         centers = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
-        return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * _stretches(matrices)
+        return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * stretches_of(matrices)
 
     def longest_edge(self, chunk: Chunk) -> float:
         """Of the triangles drawn for a chunk, world space, or a little more; metres."""
         matrices = np.array([item.instance.matrix for item in chunk.placed])
         lengths = np.array([self.facts.of(item.drawn).longest_edge for item in chunk.placed])
-        return float((lengths * _stretches(matrices)).max())
+        return float((lengths * stretches_of(matrices)).max())
 
     def box_corners(self, indices: Sequence[int]) -> Float64Array:
         """(8 n, 3) corners of the boxes around instances, world space."""
         items = [self.placed[index] for index in indices]
-        return _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
+        return corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
 
     def _matched(self, instances: Sequence[InstanceArrays]) -> list[int | None]:
         """For each instance the index of the one it was before."""
@@ -245,8 +241,8 @@ class SceneGeometry:
                 for index in np.flatnonzero(differ).tolist()
             ):
                 return list(range(len(instances)))
-        before = {key: index for index, key in enumerate(_keys(item.instance for item in self.placed))}
-        return [before.get(key) for key in _keys(instances)]
+        before = {key: index for index, key in enumerate(instance_keys(item.instance for item in self.placed))}
+        return [before.get(key) for key in instance_keys(instances)]
 
     def _move(self, moved: Iterable[int]) -> None:
         changed: dict[int, tuple[Chunk, dict[int, Placed]]] = {}
@@ -263,7 +259,7 @@ class SceneGeometry:
         """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
         box = self._boxes.get(id(chunk))
         if box is not None:
-            corners = _box_corners([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
+            corners = corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
             low = np.minimum(box[:, :3].min(axis=0), corners.min(axis=0))
             high = np.maximum(box[:, :3].max(axis=0), corners.max(axis=0))
             self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
@@ -325,7 +321,7 @@ class SceneGeometry:
         matrices = np.array([self.placed[index].instance.matrix for index in chosen])
         edges = np.array([self.facts.of(self.placed[index].drawn).longest_edge for index in chosen])
         nearest = np.maximum(np.linalg.norm(centers - sight.center, axis=1) - radii, 0.0)
-        coarse = edges * _stretches(matrices) > sight.angle * nearest
+        coarse = edges * stretches_of(matrices) > sight.angle * nearest
         fine = np.array([self._angles[index] for index in chosen]) * TOO_FINE < sight.angle
         shown = np.array([index != sight.own and self.placed[index].instance.visible_glossy for index in chosen])
         return (coarse | fine) & shown
@@ -334,73 +330,17 @@ class SceneGeometry:
         """Split an instance for these mirrors; False where it is fine as it is."""
         item = self.placed[index]
         if self._angles[index] * TOO_FINE >= finest and not any(
-            has_long_edges(item.drawn, _relative(item.drawn, item.instance, sight), sight.angle) for sight in sights
+            has_long_edges(item.drawn, relative_positions(item.drawn, item.instance, sight), sight.angle)
+            for sight in sights
         ):
             return False
         slack = 1.0 if item.drawn is item.mesh else SLACK
         drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
         for sight in sights:
-            drawn, rows = split_mesh(drawn, _relative(drawn, item.instance, sight), slack * sight.angle)
+            drawn, rows = split_mesh(drawn, relative_positions(drawn, item.instance, sight), slack * sight.angle)
             parents = parents[rows]
         pieces = self.facts.of(item.mesh).pieces.triangle_piece
         self.placed[index] = replace(item, drawn=drawn, pieces=pieces[parents])
         self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)
         self.counters["meshes split"] += 1
         return drawn is not item.drawn
-
-
-def _box_corners(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float64Array]]) -> Float64Array:
-    """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
-    ends = np.array([box for box, _ in boxes], np.float64)
-    matrices = np.array([matrix for _, matrix in boxes])
-    corners = np.stack([ends[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
-    return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
-
-
-def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
-    """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
-    sizes = [
-        32 * len(mesh.positions) + 64 * len(mesh.corner_vertex) + 24 * len(mesh.triangles) for mesh in scene.meshes
-    ]
-    total = sum(sizes[instance.mesh] for instance in scene.instances)
-    if with_rays:
-        used = [scene.meshes[index] for index in {instance.mesh for instance in scene.instances}]
-        # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
-        total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
-    return total
-
-
-def _relative(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
-    """(vertices, 3) in world axes about the star centre."""
-    shift = instance.matrix[:3, 3] - np.array(sight.center)
-    return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
-
-
-def _stretches(matrices: Float64Array) -> Float64Array:
-    """(n,) the most that matrices (n, 4, 4) lengthen anything, or a little more; exact without shear."""
-    linear = matrices[:, :3, :3]
-    squared = np.abs(np.einsum("nki,nkj->nij", linear, linear))
-    return np.sqrt(squared.sum(axis=2).max(axis=1))
-
-
-def _keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:
-    """(object_id, which of the object's instances) of each."""
-    counts: dict[int, int] = {}
-    keys = []
-    for instance in instances:
-        number = counts.get(instance.object_id, 0)
-        counts[instance.object_id] = number + 1
-        keys.append((instance.object_id, number))
-    return keys
-
-
-def _differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) -> bool:
-    old = known.instance
-    return (
-        bool(known.mirror) == bool(number)
-        and old.materials == instance.materials
-        and old.visible_camera == instance.visible_camera
-        and old.visible_glossy == instance.visible_glossy
-        and old.visible_shadow == instance.visible_shadow
-        and old.holdout == instance.holdout
-    )

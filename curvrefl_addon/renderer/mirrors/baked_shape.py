@@ -17,7 +17,7 @@ from ...scene.view import View
 from ..device.cubes import cube_texture
 from ..geometry.chunk import Batches, Chunk
 from ..geometry.mesh_facts import MeshFacts
-from ..geometry.scene_geometry import CORNERS
+from ..geometry.placed_instances import CORNERS
 from .companion import closed_companion
 from .map_fit import MapFit
 from .mirror_plane import Plane, flat_parts

@@ -13,7 +13,7 @@ from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArray
 from ...scene.view import View
 from ..geometry.mesh_facts import MeshFacts
 from ..geometry.mesh_inside import holds_point
-from ..geometry.scene_geometry import CORNERS, Sight
+from ..geometry.placed_instances import CORNERS, Sight
 from ..geometry.split import split_angle
 from .baked_shape import BakedShape
 from .placed_mesh import polar

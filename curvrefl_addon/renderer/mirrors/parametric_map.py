@@ -8,7 +8,6 @@ and then made perpendicular to the shading normal: so the path is stationary exa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cache, cached_property
 from typing import Any
 
@@ -30,6 +29,7 @@ from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture, texture_2d
 from .cube_raster import CubeRaster
 from .reflector_map import percent
+from .uv_fill import filled_texels, joins_around
 
 RESOLUTION = 512
 """Texels along u and along v"""
@@ -115,9 +115,9 @@ def bake_parametric(
             instance.object_id,
         )
     values = np.concatenate([layer[..., :3] for layer in layers], axis=-1).astype(np.float64)
-    wraps = (_joins(values, hit, 0), _joins(values, hit, 1))
+    wraps = (joins_around(values, hit, 0), joins_around(values, hit, 1))
     point, normal, along_u, along_v = np.split(
-        _filled(values, hit, wraps, [bool(pole.any()) for pole in poles]), 4, axis=-1
+        filled_texels(values, hit, wraps, [bool(pole.any()) for pole in poles]), 4, axis=-1
     )
     # Outwards on the whole: the integral of f . n over a closed surface is three times its volume.
     outwards = np.sign(_flux(corners, normals, mesh.triangles)) or 1.0
@@ -239,62 +239,6 @@ def _draw(attributes: list[Float64Array], triangles: Int32Array, resolution: int
         shader.bind()
         batch.draw(shader)
         return [read_colors(target, resolution, resolution, slot) for slot in range(4)]
-
-
-def _joins(values: Float64Array, hit: NDArray[np.bool_], axis: int) -> bool:
-    """Whether the map's first and last texels along u (0) or v (1) are neighbours on the surface."""
-    first, last = ((slice(None), 0), (slice(None), -1)) if axis == 0 else ((0,), (-1,))
-    both = hit[first] & hit[last]
-    if both.mean() < 0.5:
-        return False
-    tangent = slice(6, 9) if axis == 0 else slice(9, 12)
-    step = np.linalg.norm(values[first][both, tangent] + values[last][both, tangent], axis=-1) / (2 * len(hit))
-    gap = np.linalg.norm(values[first][both, :3] - values[last][both, :3], axis=-1)
-    return bool((gap <= 2.0 * step).mean() > 0.9)
-
-
-def _filled(values: Float64Array, hit: NDArray[np.bool_], wraps: Sequence[bool], poles: Sequence[bool]) -> Float64Array:
-    """Values (rows, columns, n) with texels that no triangle covers taken from the nearest ones along u or along v.
-
-    At a pole every second triangle of the map is missing: it has no extent on the surface, where two of its sides are
-    one edge. What belongs there is what is on these sides, along the parameter that does not matter at the pole.
-    """
-    while not hit.all():
-        along_u, distance_u = _between(values, hit, wraps[0])
-        along_v, distance_v = _between(values.swapaxes(0, 1), hit.T, wraps[1])
-        along_v, distance_v = along_v.swapaxes(0, 1), distance_v.T
-        # What a whole line lacks is taken from the lines beside it when these are complete.
-        if poles[0] and not poles[1] and (np.isfinite(distance_u) & ~hit).any():
-            distance_v = np.full_like(distance_v, np.inf)
-        if poles[1] and not poles[0] and (np.isfinite(distance_v) & ~hit).any():
-            distance_u = np.full_like(distance_u, np.inf)
-        by_v = distance_u > distance_v
-        known = np.isfinite(np.minimum(distance_u, distance_v))
-        values = np.where((known & ~hit)[..., None], np.where(by_v[..., None], along_v, along_u), values)
-        hit = hit | known
-    return values
-
-
-def _between(values: Float64Array, hit: NDArray[np.bool_], wraps: bool) -> tuple[Float64Array, Float64Array]:
-    """Per texel, the values (rows, columns, n) interpolated between the nearest hits to the left and right in its row,
-    and the distance (rows, columns) of the nearer one in texels; infinite where there is none."""
-    columns = hit.shape[1]
-    copies = 3 if wraps else 1
-    tiled = np.tile(hit, (1, copies))
-    place = np.arange(copies * columns, dtype=np.float64)
-    before = np.maximum.accumulate(np.where(tiled, place, -np.inf), axis=1)
-    after = np.minimum.accumulate(np.where(tiled, place, np.inf)[:, ::-1], axis=1)[:, ::-1]
-    middle = slice(columns, 2 * columns) if wraps else slice(None)
-    left, right = (place - before)[:, middle], (after - place)[:, middle]
-    # By the inverse distance: a side without a hit gets no weight.
-    left_weight, right_weight = 1.0 / np.maximum(left, 1.0), 1.0 / np.maximum(right, 1.0)
-    share = (right_weight / np.maximum(left_weight + right_weight, 1e-30))[..., None]
-    rows, column = np.indices(hit.shape)
-    from_left, from_right = (
-        values[rows, (column + sign * np.where(np.isfinite(side), side, 0.0).astype(np.int64)) % columns]
-        for sign, side in ((-1, left), (1, right))
-    )
-    return from_left * (1.0 - share) + from_right * share, np.minimum(left, right)
 
 
 def _flux(corners: Float64Array, normals: Float64Array, triangles: Int32Array) -> float:

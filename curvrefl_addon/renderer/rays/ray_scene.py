@@ -9,9 +9,7 @@ changes the top level alone. All of it is one record texture (see `ray_walk.glsl
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping
 from time import perf_counter
 from typing import Any
 
@@ -20,9 +18,6 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...scene.arrays import (
-    LARGEST_COORDINATE,
-    Float32Array,
-    Float64Array,
     InstanceArrays,
     MeshArrays,
     SceneArrays,
@@ -32,13 +27,22 @@ from ..device.shaders import Piece
 from ..geometry.mesh_facts import MeshFactsCache
 from .hierarchy import Boxes, Hierarchy
 from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
+from .mesh_rays import (
+    MeshRays,
+    MeshTree,
+    all_but_place,
+    batches_of,
+    of_same_topology,
+    triangle_boxes,
+    triangles_with_a_place,
+    world_boxes,
+)
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
     corner_records,
     material_records,
     node_records,
-    triangle_corners,
     triangle_records,
 )
 
@@ -69,46 +73,11 @@ OWN_RANGE = 1e-4
 FEW = 4096
 """A mesh of no more triangles gets the best tree at once: 15 milliseconds at most in place of 8, and rays look at a
 third of the boxes, also while the mesh deforms and nothing can be improved"""
-AT_ONCE = 500_000
-"""Triangles of meshes that are built or uploaded together: more would gain nothing and take memory"""
 MOST_IMPROVED = 400_000
 """A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
 would be felt in a viewport"""
 WORSE = 1.4
 """A top level whose cost has grown by this factor since it was built is built anew"""
-
-
-@dataclass
-class _MeshRays:
-    """One mesh on the GPU."""
-
-    mesh: MeshArrays
-    hierarchy: Hierarchy
-    kept: NDArray[np.int64]
-    """Triangles that have a place: the items of the hierarchy"""
-    starts: tuple[int, int, int]
-    """First records of nodes, triangles and corners"""
-    sizes: tuple[int, int, int]
-    cost: float
-    """Of the tree when it was built; vertices may have moved since"""
-    is_best: bool
-    """`improve` leaves the tree as it is"""
-
-    @cached_property
-    def topology(self) -> tuple[int, int]:
-        """See `_topology`."""
-        return _topology(self.mesh)
-
-
-@dataclass(frozen=True, slots=True)
-class _MeshTree:
-    """Of a mesh that is to be stored; the names are those of `_MeshRays`."""
-
-    mesh: MeshArrays
-    kept: NDArray[np.int64]
-    hierarchy: Hierarchy
-    cost: float
-    is_best: bool
 
 
 class RayScene:
@@ -127,7 +96,7 @@ class RayScene:
         self._facts = facts
         self._left_out: list[MeshArrays] = []
         """Of which some triangles have no place"""
-        self._meshes: dict[int, _MeshRays] = {}
+        self._meshes: dict[int, MeshRays] = {}
         self._instances: list[InstanceArrays] = []
         """Those that have triangles"""
         self._mesh_of: list[MeshArrays] = []
@@ -135,7 +104,7 @@ class RayScene:
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         self._place_of: dict[int, int] = {}
         """Index in `_instances` by index in the scene"""
-        self._items: list[_MeshRays] = []
+        self._items: list[MeshRays] = []
         """As `_instances`; so are the next: boxes in world space, records, and the deepest of the trees"""
         self._low = self._high = np.empty((0, 3), np.float32)
         self._records = np.empty((0, INSTANCE_RECORDS, 4), np.float32)
@@ -145,7 +114,7 @@ class RayScene:
         self._top_cost = 0.0
         self._top_region = (0, 0)
         self._top_places = (0, 0, 0, 0)
-        self._build: tuple[_MeshRays, HierarchyBuild] | None = None
+        self._build: tuple[MeshRays, HierarchyBuild] | None = None
 
     def bind(self, shader: Any) -> None:
         """Set what `RAYS` names on a bound shader."""
@@ -193,7 +162,7 @@ class RayScene:
             return None
         pairs = zip(before.instances, scene.instances, strict=True)
         differ = [(index, old, new) for index, (old, new) in enumerate(pairs) if old is not new]
-        if any(_all_but_place(old) != _all_but_place(new) for _, old, new in differ):
+        if any(all_but_place(old) != all_but_place(new) for _, old, new in differ):
             return None
         return [index for index, _, _ in differ if index in self._place_of]
 
@@ -217,7 +186,7 @@ class RayScene:
                 return
             # What is seen most is unknown; what is large has most to gain.
             chosen = max(waiting, key=lambda item: len(item.kept))
-            self._build = (chosen, HierarchyBuild(*_triangle_boxes(chosen.mesh, chosen.kept)))
+            self._build = (chosen, HierarchyBuild(*triangle_boxes(chosen.mesh, chosen.kept)))
         chosen, growth = self._build
         if self._meshes.get(id(chosen.mesh)) is not chosen:
             self._build = None
@@ -230,7 +199,7 @@ class RayScene:
         if better.cost() < chosen.hierarchy.cost():
             try:
                 # (This puts the better one in the place of the other, whose regions are free only then.)
-                self._store([_MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
+                self._store([MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
             except InputError:
                 # No room for both: what is there serves as well, only slower.
                 return
@@ -253,45 +222,45 @@ class RayScene:
         for key, mesh in meshes.items():
             if key in self._meshes:
                 continue
-            kept, some_too_far = _triangles_with_a_place(mesh)
+            kept, some_too_far = triangles_with_a_place(mesh)
             if some_too_far:
                 self._left_out.append(mesh)
             if len(kept):
-                fresh.append((mesh, kept, _of_same_topology(mesh, gone.values())))
+                fresh.append((mesh, kept, of_same_topology(mesh, gone.values())))
         trees = self._trees(fresh)
         for item in gone.values():
             self._forget(item)
-        for batch in _batches(trees, [len(tree.kept) for tree in trees]):
+        for batch in batches_of(trees, [len(tree.kept) for tree in trees]):
             self._store(batch)
         if fresh:
             self.build_ms = 1e3 * (perf_counter() - start)
 
-    def _trees(self, fresh: list[tuple[MeshArrays, NDArray[np.int64], _MeshRays | None]]) -> list[_MeshTree]:
+    def _trees(self, fresh: list[tuple[MeshArrays, NDArray[np.int64], MeshRays | None]]) -> list[MeshTree]:
         """Of meshes that have come, or were another with their vertices elsewhere."""
-        trees: list[_MeshTree] = []
+        trees: list[MeshTree] = []
         to_build: list[tuple[MeshArrays, NDArray[np.int64], Boxes, Hierarchy | None]] = []
         for mesh, kept, before in fresh:
-            boxes = _triangle_boxes(mesh, kept)
+            boxes = triangle_boxes(mesh, kept)
             fitted = None
             if before is not None and np.array_equal(before.kept, kept):
                 fitted = before.hierarchy.fitted(*boxes)
                 if fitted.cost() < WORSE * before.cost:
                     self.counters["hierarchies fitted"] += 1
-                    trees.append(_MeshTree(mesh, kept, fitted, before.cost, before.is_best))
+                    trees.append(MeshTree(mesh, kept, fitted, before.cost, before.is_best))
                     continue
             to_build.append((mesh, kept, boxes, fitted))
         for is_best, build_them in ((True, build_all), (False, build_all_quickly)):
             group = [item for item in to_build if (len(item[1]) <= FEW) == is_best]
-            for batch in _batches(group, [len(kept) for _, kept, _, _ in group]):
+            for batch in batches_of(group, [len(kept) for _, kept, _, _ in group]):
                 built = build_them([boxes for _, _, boxes, _ in batch])
                 for (mesh, kept, _, fitted), tree in zip(batch, built, strict=True):
                     # One that has come apart may still be better than one that is built quickly.
                     better = fitted if fitted is not None and fitted.cost() < tree.cost() else tree
-                    trees.append(_MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
+                    trees.append(MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
         self.counters["hierarchies built"] += len(to_build)
         return trees
 
-    def _store(self, trees: list[_MeshTree]) -> None:
+    def _store(self, trees: list[MeshTree]) -> None:
         """All at once: each would be an upload, and make the texture grow, of its own."""
         parts = [
             part
@@ -305,15 +274,15 @@ class RayScene:
         places = iter(zip(self.regions.put(parts), (len(part) for part in parts), strict=True))
         for tree in trees:
             starts, sizes = zip(*(next(places) for _ in range(3)), strict=True)
-            self._meshes[id(tree.mesh)] = _MeshRays(
+            self._meshes[id(tree.mesh)] = MeshRays(
                 tree.mesh, tree.hierarchy, tree.kept, starts, sizes, tree.cost, tree.is_best
             )
 
-    def _forget(self, item: _MeshRays) -> None:
+    def _forget(self, item: MeshRays) -> None:
         del self._meshes[id(item.mesh)]
         self._free(item)
 
-    def _free(self, item: _MeshRays) -> None:
+    def _free(self, item: MeshRays) -> None:
         for start, size in zip(item.starts, item.sizes, strict=True):
             self.regions.drop(start, size)
 
@@ -333,7 +302,7 @@ class RayScene:
         """Boxes and records of some instances."""
         items, placed = [self._items[place] for place in places], [self._instances[place] for place in places]
         matrices = np.array([instance.matrix for instance in placed])
-        self._low[places], self._high[places] = _world_boxes(items, matrices)
+        self._low[places], self._high[places] = world_boxes(items, matrices)
         records = self._records[places]
         records[:, :3] = np.linalg.inv(matrices)[:, :3]
         flags = np.array(
@@ -375,73 +344,3 @@ class RayScene:
         else:
             self.regions.replace(start, joined)
         self._top_places = (start, start + len(nodes), start + len(nodes) + len(instances), 0)
-
-
-def _batches[Item](items: list[Item], sizes: list[int]) -> Iterator[list[Item]]:
-    """The items in turn, some together whose sizes add up to no more than AT_ONCE, or one that is larger."""
-    batch: list[Item] = []
-    total = 0
-    for item, size in zip(items, sizes, strict=True):
-        if batch and total + size > AT_ONCE:
-            yield batch
-            batch, total = [], 0
-        batch.append(item)
-        total += size
-    if batch:
-        yield batch
-
-
-def _all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
-    """What the records of an instance are made of beside its matrix."""
-    return (
-        instance.object_id,
-        instance.mesh,
-        instance.materials,
-        instance.visible_glossy,
-        instance.visible_shadow,
-    )
-
-
-def _of_same_topology(mesh: MeshArrays, known: Collection[_MeshRays]) -> _MeshRays | None:
-    """The one whose vertices have moved to be this mesh."""
-    for item in known:
-        # (to go through all of their content takes milliseconds a million triangles)
-        if item.mesh.triangles is mesh.triangles and item.mesh.corner_vertex is mesh.corner_vertex:
-            return item
-    if not known:
-        return None
-    wanted = _topology(mesh)
-    return next((item for item in known if item.topology == wanted), None)
-
-
-def _topology(mesh: MeshArrays) -> tuple[int, int]:
-    """The same for a mesh whose vertices have moved."""
-    return hash(mesh.triangles.tobytes()), hash(mesh.corner_vertex.tobytes())
-
-
-def _triangles_with_a_place(mesh: MeshArrays) -> tuple[NDArray[np.int64], bool]:
-    """Indices of the triangles that rays can be tested against; whether others are too far out for that."""
-    # (a comparison with what is no number is not true)
-    if np.abs(mesh.positions).max(initial=0.0) < LARGEST_COORDINATE:
-        return np.arange(len(mesh.triangles)), False
-    places = mesh.positions[mesh.corner_vertex[mesh.triangles]]
-    kept = np.flatnonzero((np.abs(places) < LARGEST_COORDINATE).all(axis=(1, 2)))
-    # (of what is no number the reader has said so)
-    return kept, len(kept) < int(np.isfinite(places).all(axis=(1, 2)).sum())
-
-
-def _triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> tuple[Float32Array, Float32Array]:
-    is_all = len(kept) == len(mesh.triangles)
-    a, b, c = triangle_corners(mesh, mesh.triangles if is_all else mesh.triangles[kept])
-    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-
-
-def _world_boxes(items: list[_MeshRays], matrices: Float64Array) -> tuple[Float32Array, Float32Array]:
-    """Boxes (n, 3) around placed meshes: around the box around the mesh, and a little more than rounding takes."""
-    low = np.array([item.hierarchy.low[0] for item in items], np.float64)
-    high = np.array([item.hierarchy.high[0] for item in items], np.float64)
-    center, half = 0.5 * (low + high), 0.5 * (high - low)
-    middle = np.einsum("nij,nj->ni", matrices[:, :3, :3], center) + matrices[:, :3, 3]
-    reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
-    reach += 1e-6 * (np.abs(middle) + reach)
-    return (middle - reach).astype(np.float32), (middle + reach).astype(np.float32)

@@ -10,7 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.device.records import read_records
-from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import CHUNK_TRIANGLES, SceneGeometry, Sight
+from curvrefl.curvrefl_addon.renderer.geometry.placed_instances import Sight
+from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import CHUNK_TRIANGLES, SceneGeometry
 from curvrefl.curvrefl_addon.renderer.geometry.split import has_long_edges
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 

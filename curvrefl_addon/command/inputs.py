@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the verbs read: files, names, sizes, settings, and the GPU that they need."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import importlib.util
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, TextIO
+
+from ..errors import InputError
+from ..settings_table import Settings
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ..scene.arrays import SceneArrays
+    from ..scene.view import View
+
+
+STDOUT, STDERR = 1, 2
+ROOT = Path(__file__).resolve().parent.parent.parent
+"""Of the source tree"""
+SETTING = "setting_"
+"""Before the names of settings among the parsed options"""
+
+
+def say(text: str) -> None:
+    """A line on stderr: stdout is for results."""
+    print(f"curvrefl: {text}", file=sys.stderr, flush=True)
+
+
+def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
+    """Open the file and go to a frame of it; returns the file's active scene."""
+    import bpy
+
+    from ..scene.blend_file import open_blend
+
+    with dropped(STDOUT):
+        open_blend(file)
+    scene = bpy.context.scene
+    assert scene is not None, "an open file has a scene"
+    if frame is not None:
+        scene.frame_set(frame)
+    return scene
+
+
+def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:
+    """The chosen width and height, or those that the scene renders with."""
+    if options.resolution:
+        return options.resolution
+    scale = scene.render.resolution_percentage / 100.0
+    return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
+
+
+def read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays:
+    """The open scene at its frame, with these mirrors."""
+    import bpy
+
+    from ..scene.blend_file import find_reflectors
+    from ..scene.extract import extract_scene
+
+    chosen = find_reflectors(scene, reflectors)
+    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
+
+
+def view_of_options(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
+    """What the chosen camera sees in the chosen resolution."""
+    from ..scene.blend_file import find_camera, view_of_camera
+
+    return view_of_camera(scene, find_camera(scene, options.camera), *resolution_of(options, scene))
+
+
+def chosen_settings(options: argparse.Namespace) -> Settings:
+    """Those that the verb's arguments set; the others are as by default."""
+    return Settings(
+        **{name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
+    )
+
+
+def read_names(text: str, what: str) -> list[str]:
+    """The parts of a list with commas, once each. Raises InputError when there are none."""
+    names = list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    if not names:
+        raise InputError(f"Name at least one {what}.")
+    return names
+
+
+def require_known(names: Sequence[str], known: Sequence[str], what: str) -> None:
+    for name in names:
+        if name not in known:
+            raise InputError(f'There is no {what} "{name}": choose from {", ".join(known)}.')
+
+
+def warn_of(warnings: Sequence[str]) -> None:
+    for warning in dict.fromkeys(warnings):
+        say(f"Warning: {warning}")
+
+
+@contextlib.contextmanager
+def dropped(descriptor: int) -> Iterator[TextIO]:
+    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere; yields the way past that."""
+    stream = sys.stdout if descriptor == STDOUT else sys.stderr
+    stream.flush()
+    kept = os.dup(descriptor)
+    with open(kept, "w", encoding="utf-8") as past:
+        try:
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, descriptor)
+            os.close(nowhere)
+            yield past
+        finally:
+            stream.flush()
+            os.dup2(kept, descriptor)
+
+
+def start_gpu() -> None:
+    """Make the GPU context. Raises InputError, with how to get one, where there is none."""
+    import bpy  # noqa: F401  (with the wheel, before gpu)
+
+    from ..renderer.device.context import GpuUnavailableError, require_gpu
+
+    try:
+        # EGL tries configurations that do not match and says so, at length, though all is well.
+        with dropped(STDERR):
+            require_gpu()
+    except GpuUnavailableError as error:
+        message = str(error).rstrip(".")
+        raise InputError(f"{message[:1].upper()}{message[1:]}.") from error
+
+
+def repository_tool(name: str, verb: str) -> ModuleType:
+    """`tools/<name>.py`, which is there in a copy of the source and not in the installed extension."""
+    path = ROOT / "tools" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"curvrefl_tools_{path.stem}", path) if path.is_file() else None
+    if spec is None or spec.loader is None:
+        raise InputError(f"The verb {verb} needs a copy of Curvrefl's source: call ./curvrefl {verb} there.")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instances by themselves: where their boxes are, how far their matrices stretch, what tells one from another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from .chunk import Placed
+
+CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
+"""(8, 3) which end of a box each of its corners has"""
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """How finely a mirror needs its scenery split (see `split`)."""
+
+    center: tuple[float, float, float]
+    """Star centre, world space"""
+    angle: float
+    own: int
+    """Index of the mirror's instance"""
+
+
+def corners_of_boxes(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float64Array]]) -> Float64Array:
+    """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
+    ends = np.array([box for box, _ in boxes], np.float64)
+    matrices = np.array([matrix for _, matrix in boxes])
+    corners = np.stack([ends[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
+    return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
+
+
+def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
+    """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
+    sizes = [
+        32 * len(mesh.positions) + 64 * len(mesh.corner_vertex) + 24 * len(mesh.triangles) for mesh in scene.meshes
+    ]
+    total = sum(sizes[instance.mesh] for instance in scene.instances)
+    if with_rays:
+        used = [scene.meshes[index] for index in {instance.mesh for instance in scene.instances}]
+        # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
+        total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
+    return total
+
+
+def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
+    """(vertices, 3) in world axes about the star centre."""
+    shift = instance.matrix[:3, 3] - np.array(sight.center)
+    return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
+
+
+def stretches_of(matrices: Float64Array) -> Float64Array:
+    """(n,) the most that matrices (n, 4, 4) lengthen anything, or a little more; exact without shear."""
+    linear = matrices[:, :3, :3]
+    squared = np.abs(np.einsum("nki,nkj->nij", linear, linear))
+    return np.sqrt(squared.sum(axis=2).max(axis=1))
+
+
+def instance_keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:
+    """(object_id, which of the object's instances) of each."""
+    counts: dict[int, int] = {}
+    keys = []
+    for instance in instances:
+        number = counts.get(instance.object_id, 0)
+        counts[instance.object_id] = number + 1
+        keys.append((instance.object_id, number))
+    return keys
+
+
+def differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) -> bool:
+    old = known.instance
+    return (
+        bool(known.mirror) == bool(number)
+        and old.materials == instance.materials
+        and old.visible_camera == instance.visible_camera
+        and old.visible_glossy == instance.visible_glossy
+        and old.visible_shadow == instance.visible_shadow
+        and old.holdout == instance.holdout
+    )

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What rays need of one mesh, and of its place."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene.arrays import (
+    LARGEST_COORDINATE,
+    Float32Array,
+    Float64Array,
+    InstanceArrays,
+    MeshArrays,
+)
+from .hierarchy import Hierarchy
+from .ray_records import (
+    triangle_corners,
+)
+
+AT_ONCE = 500_000
+"""Triangles of meshes that are built or uploaded together: more would gain nothing and take memory"""
+
+
+@dataclass
+class MeshRays:
+    """One mesh on the GPU."""
+
+    mesh: MeshArrays
+    hierarchy: Hierarchy
+    kept: NDArray[np.int64]
+    """Triangles that have a place: the items of the hierarchy"""
+    starts: tuple[int, int, int]
+    """First records of nodes, triangles and corners"""
+    sizes: tuple[int, int, int]
+    cost: float
+    """Of the tree when it was built; vertices may have moved since"""
+    is_best: bool
+    """`improve` leaves the tree as it is"""
+
+    @cached_property
+    def topology(self) -> tuple[int, int]:
+        """See `topology_of`."""
+        return topology_of(self.mesh)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshTree:
+    """Of a mesh that is to be stored; the names are those of `MeshRays`."""
+
+    mesh: MeshArrays
+    kept: NDArray[np.int64]
+    hierarchy: Hierarchy
+    cost: float
+    is_best: bool
+
+
+def batches_of[Item](items: list[Item], sizes: list[int]) -> Iterator[list[Item]]:
+    """The items in turn, some together whose sizes add up to no more than AT_ONCE, or one that is larger."""
+    batch: list[Item] = []
+    total = 0
+    for item, size in zip(items, sizes, strict=True):
+        if batch and total + size > AT_ONCE:
+            yield batch
+            batch, total = [], 0
+        batch.append(item)
+        total += size
+    if batch:
+        yield batch
+
+
+def all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
+    """What the records of an instance are made of beside its matrix."""
+    return (
+        instance.object_id,
+        instance.mesh,
+        instance.materials,
+        instance.visible_glossy,
+        instance.visible_shadow,
+    )
+
+
+def of_same_topology(mesh: MeshArrays, known: Collection[MeshRays]) -> MeshRays | None:
+    """The one whose vertices have moved to be this mesh."""
+    for item in known:
+        # (to go through all of their content takes milliseconds a million triangles)
+        if item.mesh.triangles is mesh.triangles and item.mesh.corner_vertex is mesh.corner_vertex:
+            return item
+    if not known:
+        return None
+    wanted = topology_of(mesh)
+    return next((item for item in known if item.topology == wanted), None)
+
+
+def topology_of(mesh: MeshArrays) -> tuple[int, int]:
+    """The same for a mesh whose vertices have moved."""
+    return hash(mesh.triangles.tobytes()), hash(mesh.corner_vertex.tobytes())
+
+
+def triangles_with_a_place(mesh: MeshArrays) -> tuple[NDArray[np.int64], bool]:
+    """Indices of the triangles that rays can be tested against; whether others are too far out for that."""
+    # (a comparison with what is no number is not true)
+    if np.abs(mesh.positions).max(initial=0.0) < LARGEST_COORDINATE:
+        return np.arange(len(mesh.triangles)), False
+    places = mesh.positions[mesh.corner_vertex[mesh.triangles]]
+    kept = np.flatnonzero((np.abs(places) < LARGEST_COORDINATE).all(axis=(1, 2)))
+    # (of what is no number the reader has said so)
+    return kept, len(kept) < int(np.isfinite(places).all(axis=(1, 2)).sum())
+
+
+def triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> tuple[Float32Array, Float32Array]:
+    is_all = len(kept) == len(mesh.triangles)
+    a, b, c = triangle_corners(mesh, mesh.triangles if is_all else mesh.triangles[kept])
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def world_boxes(items: list[MeshRays], matrices: Float64Array) -> tuple[Float32Array, Float32Array]:
+    """Boxes (n, 3) around placed meshes: around the box around the mesh, and a little more than rounding takes."""
+    low = np.array([item.hierarchy.low[0] for item in items], np.float64)
+    high = np.array([item.hierarchy.high[0] for item in items], np.float64)
+    center, half = 0.5 * (low + high), 0.5 * (high - low)
+    middle = np.einsum("nij,nj->ni", matrices[:, :3, :3], center) + matrices[:, :3, 3]
+    reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)
+    reach += 1e-6 * (np.abs(middle) + reach)
+    return (middle - reach).astype(np.float32), (middle + reach).astype(np.float32)

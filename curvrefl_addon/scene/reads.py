@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a scene reader remembers of what it has read, and small questions to Blender."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from operator import is_
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .arrays import Float64Array, InstanceArrays, LightArrays, SceneArrays
+from .materials.materials import ReadMaterial
+from .meshes.meshes import MeshNeeds
+
+SMALLEST_STRETCH = 1e-6
+"""Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
+
+
+SURELY_REGULAR = 1e-4
+"""Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
+
+
+@dataclass(frozen=True, slots=True)
+class PlainObject:
+    """An object as an instance of itself, as `DepsgraphObjectInstance`."""
+
+    object: Any
+    matrix_world: Any
+    show_self: bool = True
+    is_instance: bool = False
+    parent: Any = None
+
+
+@dataclass(slots=True)
+class ShownInstance:
+    """What one object of the scene, or one that instances it, shows: in the order of the depsgraph."""
+
+    instance: InstanceArrays | None = None
+    light: LightArrays | None = None
+    warnings: tuple[str, ...] = ()
+    has_faces: bool = True
+    made_of: tuple[Any, ...] = ()
+    """All that `instance` is made of"""
+    error: str = ""
+    """Why it cannot be a reflector"""
+    is_visible: bool = False
+    """Anything can see it"""
+    name: str = ""
+    """Of the object"""
+
+
+def object_of(uid: int, name: str) -> bpy.types.Object | None:
+    """The object with this session_uid, probably the one with this name."""
+    obj = bpy.data.objects.get(name)
+    if obj is not None and obj.session_uid == uid:
+        return obj
+    return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
+
+
+def uid_of_block(block: bpy.types.ID | None) -> int:
+    """Its `session_uid`; 0 for none."""
+    return 0 if block is None else block.session_uid
+
+
+def listing_of(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:
+    """Who is there, cheaply: the same before and after a selection, another one after hiding."""
+    return (
+        [(item.object.original.session_uid, item.show_self) for item in depsgraph.object_instances],
+        list(layer_flags(view_layer.layer_collection)),
+        uid_of_block(view_layer.material_override),
+    )
+
+
+def layer_flags(layer: bpy.types.LayerCollection) -> Iterable[tuple[bool, ...]]:
+    yield layer.exclude, layer.holdout, layer.indirect_only, layer.hide_viewport, layer.collection.hide_render
+    for child in layer.children:
+        yield from layer_flags(child)
+
+
+def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -> list[bpy.types.Material | None]:
+    """What each slot shows; one empty slot where there are none."""
+    assert isinstance(obj.data, bpy.types.Mesh)
+    materials = list(obj.data.materials)
+    for index, slot in enumerate(obj.material_slots):
+        if index >= len(materials):
+            materials.append(slot.material)
+        elif slot.link == "OBJECT":
+            materials[index] = slot.material
+    if override is not None:
+        materials = [override] * len(materials) or [override]
+    return materials or [None]
+
+
+def needs_of(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
+    """What the first slots that need a UV map or colours say: a mesh has one of each here."""
+    uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
+    colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
+    for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):
+        if len(set(wanted)) > 1:
+            warnings.append(f'"{name}" has several materials; the {what} of the first serve all.')
+    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+
+
+def is_same_light(one: LightArrays, other: LightArrays) -> bool:
+    plain = [item.name for item in fields(LightArrays) if item.name != "matrix"]
+    return np.array_equal(one.matrix, other.matrix) and all(getattr(one, n) == getattr(other, n) for n in plain)
+
+
+def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
+    """With the last state's tuples where all members are the same objects."""
+
+    def kept[T](new: tuple[T, ...], old: tuple[T, ...]) -> tuple[T, ...]:
+        return old if len(new) == len(old) and all(map(is_, new, old)) else new
+
+    result = replace(
+        arrays,
+        meshes=kept(arrays.meshes, last.meshes),
+        instances=kept(arrays.instances, last.instances),
+        materials=kept(arrays.materials, last.materials),
+        images=kept(arrays.images, last.images),
+        lights=kept(arrays.lights, last.lights),
+    )
+    same = (
+        result.meshes is last.meshes
+        and result.instances is last.instances
+        and result.materials is last.materials
+        and result.images is last.images
+        and result.lights is last.lights
+        and result.world is last.world
+        and result.reflectors == last.reflectors
+        and result.warnings == last.warnings
+    )
+    return last if same else result
+
+
+def is_singular(matrix: Float64Array) -> bool:
+    """Without an inverse, or with one that single precision cannot hold."""
+    if not np.isfinite(matrix).all():
+        return True
+    stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
+    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])
