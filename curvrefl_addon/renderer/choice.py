@@ -27,8 +27,8 @@ from .settings import Settings
 
 RAYS, VERTICES, NOTHING = "exact", "newton", "nothing"
 PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.030, 0.010
-"""Cost of following the ray of a mirror pixel beyond that of shading it, which both ways have, and what each doubling of
-the triangles adds. This and the other costs are about microseconds of the processor that they were fitted on; only
+"""Cost of following the ray of a mirror pixel beyond that of shading it, which both ways have, and what each doubling
+of the triangles adds. This and the other costs are about microseconds of the processor that they were fitted on; only
 their proportions count (`docs/figures.md`)."""
 LAYER_DRAWN, TRIANGLE_DRAWN = 0.015, 0.66
 """Cost of a mirror pixel for each layer of solved triangles drawn onto it, and of a triangle drawn, per sub-frame"""
