@@ -46,6 +46,9 @@ edges are farther away"""
 SAMPLED_VERTICES, SILHOUETTE_SIDES, PIXELS_PROBED = 2000, 16, 16
 """A mirror's silhouette is taken as a polygon of so many sides around about so many of its vertices, and its pixels are
 counted by so many probes along each side of its window"""
+BEFORE_SHARE, MOST_BEFORE = 0.8, 64
+"""Radii of an object's ball, and so many of the largest balls: what they cover in the view counts as before the mirror.
+An object fills less than the ball around it."""
 MOST_SHARE = 1.0
 """Points are solved up to this share of what rays cost (figures: `tools/measure_auto.py`)"""
 KEPT_SHARE = 1.5
@@ -274,7 +277,7 @@ def _cost_share(
     settings: Settings, view: View, mirror: Mirror, scenery: Scenery, unseen: NDArray[np.bool_], is_still: bool
 ) -> tuple[float, str]:
     """What solving costs over what following rays does, and that in words."""
-    pixels = mirror_pixels(mirror, view)
+    pixels = mirror_pixels(mirror, view, scenery)
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
     added = _split_triangles(settings, view, mirror, scenery, unseen, is_still)
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
@@ -318,25 +321,47 @@ def layers_around(center: Float64Array, centers: Float64Array, radii: Float64Arr
     return float(np.where(distance <= radii, 1.0, 0.5 - 0.5 * np.sqrt(1.0 - sine * sine)).sum())
 
 
-def mirror_pixels(mirror: Mirror, view: View) -> float:
-    """About how many pixels of a view a mirror covers where nothing is before it; of one that is not convex, those of
-    its hull."""
+def mirror_pixels(mirror: Mirror, view: View, scenery: Scenery) -> float:
+    """About how many pixels of a view a mirror covers; of one that is not convex, those of its hull."""
     x, y, width, height = mirror.window(view)
+    if width <= 0 or height <= 0:
+        return 0.0
     positions = mirror.mesh.positions
     positions = positions[:: max(1, len(positions) // SAMPLED_VERTICES)].astype(np.float64)
     to_clip = view.world_to_clip @ mirror.instance.matrix
     clip = positions @ to_clip[:, :3].T + to_clip[:, 3]
-    pixels = float(max(width, 0) * max(height, 0))
-    if pixels == 0.0 or (clip[:, 3] <= 1e-6).any():
-        return pixels
-    seen = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
-    turn = np.arange(SILHOUETTE_SIDES) * (2.0 * np.pi / SILHOUETTE_SIDES)
-    sides = np.stack([np.cos(turn), np.sin(turn)])
-    across, up = (
-        first + size * (np.arange(PIXELS_PROBED) + 0.5) / PIXELS_PROBED for first, size in ((x, width), (y, height))
-    )
-    probes = np.stack(np.meshgrid(across, up), axis=-1)
-    return pixels * float((probes @ sides <= (seen @ sides).max(axis=0)).all(axis=-1).mean())
+    steps = (np.arange(PIXELS_PROBED) + 0.5) / PIXELS_PROBED
+    probes = np.stack(np.meshgrid(x + width * steps, y + height * steps), axis=-1).reshape(-1, 2)
+    covered = ~_behind_others(mirror, view, scenery, probes)
+    # (One that reaches behind the eye fills its window.)
+    if (clip[:, 3] > 1e-6).all():
+        seen = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
+        turn = np.arange(SILHOUETTE_SIDES) * (2.0 * np.pi / SILHOUETTE_SIDES)
+        sides = np.stack([np.cos(turn), np.sin(turn)])
+        covered &= (probes @ sides <= (seen @ sides).max(axis=0)).all(axis=-1)
+    return float(width * height * covered.mean())
+
+
+def _behind_others(mirror: Mirror, view: View, scenery: Scenery, probes: Float64Array) -> NDArray[np.bool_]:
+    """(n,) whether at pixels (n, 2) objects are seen before a mirror, as far as their balls tell: not those of what is
+    all around the eye or the mirror."""
+    if view.is_orthographic:
+        return np.zeros(len(probes), bool)
+    eye, center = view.eye[:3], mirror.shape().center
+    to_balls = scenery.centers - eye
+    distance = np.linalg.norm(to_balls, axis=1)
+    before = (distance < np.linalg.norm(center - eye)) & (distance > scenery.radii)
+    before &= np.linalg.norm(scenery.centers - center, axis=1) > scenery.radii
+    chosen = np.flatnonzero(before)
+    sine = BEFORE_SHARE * scenery.radii[chosen] / distance[chosen]
+    largest = np.argsort(-sine)[:MOST_BEFORE]
+    chosen, sine = chosen[largest], sine[largest]
+    clip = np.column_stack([2.0 * probes / (view.width, view.height) - 1.0, np.tile((-1.0, 1.0), (len(probes), 1))])
+    near = clip @ np.linalg.inv(view.world_to_clip).T
+    rays = near[:, :3] / near[:, 3:] - eye
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    cosine = rays @ (to_balls[chosen] / distance[chosen, None]).T
+    return np.asarray((cosine > np.sqrt(1.0 - sine**2)).any(axis=1))
 
 
 def in_shadow(mirror: Mirror, view: View, centers: Float64Array, radii: Float64Array) -> NDArray[np.bool_]:
