@@ -26,18 +26,31 @@ from .mirrors.mirror import Mirror
 from .settings import Settings
 
 RAYS, VERTICES, NOTHING = "exact", "newton", "nothing"
-PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.47, 0.005
-"""Cost of a mirror pixel whose ray is followed, and what each doubling of the triangles adds (`docs/figures.md`)"""
-LAYER_DRAWN, VERTEX_SOLVED, TRIANGLE_DRAWN = 0.21, 1.5, 0.7
-"""Cost of a mirror pixel for each layer of solved triangles drawn onto it, of a solved vertex, of a triangle drawn"""
-EDGES_SPLIT = 115.0
-"""What splitting edges by solved midpoints adds, times the mirror's size in pixels (the root of their number): twice as
-large it bends twice as far from a chord"""
-SPLIT_TRIANGLES = 100.0
-"""Triangles that splitting adds around a mirror, times the square of the angle that it splits to"""
-MOST_SHARE = 1.04
-"""Points are solved up to this share of what rays cost: the costs are of all that differs between the two, and known to
-a few percent (figures: `tools/measure/measure_auto.py`)"""
+PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.030, 0.010
+"""Cost of following the ray of a mirror pixel beyond that of shading it, which both ways have, and what each doubling
+of the triangles adds. This and the other costs are about microseconds of the processor that they were fitted on; only
+their proportions count (`docs/figures.md`)."""
+LAYER_DRAWN, TRIANGLE_DRAWN = 0.015, 0.66
+"""Cost of a mirror pixel for each layer of solved triangles drawn onto it, and of a triangle drawn, per sub-frame"""
+VERTEX_SOLVED, EDGES_ASKED = 0.85, 1.45
+"""Cost of a solved vertex, and what asking whether its edges leave their chords adds to it in a still: solutions are
+read back for that, and midpoints solved"""
+SOLVE_BEGUN = 1500.0
+"""Cost of a mirror's solve and draw before the first vertex: programs are bound, results waited for"""
+SPLIT_TRIANGLES = 30.0
+"""Triangles that a ball is split into around a mirror, times the square of the angle that its edges are split to, where
+it is as large as it is far away"""
+NEAREST_SPLIT = 0.7
+"""Radii of a ball from whose centre on its nearness counts no more: of one that touches the mirror, or holds it, most
+edges are farther away"""
+SAMPLED_VERTICES, SILHOUETTE_SIDES, PIXELS_PROBED = 2000, 16, 16
+"""A mirror's silhouette is taken as a polygon of so many sides around about so many of its vertices, and its pixels are
+counted by so many probes along each side of its window"""
+BEFORE_SHARE, MOST_BEFORE = 0.8, 64
+"""Radii of an object's ball, and so many of the largest balls: what they cover in the view counts as before the mirror.
+An object fills less than the ball around it."""
+MOST_SHARE = 1.0
+"""Points are solved up to this share of what rays cost (figures: `tools/measure/measure_auto.py`)"""
 KEPT_SHARE = 1.5
 """A way that was taken in the view before is kept until it costs so many times as much as the other"""
 STRICTER_SHARE = 0.7
@@ -264,18 +277,30 @@ def _cost_share(
     settings: Settings, view: View, mirror: Mirror, scenery: Scenery, unseen: NDArray[np.bool_], is_still: bool
 ) -> tuple[float, str]:
     """What solving costs over what following rays does, and that in words."""
-    frame = mirror.shape()
-    pixels = mirror_pixels(mirror, view)
+    pixels = mirror_pixels(mirror, view, scenery)
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
-    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER_SHARE)
-    added = SPLIT_TRIANGLES / split_angle(frame.radius_pixels(view), tolerance) ** 2
+    added = _split_triangles(settings, view, mirror, scenery, unseen, is_still)
     by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
-    once = VERTEX_SOLVED * (vertices + 0.5 * added) + (EDGES_SPLIT * np.sqrt(pixels) if is_still else 0.0)
-    layers = layers_around(frame.center, scenery.centers[~unseen], scenery.radii[~unseen])
+    vertex = VERTEX_SOLVED + (EDGES_ASKED if is_still else 0.0)
+    once = SOLVE_BEGUN + vertex * (vertices + 0.5 * added)
+    layers = layers_around(mirror.shape().center, scenery.centers[~unseen], scenery.radii[~unseen])
     by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
     by_points += once / (settings.samples if is_still else 1)
     share = by_points / max(by_rays, 1e-30)
     return share, f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
+
+
+def _split_triangles(
+    settings: Settings, view: View, mirror: Mirror, scenery: Scenery, unseen: NDArray[np.bool_], is_still: bool
+) -> float:
+    """About how many triangles splitting adds to what a mirror may show: none where they are small already."""
+    frame = mirror.shape()
+    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER_SHARE)
+    radii = scenery.radii[~unseen]
+    distance = np.linalg.norm(scenery.centers[~unseen] - frame.center, axis=1)
+    angle = radii / np.maximum(np.maximum(distance, NEAREST_SPLIT * radii), 1e-30)
+    wanted = SPLIT_TRIANGLES * (angle / split_angle(frame.radius_pixels(view), tolerance)) ** 2
+    return float(np.maximum(wanted - scenery.triangles[~unseen], 0.0).sum())
 
 
 def _map_resolution(radius: float, last: MirrorChoice | None) -> int:
@@ -296,10 +321,47 @@ def layers_around(center: Float64Array, centers: Float64Array, radii: Float64Arr
     return float(np.where(distance <= radii, 1.0, 0.5 - 0.5 * np.sqrt(1.0 - sine * sine)).sum())
 
 
-def mirror_pixels(mirror: Mirror, view: View) -> float:
-    """About how many pixels of a view a mirror covers: that part of the window around its box that a ball fills."""
-    _, _, width, height = mirror.window(view)
-    return np.pi / 6.0 * max(width, 0) * max(height, 0)
+def mirror_pixels(mirror: Mirror, view: View, scenery: Scenery) -> float:
+    """About how many pixels of a view a mirror covers; of one that is not convex, those of its hull."""
+    x, y, width, height = mirror.window(view)
+    if width <= 0 or height <= 0:
+        return 0.0
+    positions = mirror.mesh.positions
+    positions = positions[:: max(1, len(positions) // SAMPLED_VERTICES)].astype(np.float64)
+    to_clip = view.world_to_clip @ mirror.instance.matrix
+    clip = positions @ to_clip[:, :3].T + to_clip[:, 3]
+    steps = (np.arange(PIXELS_PROBED) + 0.5) / PIXELS_PROBED
+    probes = np.stack(np.meshgrid(x + width * steps, y + height * steps), axis=-1).reshape(-1, 2)
+    covered = ~_behind_others(mirror, view, scenery, probes)
+    # (One that reaches behind the eye fills its window.)
+    if (clip[:, 3] > 1e-6).all():
+        seen = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
+        turn = np.arange(SILHOUETTE_SIDES) * (2.0 * np.pi / SILHOUETTE_SIDES)
+        sides = np.stack([np.cos(turn), np.sin(turn)])
+        covered &= (probes @ sides <= (seen @ sides).max(axis=0)).all(axis=-1)
+    return float(width * height * covered.mean())
+
+
+def _behind_others(mirror: Mirror, view: View, scenery: Scenery, probes: Float64Array) -> NDArray[np.bool_]:
+    """(n,) whether at pixels (n, 2) objects are seen before a mirror, as far as their balls tell: not those of what is
+    all around the eye or the mirror."""
+    if view.is_orthographic:
+        return np.zeros(len(probes), bool)
+    eye, center = view.eye[:3], mirror.shape().center
+    to_balls = scenery.centers - eye
+    distance = np.linalg.norm(to_balls, axis=1)
+    before = (distance < np.linalg.norm(center - eye)) & (distance > scenery.radii)
+    before &= np.linalg.norm(scenery.centers - center, axis=1) > scenery.radii
+    chosen = np.flatnonzero(before)
+    sine = BEFORE_SHARE * scenery.radii[chosen] / distance[chosen]
+    largest = np.argsort(-sine)[:MOST_BEFORE]
+    chosen, sine = chosen[largest], sine[largest]
+    clip = np.column_stack([2.0 * probes / (view.width, view.height) - 1.0, np.tile((-1.0, 1.0), (len(probes), 1))])
+    near = clip @ np.linalg.inv(view.world_to_clip).T
+    rays = near[:, :3] / near[:, 3:] - eye
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    cosine = rays @ (to_balls[chosen] / distance[chosen, None]).T
+    return np.asarray((cosine > np.sqrt(1.0 - sine**2)).any(axis=1))
 
 
 def in_shadow(mirror: Mirror, view: View, centers: Float64Array, radii: Float64Array) -> NDArray[np.bool_]:

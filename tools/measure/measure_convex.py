@@ -8,7 +8,8 @@
 A case is over its tolerance where the 99th percentile of the errors of the mirror's pixels is. `--force` takes
 reflection points wherever the choice by cost alone would not: the bound must hold there too. `--cost` compares
 processor times instead: of `auto`, of rays, and of reflection points where their picture is under the tolerance
-whatever the bound says; a line for each mirror on which `auto` takes over 1.1 times the cheapest right way.
+whatever the bound says; a line for each mirror on which `auto` takes over 1.1 times the cheapest right way, with what
+`auto` says. *Bound* are those where it does not trust reflection points, whatever they would cost.
 """
 
 from __future__ import annotations
@@ -76,15 +77,17 @@ def solved_anyway(case: Case) -> Renderer | None:
     return renderer if len(errors) and np.percentile(errors, 99) <= case.tolerance else None
 
 
-def ratio_to_best(case: Case, rounds: int = 5) -> tuple[float, dict[str, float]]:
-    """Time of `auto` over the cheapest right way, and the median processor milliseconds of all."""
+def ratio_to_best(case: Case, rounds: int = 5) -> tuple[float, dict[str, float], str]:
+    """Time of `auto` over the cheapest right way, the median processor milliseconds of all, and why `auto` took its."""
     settings = Settings(method="auto", samples=1, pixel_tolerance=case.tolerance)
     ways = {"auto": Renderer(case.scene, settings), "exact": Renderer(case.scene, replace(settings, method="exact"))}
     if (points := solved_anyway(case)) is not None:
         ways["points"] = points
     times: dict[str, list[float]] = {name: [] for name in ways}
-    for renderer in ways.values():
-        renderer.render(case.view)
+    why = ""
+    for name, renderer in ways.items():
+        choice = renderer.render(case.view).choice
+        why = str(choice["why"]) if name == "auto" and choice is not None else why
         renderer.settle()
     for _ in range(rounds):
         for name, renderer in ways.items():
@@ -94,22 +97,30 @@ def ratio_to_best(case: Case, rounds: int = 5) -> tuple[float, dict[str, float]]
     for renderer in ways.values():
         renderer.free()
     medians = {name: median(found) for name, found in times.items()}
-    return medians["auto"] / min(medians.values()), medians
+    return medians["auto"] / min(medians.values()), medians, why
 
 
 def print_costs(first: int, cases: int, most_pixels: int) -> None:
     """Of so many mirrors."""
-    ratios = []
+    ratios, bound = [], 0
     for seed in range(first, first + cases):
         case = convex_case(seed, most_pixels)
-        ratio, medians = ratio_to_best(case)
+        ratio, medians, why = ratio_to_best(case)
         ratios.append(ratio)
         if ratio > 1.1:
-            print(f"{seed:5} {case.text}: {ratio:.2f} " + ", ".join(f"{key} {ms:.0f}" for key, ms in medians.items()))
+            is_bound = " cost about " not in why
+            bound += is_bound
+            print(
+                f"{seed:5} {case.text}: {ratio:.2f} "
+                + ", ".join(f"{key} {ms:.0f}" for key, ms in medians.items())
+                + (f"; bound: {why}" if is_bound else f"; {why}"),
+                flush=True,
+            )
     shares = np.percentile(ratios, (50, 90, 99))
     print(
         f"{cases} mirrors, auto over the cheapest right way: median {shares[0]:.2f}, 90 of 100 under "
-        f"{shares[1]:.2f}, 99 under {shares[2]:.2f}; over 1.1 on {sum(ratio > 1.1 for ratio in ratios)}"
+        f"{shares[1]:.2f}, 99 under {shares[2]:.2f}; over 1.1 on {sum(ratio > 1.1 for ratio in ratios)}, "
+        f"{bound} of them the bound's"
     )
 
 

@@ -164,7 +164,7 @@ def threshold(scene: SceneArrays, views: list[View]) -> float:
 def test_a_view_that_moves_about_the_threshold_does_not_flip(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = three_cubes(star_mesh(Ellipsoid(1.3, 0.9, 1.0), 64))
     if path == "orbit":
-        views = [turning(3.0 * step) for step in range(60)]
+        views = [turning(6.0 * step) for step in range(60)]
     else:
         # In and out again, over the sizes at which the map changes too.
         views = [turning(20.0, 7.0 + 0.8 * np.sin(0.35 * step) - 0.02 * step) for step in range(60)]
