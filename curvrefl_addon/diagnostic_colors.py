@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import InputError
-from .optics.catalogue import METHODS, label_of
+from .optics.catalog import METHODS, label_of
 from .scene.arrays import Float32Array, Float64Array
 from .settings_table import DIAGNOSTIC_CHOICES
 
@@ -41,7 +41,7 @@ _METHOD_PALETTE: tuple[Color, ...] = (
     (0.000, 0.620, 0.560),
     (0.900, 0.450, 0.620),
 )
-"""Told apart by lightness too, as people with color blindness need; in the order of the catalogue"""
+"""Told apart by lightness too, as people with color blindness need; in the order of the catalog"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +119,7 @@ def view_axis(name: str, world_to_view: Float64Array) -> tuple[float, float, flo
 
 
 def method_color(name: str) -> Color:
-    """The catalogue method's own color; hues that lie apart follow where the palette ends."""
+    """The catalog method's own color; hues that lie apart follow where the palette ends."""
     place = list(METHODS).index(name)
     if place < len(_METHOD_PALETTE):
         return _METHOD_PALETTE[place]
@@ -171,7 +171,7 @@ def legend_of(
 ) -> Legend | None:
     """The legend of a view; None for stripes and lines, which say nothing in color.
 
-    `methods` are the catalogue names that the mirrors are drawn with.
+    `methods` are the catalog names that the mirrors are drawn with.
     """
     background = (colors.background, "Background")
     if mode == "ITERATIONS":

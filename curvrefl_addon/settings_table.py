@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from .optics.catalogue import METHODS, Method
+from .optics.catalog import METHODS, Method
 from .setting import Choice, Flag, setting, settings_in
 
 STILL_SAMPLES = 16
@@ -107,7 +107,7 @@ class Settings:
         ),
         said="{} samples are",
     )
-    """Jittered sub-frames; 1: pixel centres only"""
+    """Jittered sub-frames; 1: pixel centers only"""
     bounces: int = setting(
         4,
         label="Bounces",
@@ -179,7 +179,7 @@ class Settings:
 
     @property
     def entry(self) -> Method:
-        """Of the method, in the catalogue."""
+        """Of the method, in the catalog."""
         return METHODS[self.method]
 
 

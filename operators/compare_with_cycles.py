@@ -12,7 +12,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.optics.catalogue import DEFAULT_COMPARED, METHODS
+from ..curvrefl_addon.optics.catalog import DEFAULT_COMPARED, METHODS
 from ..curvrefl_addon.options import marked_mirrors
 from ..curvrefl_addon.settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .paths import output_path

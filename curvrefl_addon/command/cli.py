@@ -18,7 +18,7 @@ from typing import Any, NoReturn
 
 from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
-from ..optics.catalogue import DEFAULT_COMPARED
+from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
 from . import verbs

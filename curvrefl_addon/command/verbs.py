@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..optics.catalogue import METHODS
+from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
 from .inputs import (
     STDOUT,

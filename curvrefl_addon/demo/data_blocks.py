@@ -98,7 +98,7 @@ def mirror(name: str, tint: Color = (0.93, 0.93, 0.94)) -> bpy.types.Material:
 
 
 def emitter(name: str, color: Color) -> bpy.types.Material:
-    """Radiance `color` in all directions and no reflection: shows the same colour in every engine."""
+    """Radiance `color` in all directions and no reflection: shows the same color in every engine."""
     material = bpy.data.materials.new(name)
     tree = material.node_tree
     assert tree is not None
@@ -131,7 +131,7 @@ def add_camera(
     orthographic_width: float | None = None,
     clip: tuple[float, float] = (0.01, 100.0),
 ) -> bpy.types.Object:
-    """The scene's camera; `lens` in millimetres on a 36 mm picture, or an orthographic picture so many metres wide."""
+    """The scene's camera; `lens` in millimeters on a 36 mm picture, or an orthographic picture so many meters wide."""
     camera = bpy.data.cameras.new("Camera")
     camera.lens = lens
     camera.clip_start, camera.clip_end = clip

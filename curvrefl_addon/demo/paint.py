@@ -58,7 +58,7 @@ def planks(width: int, height: int, rows: int, seed: int = 3) -> Float32Array:
 def chequer(
     size: int, cells: int, first: tuple[float, float, float], second: tuple[float, float, float]
 ) -> Float32Array:
-    """(size, size, 4): `cells` x `cells` squares of two colours with thin joints and a little variation."""
+    """(size, size, 4): `cells` x `cells` squares of two colors with thin joints and a little variation."""
     rng = np.random.default_rng(7)
     row, column = np.indices((size, size)) * cells // size
     odd = ((row + column) % 2)[..., None]
@@ -73,7 +73,7 @@ def chequer(
 
 
 def segments(width: int, height: int, colors: list[tuple[float, float, float]]) -> Float32Array:
-    """(height, width, 4): one upright stripe per colour with white ends, as on a beach ball."""
+    """(height, width, 4): one upright stripe per color with white ends, as on a beach ball."""
     column = np.arange(width) * len(colors) // width
     image = np.ones((height, width, 4))
     image[..., :3] = np.array(colors)[column][None]

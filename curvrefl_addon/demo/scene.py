@@ -49,11 +49,11 @@ KETTLE = "Kettle"
 """Name of the reflector"""
 
 BODY_WIDTH = 0.22
-"""Metres, before the flutes"""
+"""Meters, before the flutes"""
 BODY_CENTER = (0.0, 0.0, 0.092)
-"""Metres, in the world: the centre that the body is star-shaped about"""
+"""Meters, in the world: the center that the body is star-shaped about"""
 GAP = 2e-4
-"""Metres between the kettle and what touches it: 0.002 of its radius, so that nothing pokes into the mirror"""
+"""Meters between the kettle and what touches it: 0.002 of its radius, so that nothing pokes into the mirror"""
 
 
 def body_radius(directions: Float64Array) -> Float64Array:
@@ -104,7 +104,7 @@ def add_kettle() -> bpy.types.Object:
 
 
 def _landed(points: Float64Array, way: Float64Array) -> Float64Array:
-    """Points (n, 3), relative to the centre, moved along `way` until `GAP` short of the body (they may start in it)."""
+    """Points (n, 3), relative to the center, moved along `way` until `GAP` short of the body (they may start in it)."""
     near, far = points - 0.2 * way, points.copy()
     far -= way * ((far @ way)[:, None])
     for _ in range(50):
@@ -256,7 +256,7 @@ def _add_world_shape(name: str, shape: Shape, material: bpy.types.Material, smoo
 
 
 def _book(size: tuple[float, float, float]) -> tuple[Shape, Shape]:
-    """(cover, pages) of a closed book lying flat, centred at the origin, its back on the +X side."""
+    """(cover, pages) of a closed book lying flat, centered at the origin, its back on the +X side."""
     width, depth, height = size
     board = 0.0028
     cover = joined(

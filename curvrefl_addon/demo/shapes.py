@@ -3,7 +3,7 @@
 
 """Outlines of things as numpy arrays: star-shaped bodies, turned shapes, tubes, boxes, planes.
 
-All lengths are in metres, object space, Z up. Every closed shape has its faces outward (counter-clockwise).
+All lengths are in meters, object space, Z up. Every closed shape has its faces outward (counter-clockwise).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..scene.arrays import Float64Array
 type Numbers = Sequence[float] | Float64Array
 
 type RadiusFunction = Callable[[Float64Array], Float64Array]
-"""Unit directions (n, 3) -> distances (n,) of a star-shaped surface from its centre."""
+"""Unit directions (n, 3) -> distances (n,) of a star-shaped surface from its center."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +103,7 @@ def star_normals(radius: RadiusFunction, directions: Float64Array, step: float =
 
 
 def star_level(radius: RadiusFunction, points: Float64Array) -> Float64Array:
-    """(n,) distance from the centre minus that of the surface in the same direction: negative inside."""
+    """(n,) distance from the center minus that of the surface in the same direction: negative inside."""
     distance = np.linalg.norm(points, axis=1)
     return distance - radius(points / distance[:, None])
 
@@ -180,7 +180,7 @@ def tube(path: Float64Array, radii: Numbers, segments: int, side: Numbers, cappe
 
 
 def box(size: Sequence[float], bevel: float = 0.0) -> Shape:
-    """A box centred at the origin; with `bevel` its edges are cut off by that much (corners become triangles)."""
+    """A box centered at the origin; with `bevel` its edges are cut off by that much (corners become triangles)."""
     half = 0.5 * np.asarray(size, float)
     signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     if bevel <= 0.0:
@@ -230,7 +230,7 @@ def hull_faces(positions: Float64Array, polygons: Sequence[tuple[int, ...]]) -> 
 
 
 def plane(size: Sequence[float], cells: Sequence[int] = (1, 1), tile: float = 0.0) -> Shape:
-    """A level rectangle centred at the origin. UVs run over it once, or repeat every `tile` metres."""
+    """A level rectangle centered at the origin. UVs run over it once, or repeat every `tile` meters."""
     width, depth = float(size[0]), float(size[1])
     nx, ny = int(cells[0]), int(cells[1])
     x, y = np.meshgrid(np.linspace(-0.5, 0.5, nx + 1), np.linspace(-0.5, 0.5, ny + 1))
@@ -244,7 +244,7 @@ def plane(size: Sequence[float], cells: Sequence[int] = (1, 1), tile: float = 0.
 
 
 def surface_samples(shape: Shape, spacing: float) -> Float64Array:
-    """(n, 3) points all over a shape's surface, at most about `spacing` metres apart."""
+    """(n, 3) points all over a shape's surface, at most about `spacing` meters apart."""
     samples = [shape.positions]
     for polygon in shape.polygons:
         for i in range(1, len(polygon) - 1):
@@ -259,7 +259,7 @@ def surface_samples(shape: Shape, spacing: float) -> Float64Array:
 
 
 def slide_to_contact(shape: Shape, direction: Numbers, radius: RadiusFunction, center: Numbers, gap: float) -> Shape:
-    """Push a shape that stands clear of a star-shaped body along `direction`, to `gap` metres short of touching it."""
+    """Push a shape that stands clear of a star-shaped body along `direction`, to `gap` meters short of touching it."""
     way = np.asarray(direction, float)
     way = way / np.linalg.norm(way)
     extent = float(np.ptp(shape.positions, axis=0).max())

@@ -3,7 +3,7 @@
 """Fermat's principle on a star-shaped reflector: path length, its gradient, and what makes a point a reflection.
 
 The eye E is homogeneous, (x, y, z, 1) for a point and (x, y, z, 0) for the unit direction towards an eye at
-infinity (orthographic view). Positions are relative to the star centre.
+infinity (orthographic view). Positions are relative to the star center.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class SurfaceSample:
     position: Float64Array
     """(n, 3) P = r u"""
     normal: Float64Array
-    """(n, 3) outward unit shading normal, r u - grad r normalised"""
+    """(n, 3) outward unit shading normal, r u - grad r normalized"""
     radius: Float64Array
     """(n,)"""
     gradient: Float64Array
@@ -41,7 +41,7 @@ def towards_eye(eye: Float64Array, points: Float64Array) -> Float64Array:
 
 
 def half_vector(eye: Float64Array, vertices: Float64Array, points: Float64Array) -> Float64Array:
-    """h = (E-P)/|E-P| + (V-P)/|V-P|, (n, 3): not normalised, parallel to the normal where P reflects V."""
+    """h = (E-P)/|E-P| + (V-P)/|V-P|, (n, 3): not normalized, parallel to the normal where P reflects V."""
     return towards_eye(eye, points) + unit(vertices - points)
 
 

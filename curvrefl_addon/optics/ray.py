@@ -13,7 +13,7 @@ from .surfaces.radial_surfaces import Float64Array
 
 @dataclass(frozen=True, slots=True)
 class ReflectedRay:
-    """A line of sight at the mirror. World space, metres."""
+    """A line of sight at the mirror. World space, meters."""
 
     point: Float64Array
     """(3,) reflection point P"""

@@ -14,10 +14,10 @@ from .surfaces.radial_surfaces import Float64Array
 
 @dataclass(frozen=True)
 class Screen:
-    """What turns lengths at the reflector into pixels: `focal` pixels per radian, or per metre for w = 0 eyes."""
+    """What turns lengths at the reflector into pixels: `focal` pixels per radian, or per meter for w = 0 eyes."""
 
     eye: Float64Array
-    """(4,) homogeneous, relative to the star centre"""
+    """(4,) homogeneous, relative to the star center"""
     focal: float
 
     def pixels(self, points: Float64Array, offsets: Float64Array) -> Float64Array:

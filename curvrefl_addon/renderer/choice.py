@@ -62,7 +62,7 @@ class MirrorChoice:
 
     @property
     def method(self) -> str:
-        """A name in the catalogue, or NOTHING."""
+        """A name in the catalog, or NOTHING."""
         return NOTHING if self.shows_nothing else self.settings.method
 
     def as_report(self) -> dict[str, object]:

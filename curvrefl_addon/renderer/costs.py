@@ -36,7 +36,7 @@ SPLIT_TRIANGLES = 30.0
 """Triangles that a ball is split into around a mirror, times the square of the angle that its edges are split to, where
 it is as large as it is far away"""
 NEAREST_SPLIT = 0.7
-"""Radii of a ball from whose centre on its nearness counts no more: of one that touches the mirror, or holds it, most
+"""Radii of a ball from whose center on its nearness counts no more: of one that touches the mirror, or holds it, most
 edges are farther away"""
 STRICTER_SHARE = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside

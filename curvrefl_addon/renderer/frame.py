@@ -51,7 +51,7 @@ class Frame:
 
     @cached_property
     def surfaces(self) -> dict[str, Float32Array]:
-        """Surface buffers through the pixels' centres (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
+        """Surface buffers through the pixels' centers (h, w, 4): see `SurfaceBuffer`; keys seen_position, seen_normal,
         seen_color, reflected_position and, where vertices are solved, reflected_color. From an environment,
         reflected_position has the direction of the background, too, with w = 0.
 
@@ -64,12 +64,12 @@ class Frame:
         return read_texture(self.color_texture)
 
     def mask(self) -> Int32Array:
-        """(h, w) object_id of the reflector at the pixel's centre, 0 elsewhere."""
+        """(h, w) object_id of the reflector at the pixel's center, 0 elsewhere."""
         ids = np.rint(self.surfaces["seen_position"][..., 3]).astype(np.int32)
         return np.where(self.surfaces["seen_color"][..., 3] > 0.5, ids, 0)
 
     def reflector_position(self) -> Float32Array:
-        """(h, w, 3) world point P seen at the pixel's centre; meant for the pixels of `mask`."""
+        """(h, w, 3) world point P seen at the pixel's center; meant for the pixels of `mask`."""
         return self.surfaces["seen_position"][..., :3]
 
     def reflected_position(self) -> Float32Array:

@@ -121,7 +121,7 @@ class Preparation:
         at_rest: bool,
         warnings: list[str],
     ) -> Shown:
-        """By a method of the catalogue; `warnings` gets what is not shown."""
+        """By a method of the catalog; `warnings` gets what is not shown."""
         method = settings.entry
         if method.follows_rays:
             stage.rays()

@@ -60,7 +60,7 @@ class Reflection:
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Catalogue names by which the mirrors are shown, in their order."""
+        """Catalog names by which the mirrors are shown, in their order."""
         return tuple(shown.method for shown in self.shown)
 
     @property

@@ -20,7 +20,7 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
-from ..optics.catalogue import DEFAULT_COMPARED, METHODS
+from ..optics.catalog import DEFAULT_COMPARED, METHODS
 from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
@@ -303,7 +303,7 @@ def _run(
 
 
 def _opaque(pixels: Float32Array) -> Float32Array:
-    """The colours alone: pictures are compared before black, as they are shown."""
+    """The colors alone: pictures are compared before black, as they are shown."""
     return pixels[..., :3]
 
 

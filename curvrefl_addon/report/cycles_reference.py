@@ -44,7 +44,7 @@ class Still:
     pixels: Float32Array
     """(height, width, 4) scene-linear"""
     seconds: float
-    """Of the render call that made it, scene synchronisation included"""
+    """Of the render call that made it, scene synchronization included"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ _LINEAR_END = 0.0031308
 def display_transform(linear: Float32Array) -> Float32Array:
     """Blender's "Standard" view of scene-linear Rec.709 on an sRGB screen: clipped to 0..1, then the sRGB curve.
 
-    `linear`: any shape, colour only (no alpha). Not-a-number becomes 0, as a screen would show it.
+    `linear`: any shape, color only (no alpha). Not-a-number becomes 0, as a screen would show it.
     """
     clipped = np.clip(np.nan_to_num(linear, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0)
     curve = 1.055 * np.power(np.maximum(clipped, _LINEAR_END), 1.0 / 2.4) - 0.055
@@ -23,7 +23,7 @@ def display_transform(linear: Float32Array) -> Float32Array:
 
 
 def inverse_display_transform(encoded: Float32Array) -> Float32Array:
-    """Scene-linear colours that the display transform shows as `encoded` (in 0..1)."""
+    """Scene-linear colors that the display transform shows as `encoded` (in 0..1)."""
     linear_end = 12.92 * _LINEAR_END
     curve = np.power((np.maximum(encoded, linear_end) + 0.055) / 1.055, 2.4)
     return np.where(encoded <= linear_end, encoded / 12.92, curve).astype(np.float32)

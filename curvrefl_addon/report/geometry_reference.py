@@ -5,7 +5,7 @@
 
 One material overrides all others in the view layer. It emits the world position (or the object's id); on the
 reflectors, and there for camera rays only, it is a white mirror without roughness or bumps, about Cycles' own
-shading normal. The world emits the ray's direction. With the pixel filter shrunk to the centre, one sample is exact.
+shading normal. The world emits the ray's direction. With the pixel filter shrunk to the center, one sample is exact.
 Emission keeps negative values and is not clamped, so the numbers come out in single precision as they are.
 A mirror that is seen in a mirror counts as the point of it that is hit.
 """
@@ -40,7 +40,7 @@ _UNSEEN_TYPES = ("LIGHT", "LIGHT_PROBE", "GREASEPENCIL", "VOLUME", "SPEAKER")
 
 @dataclass(frozen=True, slots=True)
 class GeometryReference:
-    """Per pixel, at its centre (to 0.005 of a pixel), row 0 at the BOTTOM."""
+    """Per pixel, at its center (to 0.005 of a pixel), row 0 at the BOTTOM."""
 
     mask: Int32Array
     """(h, w) object id of the reflector, 0 elsewhere"""

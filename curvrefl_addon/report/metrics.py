@@ -3,7 +3,7 @@
 
 """Errors of a picture of reflections, as numbers and as a picture. Pure numpy; FLIP's package only where it is used.
 
-All images are (height, width, 3 or 4) scene-linear Rec.709; alpha is ignored. Colours are compared as the
+All images are (height, width, 3 or 4) scene-linear Rec.709; alpha is ignored. Colors are compared as the
 screen shows them, after the "Standard" display transform.
 """
 
@@ -56,7 +56,7 @@ def flip_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -
     """Mean of the FLIP error (0..1, lower is better) over `mask` (h, w), or None for an empty mask.
 
     Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020, low dynamic range, 67 pixels
-    per degree. FLIP looks at a neighbourhood, so `test` is given the reference's pixels outside the mask first:
+    per degree. FLIP looks at a neighborhood, so `test` is given the reference's pixels outside the mask first:
     what lies outside cannot count.
 
     Raises InputError when the package flip-evaluator is not installed.
@@ -82,7 +82,7 @@ def flip_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -
 
 
 def psnr_in_mask(test: Float32Array, reference: Float32Array, mask: BoolArray) -> float | None:
-    """Peak signal-to-noise ratio in dB over the colours in `mask`: infinite if they are equal, None if it is empty."""
+    """Peak signal-to-noise ratio in dB over the colors in `mask`: infinite if they are equal, None if it is empty."""
     if not mask.any():
         return None
     difference = display_transform(test[..., :3])[mask] - display_transform(reference[..., :3])[mask]
@@ -127,13 +127,13 @@ def geometry_error(
 ) -> GeometryError:
     """How far each mirror pixel is from showing what Cycles shows.
 
-    Masks (h, w) hold the object id of the reflector at the pixel centre, 0 elsewhere; positions (h, w, 4) are
+    Masks (h, w) hold the object id of the reflector at the pixel center, 0 elsewhere; positions (h, w, 4) are
     points (w = 1) or unit directions of the background (w = 0); `reference_reflector_position` (h, w, 3) is the
     point P that the angles are seen from, in degrees. `wrong_object` is the share of pixels that show another
     object (or the background instead of one, or one instead of it).
 
     Only pixels count in which both masks hold the same reflector: at the silhouette the two may disagree about
-    what the centre hits (`mask_mismatch` says how often). Where `reference_valid` is given and false, Cycles
+    what the center hits (`mask_mismatch` says how often). Where `reference_valid` is given and false, Cycles
     followed no reflection, and the pixel is left out too. A test position that is not finite counts as 180 degrees.
     """
     both = (mask == reference_mask) & (reference_mask != 0)

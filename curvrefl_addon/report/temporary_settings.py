@@ -24,7 +24,7 @@ class TemporarySettings:
         """Set properties of `owner`; those that have the value already are left untouched.
 
         All are remembered before the first is set, and set back in the same order: some properties (a file
-        format) change others (its colour depth) as they are set.
+        format) change others (its color depth) as they are set.
         """
         for name in values:
             key = (owner.as_pointer(), name)
@@ -65,5 +65,5 @@ def temporary_settings() -> Iterator[TemporarySettings]:
 
 
 def _plain(value: Any) -> Any:
-    """Vectors and colours are views into the datablock: copy them to compare and to keep."""
+    """Vectors and colors are views into the datablock: copy them to compare and to keep."""
     return tuple(value) if isinstance(value, bpy.types.bpy_prop_array) or hasattr(value, "to_tuple") else value

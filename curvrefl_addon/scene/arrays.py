@@ -3,7 +3,7 @@
 
 """What the renderer knows of a Blender scene: frozen numpy arrays, no bpy.
 
-Everything is right-handed Blender world space in metres unless a field says "object space".
+Everything is right-handed Blender world space in meters unless a field says "object space".
 `scene.extract` fills these; `renderer` only reads them.
 """
 
@@ -26,7 +26,7 @@ LARGEST_COORDINATE = 1e18
 class MeshArrays:
     """One evaluated mesh in object space.
 
-    A *corner* carries what may differ between the faces that meet in a vertex (normal, UV, colour).
+    A *corner* carries what may differ between the faces that meet in a vertex (normal, UV, color).
     Where nothing differs, corners are the vertices themselves and `corner_vertex` is 0..N-1.
     """
 
@@ -40,7 +40,7 @@ class MeshArrays:
     corner_uv: Float32Array | None
     """(corners, 2) texture coordinates; None where no material needs them"""
     corner_color: Float32Array | None
-    """(corners, 4) scene-linear vertex colours; None where no material needs them"""
+    """(corners, 4) scene-linear vertex colors; None where no material needs them"""
     triangles: Int32Array
     """(triangles, 3) index into corners"""
     triangle_slot: Int32Array
@@ -71,7 +71,7 @@ class ReliefArrays:
     """Heights, else normals"""
     strength: float = 1.0
     distance: float = 1.0
-    """Of heights: metres for a height of 1, negative where inverted"""
+    """Of heights: meters for a height of 1, negative where inverted"""
     uv_scale: tuple[float, float] = (1.0, 1.0)
     uv_offset: tuple[float, float] = (0.0, 0.0)
 
@@ -83,11 +83,11 @@ class MaterialArrays:
     name: str
     base_color: tuple[float, float, float] = (0.8, 0.8, 0.8)
     image: int = -1
-    """Index into `SceneArrays.images` of the base colour texture, -1 for none"""
+    """Index into `SceneArrays.images` of the base color texture, -1 for none"""
     uv_scale: tuple[float, float] = (1.0, 1.0)
     uv_offset: tuple[float, float] = (0.0, 0.0)
     uses_vertex_color: bool = False
-    """Base colour is multiplied with the corner colour"""
+    """Base color is multiplied with the corner color"""
     metallic: float = 0.0
     roughness: float = 0.5
     ior: float = 1.5
@@ -96,7 +96,7 @@ class MaterialArrays:
     emission: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Emitted radiance, strength included"""
     glossy_only: bool = False
-    """A Glossy BSDF: reflectance is the base colour at every angle, without diffuse part"""
+    """A Glossy BSDF: reflectance is the base color at every angle, without diffuse part"""
     relief: ReliefArrays | None = None
     """Shown where it is a mirror's"""
 
@@ -114,7 +114,7 @@ class LightArrays:
     """'POINT', 'SUN', 'SPOT' or 'AREA'"""
     color: tuple[float, float, float]
     matrix: Float64Array
-    """(4, 4) world matrix, columns normalised; the lamp shines along its -Z"""
+    """(4, 4) world matrix, columns normalized; the lamp shines along its -Z"""
     radius: float = 0.0
     """POINT, SPOT: radius of the ball"""
     angle: float = 0.0
@@ -123,7 +123,7 @@ class LightArrays:
     """SPOT: full cone angle in radians"""
     spot_blend: float = 0.0
     size: tuple[float, float] = (0.0, 0.0)
-    """AREA: full width and height in metres, world scale applied"""
+    """AREA: full width and height in meters, world scale applied"""
     ellipse: bool = False
     """AREA: disk or ellipse instead of a rectangle"""
     casts_shadow: bool = True

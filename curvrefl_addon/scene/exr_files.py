@@ -18,7 +18,7 @@ from .arrays import Float32Array
 
 
 def as_rgba(array: Float32Array) -> Float32Array:
-    """(h, w), (h, w, 1), (h, w, 3) or (h, w, 4) as a contiguous (h, w, 4); grey is repeated, missing alpha is 1."""
+    """(h, w), (h, w, 1), (h, w, 3) or (h, w, 4) as a contiguous (h, w, 4); gray is repeated, missing alpha is 1."""
     values = np.asarray(array, np.float32)
     if values.ndim == 2:
         values = values[..., None]

@@ -61,7 +61,7 @@ def read_light(
             if lengths.max() > lengths.min() * 1.001:
                 warnings.append(f'The cone of spot lamp "{name}" is drawn round, whatever its scale.')
     if not light.normalize:
-        # The energy is then that of a square metre; Cycles counts a point as four.
+        # The energy is then that of a square meter; Cycles counts a point as four.
         color *= area
     r, g, b = color.tolist()
     return LightArrays(
@@ -81,7 +81,7 @@ def read_light(
 
 
 def _node_color(light: bpy.types.Light, name: str, warnings: list[str]) -> Float64Array:
-    """(3,) what the lamp's nodes multiply its colour with."""
+    """(3,) what the lamp's nodes multiply its color with."""
     tree = light.node_tree
     outputs = [node for node in tree.nodes if node.type == "OUTPUT_LIGHT"] if tree is not None else []
     if not outputs:

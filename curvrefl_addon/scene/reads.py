@@ -96,7 +96,7 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
 
 
 def needs_of(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
-    """What the first slots that need a UV map or colours say: a mesh has one of each here."""
+    """What the first slots that need a UV map or colors say: a mesh has one of each here."""
     uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
     colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
     for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):

@@ -49,7 +49,7 @@ class View:
 
     @property
     def focal_pixels(self) -> float:
-        """Pixels per radian at the picture's centre; orthographic: pixels per metre."""
+        """Pixels per radian at the picture's center; orthographic: pixels per meter."""
         return 0.5 * self.height * float(self.view_to_clip[1, 1])
 
     def jittered(self, dx: float, dy: float) -> View:

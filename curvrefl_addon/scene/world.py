@@ -41,12 +41,12 @@ class WorldImage:
 
 
 def read_world(world: bpy.types.World | None, images: ImageReader, warnings: list[str]) -> WorldArrays:
-    """Background colour or environment texture with its mapping; the nearest colour and a warning for the rest."""
+    """Background color or environment texture with its mapping; the nearest color and a warning for the rest."""
     if world is None:
         return WorldArrays()
     source = surface_source(world.node_tree)
     if source is None:
-        # Without nodes Cycles shows the viewport's colour; with an output that has nothing plugged in, black.
+        # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
         has_output = world.node_tree is not None and world.node_tree.get_output_node("CYCLES") is not None
         return WorldArrays() if has_output else WorldArrays(_triple(world.color))
     notes: list[str] = []
@@ -151,7 +151,7 @@ def _euler_matrix(angles: Float64Array) -> Float64Array:
 
 
 def equirectangular_directions(width: int, height: int) -> Float64Array:
-    """(h, w, 3) directions of pixel centres in Blender's mapping: u = 0.5 - atan2(y, x) / 2 pi, v rises with z."""
+    """(h, w, 3) directions of pixel centers in Blender's mapping: u = 0.5 - atan2(y, x) / 2 pi, v rises with z."""
     azimuth = -2.0 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)
     elevation = np.pi * ((np.arange(height) + 0.5) / height - 0.5)
     flat = np.cos(elevation)[:, None]

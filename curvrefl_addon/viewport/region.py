@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..diagnostic_colors import MODES, DiagnosticOptions
-from ..optics.catalogue import label_of
+from ..optics.catalog import label_of
 from ..renderer.choice import RAYS
 from ..renderer.device.batches import full_screen_triangle
 from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
@@ -151,7 +151,7 @@ class RegionPicture:
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Catalogue names by which its mirrors are shown, each once."""
+        """Catalog names by which its mirrors are shown, each once."""
         return () if self._reflection is None else tuple(dict.fromkeys(self._reflection.methods))
 
     @property

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
-from ..optics.catalogue import METHODS
+from ..optics.catalog import METHODS
 from ..options import marked_mirrors, newer_settings, overrides_of
 from ..renderer.geometry.placed_instances import estimated_bytes
 from ..renderer.renderer import Renderer

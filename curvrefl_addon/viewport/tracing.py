@@ -37,7 +37,7 @@ class Trace:
     seen: str
     """Name of the object there, or nothing"""
     reach: float
-    """Length of the line that is drawn into the background, metres"""
+    """Length of the line that is drawn into the background, meters"""
 
     @property
     def distance(self) -> float:
@@ -99,7 +99,7 @@ def trace(
 
 def place_on(found: Trace, item: bpy.types.Object) -> float:
     """Move an object onto the reflected ray, so that its origin is seen where the ray was clicked; returns its distance
-    from the mirror in metres.
+    from the mirror in meters.
 
     It keeps its distance from the reflection point, but stays in front of what the ray shows. Raises InputError for
     the mirror itself, and for what cannot be moved.

@@ -12,7 +12,7 @@ struct Corner {
   float object_id;
   vec3 normal;
   vec2 uv;
-  vec3 color;  // vertex colour, scene-linear
+  vec3 color;  // vertex color, scene-linear
   float mirror;  // 1, 2, ... on a reflector
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One colour per mirror (record `number` of `palette`) wherever it shows a surface. With MARKS, what was drawn there
+// One color per mirror (record `number` of `palette`) wherever it shows a surface. With MARKS, what was drawn there
 // over it.
 #include "common/records.glsl"
 #include "diagnostics/diagnostic_mirror.glsl"
@@ -13,7 +13,7 @@ void main()
   vec3 rgb = background;
   if (at.is_mirror && shown.w > 0.0) {
     rgb = fetch_record(palette, int(at.number + 0.5)).rgb;
-    // A little of the shape of what is shown, or of the mirror, so that the colour says where it is.
+    // A little of the shape of what is shown, or of the mirror, so that the color says where it is.
 #ifdef ENVIRONMENT
     float facing = abs(dot(at.ray, at.normal));
 #else

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as colours of a ramp: solver iterations, or with ANGLE_ERROR the angle between a pixel's reflected ray and
+// Numbers as colors of a ramp: solver iterations, or with ANGLE_ERROR the angle between a pixel's reflected ray and
 // the way to what is shown there.
 #include "diagnostics/diagnostic_mirror.glsl"
 

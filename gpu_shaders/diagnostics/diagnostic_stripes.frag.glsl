@@ -30,7 +30,7 @@ void main()
   float x = acos(clamp(along, -1.0, 1.0)) / PI * count;
   float width = fwidth(x);
 #endif
-  // At the mirror's rim the neighbour's ray is another surface's.
+  // At the mirror's rim the neighbor's ray is another surface's.
   if (fwidth(at.number) > 0.0) {
     width = 0.0;
   }

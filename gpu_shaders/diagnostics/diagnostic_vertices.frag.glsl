@@ -23,6 +23,6 @@ void main()
     }
   }
   vec3 rgb = status == REFLECTED ? reflected_color : status == HIDDEN ? hidden_color : failed_color;
-  // A dark rim keeps a point apart from its neighbours and from surfaces of its own colour.
+  // A dark rim keeps a point apart from its neighbors and from surfaces of its own color.
   mark = vec4(from_center > 0.36 ? 0.15 * rgb : status == HIDDEN ? 0.6 * rgb : rgb, 1.0);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fresnel terms of the Principled BSDF.
 
-// Never below the reflectance at normal incidence, as Cycles' generalised Schlick term.
+// Never below the reflectance at normal incidence, as Cycles' generalized Schlick term.
 float fresnel_dielectric(float cosine, float eta)
 {
   float root = (eta - 1.0) / (eta + 1.0);

@@ -4,7 +4,7 @@
 // Needs the samplers and the uniform block of renderer/lighting/lighting.py (lighting_piece).
 //
 // lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
-//   0: number of lamps, number of world directions, 1 for a world image; 1: world colour, brightest that
+//   0: number of lamps, number of world directions, 1 for a world image; 1: world color, brightest that
 //   is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of each direction where there is
 //   no image. Without lamps or directions the first record is dark: the loops over them run at
 //   least once, as a software renderer runs the body of a `for` once more than it needs.

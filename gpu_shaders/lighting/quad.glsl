@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The two by two pixels that a fragment shader runs on at once: they can share work without another pass, as a
-// derivative is the difference to a neighbour. Only outside of branches and loops that some of the four leave.
+// derivative is the difference to a neighbor. Only outside of branches and loops that some of the four leave.
 
 vec2 quad_odd()
 {
@@ -33,7 +33,7 @@ bool quad_joins(vec3 step, vec3 normal, vec3 turn)
   return 0.5 * dot(turn, turn) <= 1.0 - QUAD_NORMALS && abs(dot(step, normal)) <= QUAD_PLANE * length(step);
 }
 
-// Whether the four are neighbours on one surface. `ids` are equal on one surface only. Never where a driver gives both
+// Whether the four are neighbors on one surface. `ids` are equal on one surface only. Never where a driver gives both
 // rows the same derivative: then they cannot know of each other.
 bool quad_is_one_surface(vec3 position, vec3 normal, vec3 ids)
 {

@@ -11,7 +11,7 @@
 #include "lighting/shade_surfaces.glsl"
 #include "lighting/mirror_tint.glsl"
 
-// As shade_surface turns it: neighbours that turn apart share nothing.
+// As shade_surface turns it: neighbors that turn apart share nothing.
 vec3 facing(vec3 normal, vec3 direction)
 {
   return dot(normal, direction) > 0.0 ? -normal : normal;

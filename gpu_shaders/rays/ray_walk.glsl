@@ -15,7 +15,7 @@
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
 #define NOWHERE -1
 #define OVER 99
-// Share of a triangle by which its edges overlap the neighbours', or rounding would let rays through between them.
+// Share of a triangle by which its edges overlap the neighbors', or rounding would let rays through between them.
 #define OVERLAP 2e-6
 
 struct Ray {

@@ -73,7 +73,7 @@ vec3 newton_step(vec3 derivative, vec3 g, vec3 first, vec3 second)
 
 // Descends from u; returns whether it converged and adds its steps to `iterations`. With `any_kind` to a zero of the
 // gradient that may be a maximum or a saddle.
-bool minimise(
+bool minimize(
     vec4 eye, float focal, vec3 vertex, int steps, float tolerance, bool any_kind, inout vec3 u, inout int iterations)
 {
   SurfaceSample at = sample_surface(u);

@@ -17,7 +17,7 @@ vec2 incidence(float x, float over)
   return vec2(x + atan(sine, away), 1.0 + (cos(x) * away - sine * sine) / (away * away + sine * sine));
 }
 
-// Where a sphere about the star centre, as large as the mirror is there, would reflect.
+// Where a sphere about the star center, as large as the mirror is there, would reflect.
 vec3 sphere_guess(vec4 eye, vec3 vertex)
 {
   vec3 a = safe_unit(eye.xyz);

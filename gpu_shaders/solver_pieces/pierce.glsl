@@ -7,7 +7,7 @@
 float height_over_surface(vec3 point)
 {
   float from_center = length(point);
-  // The star centre itself has no direction; any will do, it is inside.
+  // The star center itself has no direction; any will do, it is inside.
   vec3 u = from_center > 0.0 ? point / from_center : vec3(0.0, 0.0, 1.0);
   return from_center - textureLod(radial, u, 0.0).x;
 }

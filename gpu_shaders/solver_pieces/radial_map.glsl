@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reflector as a radial cube map (r, grad r), relative to its star centre; mirrors optics/fermat.py `sample`.
+// The reflector as a radial cube map (r, grad r), relative to its star center; mirrors optics/fermat.py `sample`.
 // Needs the sampler (FLOAT_CUBE) `radial`.
 #include "common/vectors.glsl"
 

@@ -24,7 +24,7 @@ Solved finish(vec3 vertex, vec3 u, bool converged, int iterations)
     if (side < 0.0) {
       u = on_hollow_side(eye, vertex, u);
     }
-    converged = minimise(
+    converged = minimize(
         eye, solver.focal_pixels, vertex, solver.newton_steps, solver.tolerance, side < 0.0, u, iterations);
     at = sample_surface(u);
     if (converged && is_reflection_side(eye, vertex, at, side)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Search over position and normal targets of the current view (Estalella et al. 2006, section 4), one invocation per
-// vertex: the texel of a 3 x 3 neighbourhood with the largest N . B becomes the next centre, until the centre wins.
+// vertex: the texel of a 3 x 3 neighborhood with the largest N . B becomes the next center, until the center wins.
 // A texel at the silhouette covers many normals.
 #define LARGEST_MISS 0.5
 #include "solver_pieces/bisector.glsl"

@@ -54,7 +54,7 @@ Solved solve(int index, vec3 vertex)
     u = first_guess(eye, vertex);
   }
   vec3 start = u;
-  bool converged = minimise(
+  bool converged = minimize(
       eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, side < 0.0, u, iterations);
   SurfaceSample at = sample_surface(u);
   if (!warm || u != start) {

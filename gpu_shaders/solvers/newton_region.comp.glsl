@@ -60,7 +60,7 @@ Solved solve(int index, vec3 vertex)
   vec3 u = start[0];
   for (int k = 0; k < STARTS; k++) {
     u = start[k];
-    if (!minimise(eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, true, u, iterations) ||
+    if (!minimize(eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, true, u, iterations) ||
         !is_in_region(region, u)) {
       continue;
     }

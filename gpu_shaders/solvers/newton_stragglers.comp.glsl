@@ -40,13 +40,13 @@ vec3 start_of_rung(int rung, vec4 eye, vec3 vertex)
   return solver.side < 0.0 ? on_hollow_side(eye, vertex, u) : u;
 }
 
-// As `minimise` with the full number of steps, and on from where the way to a point seen from behind enters the
+// As `minimize` with the full number of steps, and on from where the way to a point seen from behind enters the
 // mirror: the path by way of that entry is shorter.
 bool descend(vec4 eye, vec3 vertex, bool any_kind, inout vec3 u, inout int iterations)
 {
   float side = solver.side;
   for (int entry = 0; entry <= ENTRIES; entry++) {
-    if (!minimise(
+    if (!minimize(
             eye, solver.focal_pixels, vertex, solver.newton_steps, solver.tolerance, any_kind, u, iterations)) {
       return false;
     }

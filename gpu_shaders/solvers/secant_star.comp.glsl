@@ -34,7 +34,7 @@ void start_triangle(vec4 eye, vec3 vertex, out vec3 u[3])
   u[2] = safe_unit(middle + sqrt(3.0) * clamp(half_edge, SMALLEST_START, 0.6) * across);
 }
 
-// Weights (alpha, beta) of A and B that minimise the interpolated gradient; whether that is ill-conditioned.
+// Weights (alpha, beta) of A and B that minimize the interpolated gradient; whether that is ill-conditioned.
 bool least_squares(vec3 g[3], out vec2 weights)
 {
   vec3 a = g[0] - g[2];
@@ -126,7 +126,7 @@ Solved solve(int index, vec3 vertex)
   float focal = solver.focal_pixels;
   int iterations = 0;
   vec3 u = secant_search(eye, focal, vertex, solver.steps, iterations);
-  bool converged = minimise(
+  bool converged = minimize(
       eye, focal, vertex, solver.newton_steps, solver.tolerance, solver.side < 0.0, u, iterations);
   return finish(vertex, u, converged, iterations);
 }

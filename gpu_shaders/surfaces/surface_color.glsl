@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Base colour of the batch's material. Needs the push constants of renderer/surfaces/materials.py and, unless PLAIN,
+// Base color of the batch's material. Needs the push constants of renderer/surfaces/materials.py and, unless PLAIN,
 // its sampler `base_image` and the interpolated `uv` and `vertex_color`.
 
 vec3 surface_color()

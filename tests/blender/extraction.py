@@ -110,7 +110,7 @@ def new_material(obj: bpy.types.Object, *node_types: str) -> tuple[bpy.types.Nod
 
 
 def look_down(width: float) -> bpy.types.Object:
-    """An orthographic camera above the origin that sees `width` metres."""
+    """An orthographic camera above the origin that sees `width` meters."""
     camera = bpy.data.cameras.new("camera")
     camera.type = "ORTHO"
     camera.ortho_scale = width

@@ -196,7 +196,7 @@ def add_surroundings(radius: RadiusFunction) -> None:
 
 
 def build_case(case: Case) -> bpy.types.Object:
-    """One of `hidden_surfaces.CASES` in Blender: raw view transform, SIZE x SIZE, 16 samples of the pixel's centre."""
+    """One of `hidden_surfaces.CASES` in Blender: raw view transform, SIZE x SIZE, 16 samples of the pixel's center."""
     scene = start_empty_scene(SIZE, SIZE)
     scene.view_settings.view_transform = "Raw"
     scene.cycles.samples = 16

@@ -140,7 +140,7 @@ def with_normals(mesh: MeshArrays, angle: float | None) -> MeshArrays:
             for around in np.split(order, starts[1:]):
                 near = normals[face[around]] @ normals[face[around]].T >= np.cos(angle) - 1e-9
                 mine[around] = near @ crossed[face[around]]
-    # Cancelled out: any direction is as good.
+    # Canceled out: any direction is as good.
     mine[np.linalg.norm(mine, axis=1) < 1e-12] = (0.0, 0.0, 1.0)
     return mesh_of(corners.reshape(-1, 3), mine, np.arange(3 * len(corners)).reshape(-1, 3))
 

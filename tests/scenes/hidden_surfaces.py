@@ -3,7 +3,7 @@
 
 """Tiny scenes in which what hides what is known by construction. No bpy: `builders.build_case` makes them in Blender.
 
-Sheets are put where a chosen pixel's reflected ray goes, so the pixel's colour follows. `sheet_rays.trace` is the
+Sheets are put where a chosen pixel's reflected ray goes, so the pixel's color follows. `sheet_rays.trace` is the
 second witness; the tests hold both to Cycles.
 """
 
@@ -156,7 +156,7 @@ def ray_visibility() -> Case:
 
 
 def sun_and_shadow() -> Case:
-    """A grey floor, partly in the shadows of a small sheet and of the mirror, under a sun straight above."""
+    """A gray floor, partly in the shadows of a small sheet and of the mirror, under a sun straight above."""
     floor = Sheet("Floor", level((-8.0, 8.0), (-14.0, 8.0), -1.2), (0.8, 0.8, 0.8), diffuse=True)
     shade = Sheet("Shade", level((1.2, 3.2), (-5.0, 1.0), 3.0), BLACK)
     lit = 0.8 * 2.0 / np.pi

@@ -98,7 +98,7 @@ def hall(mirror: str, seed: int = 0, clutter: int = 24, scale: float = 1.0, mirr
         matrix = instance.matrix.copy()
         matrix[:3] *= scale
         instances[number] = replace(instance, matrix=matrix)
-    materials = (MaterialArrays("grey"), MaterialArrays("chrome", base_color=(1, 1, 1), metallic=1.0, roughness=0.0))
+    materials = (MaterialArrays("gray"), MaterialArrays("chrome", base_color=(1, 1, 1), metallic=1.0, roughness=0.0))
     return SceneArrays(
         (*shapes, *turned), tuple(instances), materials, (), (), WorldArrays((0.5, 0.5, 0.5)),
         tuple(range(1, mirrors + 1)),

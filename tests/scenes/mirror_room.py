@@ -93,7 +93,7 @@ class Room:
 
     def arrays(self) -> SceneArrays:
         """The scene, with the first thing as the only reflector."""
-        materials = (MaterialArrays("grey"), MaterialArrays("chrome", base_color=(1, 1, 1), metallic=1, roughness=0))
+        materials = (MaterialArrays("gray"), MaterialArrays("chrome", base_color=(1, 1, 1), metallic=1, roughness=0))
         return SceneArrays(
             tuple(self._meshes), tuple(self._instances), materials, (), (), WorldArrays((0.5, 0.5, 0.5)), (MIRROR,)
         )

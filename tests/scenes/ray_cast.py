@@ -61,7 +61,7 @@ def first_hits(
 ) -> FirstHits:
     """Cast rays (n, 3), directions of unit length.
 
-    Triangles of the instance `own` count farther than `own_range` metres, and with `own_sides` 1 only where their
+    Triangles of the instance `own` count farther than `own_range` meters, and with `own_sides` 1 only where their
     winding faces the ray. `edge`: share of a triangle's size that counts as its edge.
     """
     a, b, c = triangles.corners[:, 0], triangles.corners[:, 1], triangles.corners[:, 2]

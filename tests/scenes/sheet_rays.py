@@ -14,7 +14,7 @@ from .sheets import BLACK, LENS, SIZE, Case, Color, Float64Array, Sheet
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """What `trace` found at a pixel's centre."""
+    """What `trace` found at a pixel's center."""
 
     color: Color
     shows: str
@@ -22,7 +22,7 @@ class Seen:
 
 
 def pixel_ray(case: Case, column: float, row: float) -> tuple[Float64Array, Float64Array]:
-    """(origin, unit direction) of the ray through the centre of a pixel; the camera looks along +Y, Z is up."""
+    """(origin, unit direction) of the ray through the center of a pixel; the camera looks along +Y, Z is up."""
     x = (column + 0.5) / SIZE - 0.5
     z = (row + 0.5) / SIZE - 0.5
     eye = np.asarray(case.eye, float)
@@ -94,7 +94,7 @@ def mirror_ray(case: Case, column: float, row: float) -> tuple[Float64Array, Flo
 
 
 def trace(case: Case, column: float, row: float) -> Seen:
-    """What a pixel's centre shows, one reflection deep. Raises ValueError where the mirror would reflect itself."""
+    """What a pixel's center shows, one reflection deep. Raises ValueError where the mirror would reflect itself."""
     origin, direction = pixel_ray(case, column, row)
     to_mirror = hit_mirror(case, origin, direction)
     sheet, distance = _first(tuple(s for s in case.sheets if s.visible_camera), origin, direction)

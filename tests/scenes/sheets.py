@@ -4,7 +4,7 @@
 """What cases of hidden surfaces are made of, and what their pixels must show.
 
 Each has one mirror about the origin (a unit sphere, or one with a lobe), a few flat sheets that shine in one
-colour, a black world unless said otherwise, and a camera that looks along +Y.
+color, a black world unless said otherwise, and a camera that looks along +Y.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SKY: Color = (0.1, 0.2, 0.3)
 SIZE = 128
 """Pictures are SIZE x SIZE pixels"""
 LENS = 90.0
-"""Millimetres on a 36 mm picture"""
+"""Millimeters on a 36 mm picture"""
 MIRROR = "Mirror"
 
 

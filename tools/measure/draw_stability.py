@@ -24,7 +24,7 @@ import numpy as np
 
 bootstrap.load_package()
 
-from curvrefl.curvrefl_addon.optics.catalogue import label_of  # noqa: E402
+from curvrefl.curvrefl_addon.optics.catalog import label_of  # noqa: E402
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402

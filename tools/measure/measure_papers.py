@@ -79,7 +79,7 @@ class Animation:
                 placed.append(InstanceArrays(f"mirror {number}", number, 0, matrix, (1,)))
             instances = (*placed, *things)
             ids = tuple(range(1, len(placed) + 1))
-            scene = SceneArrays(meshes, instances, (MaterialArrays("grey"), material), (), (), WorldArrays(), ids)
+            scene = SceneArrays(meshes, instances, (MaterialArrays("gray"), material), (), (), WorldArrays(), ids)
             first, last = (np.array(eye) for eye in self.eyes)
             yield scene, np.append((1.0 - share) * first + share * last, 1.0)
 

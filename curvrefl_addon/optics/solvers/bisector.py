@@ -58,7 +58,7 @@ LARGEST_MISS = 0.1
 
 @dataclass(frozen=True)
 class Found:
-    """Result for n vertices, relative to the star centre."""
+    """Result for n vertices, relative to the star center."""
 
     u: Float64Array
     """(n, 3) where the search ended"""

@@ -73,7 +73,7 @@ def arc(a: Float64Array, b: Float64Array) -> tuple[Float64Array, Float64Array]:
 
 
 def guess(eye: Float64Array, vertices: Float64Array) -> Float64Array:
-    """Directions (n, 3) between an eye (4,), or eyes (n, 4), and vertices, nearer to the one that is nearer the centre.
+    """Directions (n, 3) between an eye (4,), or eyes (n, 4), and vertices, nearer to the one that is nearer the center.
 
     On the great circle from the eye's direction to the vertex's, at the share d_E / (d_E + d_V).
     """
@@ -136,7 +136,7 @@ def second_derivative(
     return xx, xy, yy
 
 
-def minimise(
+def minimize(
     surface: RadialSurface,
     screen: Screen,
     vertices: Float64Array,

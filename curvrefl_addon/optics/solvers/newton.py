@@ -18,7 +18,7 @@ from .. import status
 from ..fermat import SurfaceSample, half_vector, is_reflection_side, mirror_error, path_gradient, sample, towards_eye
 from ..screen import Screen
 from ..surfaces.radial_surfaces import Float64Array, RadialSurface, unit
-from .descent import arc, guess, minimise, on_arc
+from .descent import arc, guess, minimize, on_arc
 from .pierce import pierce
 from .secant_star import Solution
 
@@ -47,7 +47,7 @@ HIDDEN_AT_ONCE = -2
 
 
 def sphere_guess(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) -> Float64Array:
-    """Directions (n, 3) where a sphere about the star centre, as large as the mirror is there, would reflect.
+    """Directions (n, 3) where a sphere about the star center, as large as the mirror is there, would reflect.
 
     With heights h over a sphere of radius R and k = 1 + h / R, an angle x from P to an end makes the incidence
     x + atan(sin x / (k - cos x)), which grows with x. Newton balances both ends from the paraxial share, where
@@ -126,7 +126,7 @@ def solve(
     first_rung: int = 0,
     convex: bool = False,
 ) -> tuple[Solution, np.ndarray]:
-    """Reflection points of vertices (n, 3) relative to the star centre, and on which rung (n,) each was settled.
+    """Reflection points of vertices (n, 3) relative to the star center, and on which rung (n,) each was settled.
 
     `tolerance` in pixels; `previous` (n, 3) are directions where the vertices were reflected in the last frame or, on a
     convex mirror, where the way to hidden ones entered it; NaN for others. `side` is -1 for a mirror that is hollow
@@ -136,7 +136,7 @@ def solve(
     u = start_of_rung(0, surface, eye, vertices, hollow)
     if previous is not None:
         u = np.where(np.isfinite(previous), previous, u)
-    u, converged, iterations = minimise(surface, screen, vertices, u, first_steps, tolerance, hollow)
+    u, converged, iterations = minimize(surface, screen, vertices, u, first_steps, tolerance, hollow)
     code = np.full(count, status.UNSOLVED)
     rung = np.full(count, FIRST_PASS)
     at = sample(surface, u)
@@ -190,8 +190,8 @@ def _descend(
     hollow: bool,
     any_kind: bool,
 ) -> tuple[Float64Array, np.ndarray, np.ndarray]:
-    """As `minimise` with the full number of steps, and on from where the way to a point seen from behind enters."""
-    u, converged, iterations = minimise(surface, screen, vertices, start, STEPS, tolerance, any_kind)
+    """As `minimize` with the full number of steps, and on from where the way to a point seen from behind enters."""
+    u, converged, iterations = minimize(surface, screen, vertices, start, STEPS, tolerance, any_kind)
     for _ in range(0 if hollow else ENTRIES):
         at = sample(surface, u)
         behind = converged & ~is_reflection_side(screen.eye, vertices, at) & ~_is_straight(screen.eye, vertices, at)
@@ -200,7 +200,7 @@ def _descend(
         rows = rows[enters]
         if len(rows) == 0:
             break
-        u[rows], converged[rows], taken = minimise(
+        u[rows], converged[rows], taken = minimize(
             surface, screen, vertices[rows], unit(point[enters]), STEPS, tolerance, any_kind
         )
         iterations[rows] += taken

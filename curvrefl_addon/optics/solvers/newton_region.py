@@ -14,7 +14,7 @@ from ..fermat import is_reflection_side, mirror_error, sample
 from ..screen import Screen
 from ..surfaces.curvature_regions import Regions
 from ..surfaces.radial_surfaces import Float64Array, RadialSurface, unit
-from .descent import minimise
+from .descent import minimize
 from .secant_star import Solution
 
 STARTS = 2
@@ -49,7 +49,7 @@ def solve_region(
     iterations = np.zeros(count, int)
     for number in range(STARTS):
         left = np.flatnonzero(code == status.UNSOLVED)
-        end, found, taken = minimise(
+        end, found, taken = minimize(
             surface, screen, vertices[left], seeds[order[left, number]], STEPS, tolerance, True
         )
         iterations[left] += taken

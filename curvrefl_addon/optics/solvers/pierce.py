@@ -21,7 +21,7 @@ BISECTIONS = 14
 def pierce(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) -> tuple[np.ndarray, Float64Array]:
     """Whether the segment enters the reflector (n,), and the first point where it does (n, 3).
 
-    eye (4,) homogeneous, vertices (n, 3), relative to the star centre. The part of the segment inside the bounding
+    eye (4,) homogeneous, vertices (n, 3), relative to the star center. The part of the segment inside the bounding
     sphere is marched in MARCH_STEPS equal steps: a fold thinner than a step is not found. Points (n, 3) mean
     nothing where nothing is pierced.
     """
@@ -39,7 +39,7 @@ def pierce(surface: RadialSurface, eye: Float64Array, vertices: Float64Array) ->
     def height(back: Float64Array) -> Float64Array:
         points = vertices - back[:, None] * direction
         length = np.linalg.norm(points, axis=1)
-        # The star centre itself has no direction; any will do, it is inside.
+        # The star center itself has no direction; any will do, it is inside.
         points[length == 0.0] = (0.0, 0.0, 1.0)
         return length - surface.radius(unit(points))[0]
 

@@ -13,7 +13,7 @@ Two things go beyond the paper, because the search alone leaves 4 to 48 percent 
 when contact and grazing are included (`tools/measure/measure_solver.py`):
 
 * a step longer than `LONGEST_STEP` radians is shortened, so that an extrapolation cannot leave for the far side;
-* the end of the search is checked and polished by `descent.minimise`: Newton steps on the path length with second
+* the end of the search is checked and polished by `descent.minimize`: Newton steps on the path length with second
   derivatives by differences of the same gradient. It takes one step where the secant search was right, and finds the
   point where it was not. Where it fails it begins once more between eye and vertex (`descent.guess`); what that cannot
   solve stays unsolved.
@@ -32,7 +32,7 @@ from .. import status
 from ..fermat import SurfaceSample, is_reflection_side, mirror_error, path_gradient, sample
 from ..screen import Screen
 from ..surfaces.radial_surfaces import Float64Array, RadialSurface, unit
-from .descent import guess, minimise, tangent_frame
+from .descent import guess, minimize, tangent_frame
 from .pierce import pierce
 
 SMALL_DETERMINANT = 1e-5
@@ -50,7 +50,7 @@ SMALLEST_START = 0.01
 
 @dataclass(frozen=True)
 class Solution:
-    """Result of a solve for n vertices, relative to the star centre."""
+    """Result of a solve for n vertices, relative to the star center."""
 
     u: Float64Array
     """(n, 3) direction of the reflection point"""
@@ -155,14 +155,14 @@ def solve(
     tolerance: float = 0.05,
     side: float = 1.0,
 ) -> Solution:
-    """Reflection points of vertices (n, 3) relative to the star centre; `tolerance` in pixels.
+    """Reflection points of vertices (n, 3) relative to the star center; `tolerance` in pixels.
 
     `side` is -1 for a mirror that is hollow towards the eye. Such a one is open, so that nothing is said of what the
     way from the eye pierces.
     """
     hollow = side < 0.0
     u, iterations = secant_search(surface, screen, vertices, steps, SEARCH_TOLERANCE, side)
-    u, converged, polished = minimise(surface, screen, vertices, u, newton_steps, tolerance, hollow)
+    u, converged, polished = minimize(surface, screen, vertices, u, newton_steps, tolerance, hollow)
     iterations += polished
     reflected = converged & is_reflection_side(screen.eye, vertices, sample(surface, u), side)
 
@@ -178,7 +178,7 @@ def solve(
         start = guess(screen.eye, vertices[left])
         if hollow:
             start = _on_hollow_side(surface, screen.eye, vertices[left], start[:, None])[:, 0]
-        u[left], converged[left], polished = minimise(
+        u[left], converged[left], polished = minimize(
             surface, screen, vertices[left], start, newton_steps, tolerance, hollow
         )
         iterations[left] += polished
@@ -198,7 +198,7 @@ def _on_hollow_side(surface: RadialSurface, eye: Float64Array, vertices: Float64
 
 
 def _least_squares(g: Float64Array) -> tuple[Float64Array, Float64Array, np.ndarray]:
-    """Weights (alpha, beta) of A and B that minimise the interpolated gradient of g (n, 3, 3), and where that is
+    """Weights (alpha, beta) of A and B that minimize the interpolated gradient of g (n, 3, 3), and where that is
     ill-conditioned."""
     a, b, c = g[:, 0] - g[:, 2], g[:, 1] - g[:, 2], g[:, 2]
     aa, bb, ab = (np.einsum("ij,ij->i", p, q) for p, q in ((a, a), (b, b), (a, b)))

@@ -51,7 +51,7 @@ LARGEST_MISS = 0.1
 
 @dataclass(frozen=True)
 class Solution:
-    """Result of a solve for n vertices, relative to the centre."""
+    """Result of a solve for n vertices, relative to the center."""
 
     uv: Float64Array
     """(n, 2) where the search ended"""
@@ -155,7 +155,7 @@ def solve(
     steps: int = STEPS,
     tolerance: float = SMALL_TRIANGLE,
 ) -> Solution:
-    """Reflection points of vertices (n, 3) relative to the centre; `tolerance` in pixels."""
+    """Reflection points of vertices (n, 3) relative to the center; `tolerance` in pixels."""
     eye = screen.eye
     uv, iterations = secant_search(surface, screen, vertices, steps, tolerance)
     at = surface.sample(uv)

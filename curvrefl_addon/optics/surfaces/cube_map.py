@@ -27,7 +27,7 @@ FACE_AXES = np.array(
     ],
     np.float64,
 )
-"""(6, 3, 3): per face the axes along s, along t, and through the face's centre. Each triple is left-handed, as the
+"""(6, 3, 3): per face the axes along s, along t, and through the face's center. Each triple is left-handed, as the
 axes right, up, forward of a camera are."""
 
 
@@ -39,7 +39,7 @@ def directions_at(face: NDArray[np.integer], s: Float64Array, t: Float64Array) -
 
 
 def texel_directions(resolution: int) -> Float64Array:
-    """Unit directions (6, n, n, 3) of the texel centres of a cube map with n = `resolution`."""
+    """Unit directions (6, n, n, 3) of the texel centers of a cube map with n = `resolution`."""
     centers = (2.0 * np.arange(resolution) + 1.0) / resolution - 1.0
     face, t, s = np.meshgrid(np.arange(6), centers, centers, indexing="ij")
     return directions_at(face, s, t)
@@ -66,7 +66,7 @@ def nearest_texel(
 
 
 def padded(faces: NDArray[np.floating]) -> Float64Array:
-    """Faces with a border of one texel from the neighbouring faces: (6, n + 2, n + 2, channels).
+    """Faces with a border of one texel from the neighboring faces: (6, n + 2, n + 2, channels).
 
     The border's corners, where three faces meet and there is no fourth texel, hold the mean of the three.
     """
@@ -75,16 +75,16 @@ def padded(faces: NDArray[np.floating]) -> Float64Array:
     result[:, 1:-1, 1:-1] = faces
     centers = (2.0 * np.arange(resolution) + 1.0) / resolution - 1.0
     face, along = np.meshgrid(np.arange(6), centers, indexing="ij")
-    # Just over the edge: the direction then meets the outermost texels of the neighbour, whatever its orientation.
+    # Just over the edge: the direction then meets the outermost texels of the neighbor, whatever its orientation.
     beyond = np.full_like(along, 1.0 + 1e-6)
 
-    def neighbours(s: Float64Array, t: Float64Array) -> NDArray[np.floating]:
+    def neighbors(s: Float64Array, t: Float64Array) -> NDArray[np.floating]:
         return faces[nearest_texel(resolution, directions_at(face, s, t).reshape(-1, 3))].reshape(6, -1, channels)
 
-    result[:, 1:-1, 0] = neighbours(-beyond, along)
-    result[:, 1:-1, -1] = neighbours(beyond, along)
-    result[:, 0, 1:-1] = neighbours(along, -beyond)
-    result[:, -1, 1:-1] = neighbours(along, beyond)
+    result[:, 1:-1, 0] = neighbors(-beyond, along)
+    result[:, 1:-1, -1] = neighbors(beyond, along)
+    result[:, 0, 1:-1] = neighbors(along, -beyond)
+    result[:, -1, 1:-1] = neighbors(along, beyond)
     for row, next_row in ((0, 1), (-1, -2)):
         for column, next_column in ((0, 1), (-1, -2)):
             meeting = result[:, next_row, next_column] + result[:, row, next_column] + result[:, next_row, column]
@@ -96,7 +96,7 @@ def sample_padded(bordered: Float64Array, directions: Float64Array) -> Float64Ar
     """As `sample_cube`, of faces that `padded` has prepared."""
     resolution = bordered.shape[1] - 2
     face, s, t = face_coordinates(directions)
-    # In texels of the bordered face, whose texel 0 is centred half a texel outside the face.
+    # In texels of the bordered face, whose texel 0 is centered half a texel outside the face.
     x = np.clip((s + 1.0) * 0.5 * resolution + 0.5, 0.0, resolution + 1.0)
     y = np.clip((t + 1.0) * 0.5 * resolution + 0.5, 0.0, resolution + 1.0)
     column = np.minimum(x.astype(np.int64), resolution)

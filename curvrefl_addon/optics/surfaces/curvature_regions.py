@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where a star-shaped mirror bends outwards, inwards or both ways: each such region may show a vertex once more.
 
-A grid of directions is labelled by the signs of the principal curvatures, and its connected parts are the regions. A
+A grid of directions is labeled by the signs of the principal curvatures, and its connected parts are the regions. A
 mirror that is convex all over has one.
 """
 
@@ -31,7 +31,7 @@ MOST = 8
 SEEDS = 24
 """Directions of a region, spread over it, that a search picks its starts from"""
 OVERLAP = 2
-"""Nodes by which a region reaches into its neighbours: an image may cross from one into the other"""
+"""Nodes by which a region reaches into its neighbors: an image may cross from one into the other"""
 
 
 @dataclass(frozen=True)
@@ -81,8 +81,8 @@ def curvature_regions(surface: RadialSurface) -> Regions:
     shape = (6, RESOLUTION, RESOLUTION)
     u = texel_directions(RESOLUTION).reshape(-1, 3)
     kinds = curvature_kinds(surface, u)
-    neighbours = _neighbours(u)
-    labels = _connected(kinds, neighbours)
+    neighbors = _neighbors(u)
+    labels = _connected(kinds, neighbors)
     numbers, counts = np.unique(labels, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     chosen = [int(numbers[k]) for k in order if counts[k] >= SMALLEST * len(u)][:MOST]
@@ -92,12 +92,12 @@ def curvature_regions(surface: RadialSurface) -> Regions:
         inside = labels == number
         seeds.append(_spread(u[inside]))
         for _ in range(OVERLAP):
-            inside = inside | inside[neighbours].any(axis=1)
+            inside = inside | inside[neighbors].any(axis=1)
         masks |= inside.astype(np.int64) << bit
     return Regions(tuple(int(kinds[number]) for number in chosen), masks.reshape(shape), np.array(seeds))
 
 
-def _neighbours(u: Float64Array) -> NDArray[np.int64]:
+def _neighbors(u: Float64Array) -> NDArray[np.int64]:
     """(n, 4) nodes beside each: where one would be on an endless face."""
     scale = (2.0 / RESOLUTION) * np.abs(u).max(axis=1, keepdims=True)
     found = []
@@ -108,11 +108,11 @@ def _neighbours(u: Float64Array) -> NDArray[np.int64]:
     return np.stack(found, axis=1)
 
 
-def _connected(kinds: NDArray[np.int64], neighbours: NDArray[np.int64]) -> NDArray[np.int64]:
+def _connected(kinds: NDArray[np.int64], neighbors: NDArray[np.int64]) -> NDArray[np.int64]:
     """(n,) per node the smallest number of a node that it is connected to through nodes of its own kind."""
     labels = np.arange(len(kinds))
-    rows = np.repeat(np.arange(len(kinds)), neighbours.shape[1])
-    others = neighbours.ravel()
+    rows = np.repeat(np.arange(len(kinds)), neighbors.shape[1])
+    others = neighbors.ravel()
     same = kinds[rows] == kinds[others]
     rows, others = rows[same], others[same]
     while True:

@@ -18,7 +18,7 @@ from .radial_surfaces import Float64Array, RadialSurface, unit
 
 @dataclass(frozen=True)
 class ParametricSample:
-    """The reflector at n pairs of parameters, relative to the centre."""
+    """The reflector at n pairs of parameters, relative to the center."""
 
     position: Float64Array
     """(n, 3)"""
@@ -45,7 +45,7 @@ class ParametricSurface(Protocol):
 
     @property
     def solid(self) -> RadialSurface | None:
-        """The same surface as a radius, where it is closed and star-shaped about the centre."""
+        """The same surface as a radius, where it is closed and star-shaped about the center."""
         ...
 
     def sample(self, uv: Float64Array) -> ParametricSample:
@@ -53,7 +53,7 @@ class ParametricSurface(Protocol):
         ...
 
     def uv_of_direction(self, directions: Float64Array) -> Float64Array:
-        """Parameters (n, 2) of the points where rays from the centre along directions (n, 3) leave, or near there."""
+        """Parameters (n, 2) of the points where rays from the center along directions (n, 3) leave, or near there."""
         ...
 
 
@@ -95,7 +95,7 @@ class EllipsoidMap:
 
 @dataclass(frozen=True)
 class TorusSection:
-    """Part of a ring about z, cut at both ends; the centre is on the middle of its tube, on the x axis.
+    """Part of a ring about z, cut at both ends; the center is on the middle of its tube, on the x axis.
 
     u runs along the ring, v around the tube.
     """
@@ -172,7 +172,7 @@ class SampledMap:
         return ParametricSample(point[:, :3], _across(du[:, :3], normal), _across(dv[:, :3], normal), normal)
 
     def uv_of_direction(self, directions: Float64Array) -> Float64Array:
-        # The centre itself has no direction; any will do.
+        # The center itself has no direction; any will do.
         asked = np.where(directions.any(axis=1, keepdims=True), directions, [1.0, 0.0, 0.0])
         return self.directions[nearest_texel(self.directions.shape[1], asked)][:, 1:3].astype(np.float64)
 

@@ -12,7 +12,7 @@ from .radial_surfaces import Float64Array, unit
 def reflection_points(eye: Float64Array, vertices: Float64Array, radius: float) -> Float64Array:
     """Outer reflection points (n, 3) on the sphere about the origin; NaN where the sphere hides the vertex.
 
-    eye (3,) and vertices (n, 3) outside the sphere. In the plane of E, V and the centre let z = exp(i t) be the
+    eye (3,) and vertices (n, 3) outside the sphere. In the plane of E, V and the center let z = exp(i t) be the
     direction of P, e and v the complex eye and vertex in units of the radius. The angles of incidence and reflection
     agree where (e - z)(v - z) / z^2 is real, which is the quartic
     conj(e v) z^4 - conj(e + v) z^3 + (e + v) z - e v = 0; its roots on the unit circle that see both E and V on the
@@ -22,7 +22,7 @@ def reflection_points(eye: Float64Array, vertices: Float64Array, radius: float) 
     to_vertex = vertices / radius
     x_axis = unit(to_eye)
     side = to_vertex - np.einsum("ij,ij->i", to_vertex, x_axis)[:, None] * x_axis
-    # A vertex in line with eye and centre has no plane of its own: any plane through the line serves.
+    # A vertex in line with eye and center has no plane of its own: any plane through the line serves.
     in_line = np.linalg.norm(side, axis=1) < 1e-14 * np.linalg.norm(to_vertex, axis=1)
     helper = np.where(np.abs(x_axis[:, :1]) < 0.9, np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]]))
     y_axis = unit(np.where(in_line[:, None], np.cross(x_axis, helper), side))

@@ -15,7 +15,7 @@ import numpy as np
 from .radial_surfaces import Float64Array
 
 MAX_TRIANGLES = 20_000
-"""Of larger meshes an evenly spread subset of about so many triangles is looked at to choose the centre."""
+"""Of larger meshes an evenly spread subset of about so many triangles is looked at to choose the center."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,14 +27,14 @@ class StarCenter:
     position: Float64Array
     """(3,)"""
     misfit: float
-    """|solid angle of the triangles that face away from the centre / 4 pi - 1|: what directions leave the mesh more
+    """|solid angle of the triangles that face away from the center / 4 pi - 1|: what directions leave the mesh more
     than once, or never, add up to; 0 for a closed star-shaped mesh"""
     worst_cosine: float
     """Least cosine between a triangle's normal and the direction to it; at most 0 when the mesh is not star-shaped"""
 
 
 def find_star_center(corners: Float64Array, origin: Float64Array) -> StarCenter:
-    """Best centre for triangles (n, 3, 3) that are wound alike; `origin` (3,) is the first candidate.
+    """Best center for triangles (n, 3, 3) that are wound alike; `origin` (3,) is the first candidate.
 
     Triangles without area do not matter. Everything is relative to the mesh's size.
     """

@@ -47,7 +47,7 @@ def cube_texture(faces: np.ndarray, fmt: str = "RGBA32F", linear: bool = True) -
 
 
 def read_cube(cube: Any) -> Float32Array:
-    """(6, n, n, 4) faces of a colour cube map; waits for the GPU."""
+    """(6, n, n, 4) faces of a color cube map; waits for the GPU."""
     size = cube.width
     faces = np.empty((6, size, size, 4), np.float32)
     for face in range(6):

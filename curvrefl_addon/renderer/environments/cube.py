@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The classic baseline: six pictures of the scene from the reflector's centre, looked up by direction.
+"""The classic baseline: six pictures of the scene from the reflector's center, looked up by direction.
 
 Blinn & Newell's environment map as a cube. It takes everything as infinitely far away, so it is right for the
 background and wrong for what is near. The other environment methods look up the same pictures in other ways.
@@ -73,7 +73,7 @@ class EnvironmentCube:
                 shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
 
     def environment(self, method: str, view: View) -> Environment:
-        """What a method of the catalogue looks up in a view; for `environment_cube_vertex` the cube itself, out of
+        """What a method of the catalog looks up in a view; for `environment_cube_vertex` the cube itself, out of
         which `VertexLookups` draws what it looks up."""
         if method == "environment_sphere":
             sphere = self._sphere_map(view)
@@ -94,11 +94,11 @@ class EnvironmentCube:
 
     @cached_property
     def radius(self) -> float:
-        """Metres, of the ball that stands for the surroundings where their distance counts; 0 where there are none."""
+        """Meters, of the ball that stands for the surroundings where their distance counts; 0 where there are none."""
         return environment_radius(self._geometry(RADIUS_RESOLUTION), self._center, self._bound)
 
     def geometry(self) -> Float32Array:
-        """(6, n, n, 4): world position and object_id (0: background) at each texel's centre."""
+        """(6, n, n, 4): world position and object_id (0: background) at each texel's center."""
         return self._geometry(self._views[0].width)
 
     def _geometry(self, resolution: int) -> Float32Array:

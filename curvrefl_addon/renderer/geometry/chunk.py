@@ -98,7 +98,7 @@ class Chunk:
         self.positions = empty_record_texture(self.position_count)
         """Records (world xyz, object_id)"""
         self.corners = empty_record_texture(2 * corner_count)
-        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed colour, mirror)"""
+        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed color, mirror)"""
         self._table = np.zeros((len(meshes), INSTANCE_RECORDS, 4), np.float32)
         self._fill_table(range(len(meshes)))
         self._place(((0, self.position_count, 0, corner_count),))
@@ -227,14 +227,14 @@ def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
 
 
 def unpack_color(packed: Float32Array) -> Float32Array:
-    """(n, 3) scene-linear colours of what `pack_color` has packed (n,)."""
+    """(n, 3) scene-linear colors of what `pack_color` has packed (n,)."""
     levels = np.rint(packed).astype(np.int32)
     root = np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]).astype(np.float32) / np.float32(255.0)
     return root * root
 
 
 def pack_color(color: Float32Array) -> Float32Array:
-    """24-bit colour in a float (exact up to 2^24): vertex colours are smooth, 8 bits of their square root suffice."""
+    """24-bit color in a float (exact up to 2^24): vertex colors are smooth, 8 bits of their square root suffice."""
     levels = np.rint(np.sqrt(np.clip(color[:, :3], 0.0, 1.0)) * 255.0).astype(np.int32)
     return (levels[:, 0] + 256 * levels[:, 1] + 65536 * levels[:, 2]).astype(np.float32)
 

@@ -104,11 +104,11 @@ def outline(points: NDArray[np.floating]) -> Float64Array:
 
 
 def _outer_rows(points: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int64]:
-    """Rows among which the farthest in every direction are. Neighbours in the array mostly are so in space, so
+    """Rows among which the farthest in every direction are. Neighbors in the array mostly are so in space, so
     groups of them whose box ends nearer than a point of some other group can be left out."""
     whole = len(points) // _GROUP * _GROUP
     groups = points[:whole].reshape(-1, _GROUP, 3)
-    # Neighbours pairwise: numpy is slow where it reduces the middle axis.
+    # Neighbors pairwise: numpy is slow where it reduces the middle axis.
     least, most = groups, groups
     while least.shape[1] > 1:
         half = least.shape[1] // 2

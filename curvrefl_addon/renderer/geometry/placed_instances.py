@@ -21,7 +21,7 @@ class Sight:
     """How finely a mirror needs its scenery split (see `split`)."""
 
     center: tuple[float, float, float]
-    """Star centre, world space"""
+    """Star center, world space"""
     angle: float
     own: int
     """Index of the mirror's instance"""
@@ -49,7 +49,7 @@ def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
 
 
 def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
-    """(vertices, 3) in world axes about the star centre."""
+    """(vertices, 3) in world axes about the star center."""
     shift = instance.matrix[:3, 3] - np.array(sight.center)
     return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
 

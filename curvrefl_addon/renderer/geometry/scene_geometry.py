@@ -183,7 +183,7 @@ class SceneGeometry:
         return box
 
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
-        """Centres (n, 3) and radii (n,) of balls around chunks, world space."""
+        """Centers (n, 3) and radii (n,) of balls around chunks, world space."""
         boxes = np.array([self._box(chunk)[:, :3] for chunk in chunks]).reshape(-1, 8, 3)
         low, high = boxes.min(axis=1), boxes.max(axis=1)
         return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
@@ -211,7 +211,7 @@ class SceneGeometry:
         return found
 
     def balls(self, indices: NDArray[np.int64] | None = None) -> tuple[Float64Array, Float64Array]:
-        """Centres (n, 3) and radii (n,) of balls around instances, world space."""
+        """Centers (n, 3) and radii (n,) of balls around instances, world space."""
         chosen = range(len(self.placed)) if indices is None else indices
         if len(chosen) == 0:
             return np.zeros((0, 3)), np.zeros(0)
@@ -222,7 +222,7 @@ class SceneGeometry:
         return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * stretches_of(matrices)
 
     def longest_edge(self, chunk: Chunk) -> float:
-        """Of the triangles drawn for a chunk, world space, or a little more; metres."""
+        """Of the triangles drawn for a chunk, world space, or a little more; meters."""
         matrices = np.array([item.instance.matrix for item in chunk.placed])
         lengths = np.array([self.facts.of(item.drawn).longest_edge for item in chunk.placed])
         return float((lengths * stretches_of(matrices)).max())

@@ -42,7 +42,7 @@ def has_no_boundary(triangles: NDArray[np.int32]) -> bool:
 
 
 def _hashes(keys: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """The finaliser of splitmix64 (Steele, Lea and Flood 2014)."""
+    """The finalizer of splitmix64 (Steele, Lea and Flood 2014)."""
     keys = (keys ^ (keys >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     keys = (keys ^ (keys >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return keys ^ (keys >> np.uint64(31))

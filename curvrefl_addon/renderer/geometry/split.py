@@ -3,7 +3,7 @@
 """Splits triangles that are large as seen from a reflector, so that their curved reflections may be drawn straight.
 
 The papers tessellate their models when loading them. Here an edge is halved while it is longer than `angle` times
-its smallest distance to the star centre. That depends on the edge alone, so both its triangles agree and no crack
+its smallest distance to the star center. That depends on the edge alone, so both its triangles agree and no crack
 opens, and not on the eye, so that an orbit splits nothing anew.
 """
 
@@ -17,20 +17,20 @@ import numpy as np
 from ...scene.arrays import Float32Array, Int32Array, MeshArrays
 
 MOST_ROUNDS = 14
-"""Halvings of one edge: a floor 16,000 times wider than the distance to the mirror's centre."""
+"""Halvings of one edge: a floor 16,000 times wider than the distance to the mirror's center."""
 _ROTATIONS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 
 
 def split_angle(radius_pixels: float, tolerance_pixels: float) -> float:
     """Edge length over distance that keeps the reflected chord within the tolerance.
 
-    An edge that spans the angle a at the centre of a mirror of radius R pixels is reflected as an arc of about a/2,
+    An edge that spans the angle a at the center of a mirror of radius R pixels is reflected as an arc of about a/2,
     whose chord is off by R (a/2)^2 / 8 and, as the reflected ray turns twice as fast as the normal, up to four times
     that towards the silhouette: a = sqrt(8 tolerance / R). R is rounded up to a power of two, so that a slow zoom
     rarely splits anew.
     """
-    quantised = 2.0 ** np.ceil(np.log2(max(radius_pixels, 8.0)))
-    return float(np.clip(np.sqrt(8.0 * tolerance_pixels / quantised), 0.02, 0.5))
+    quantized = 2.0 ** np.ceil(np.log2(max(radius_pixels, 8.0)))
+    return float(np.clip(np.sqrt(8.0 * tolerance_pixels / quantized), 0.02, 0.5))
 
 
 def longest_edge(mesh: MeshArrays) -> float:
@@ -68,7 +68,7 @@ def split_mesh(
 ) -> tuple[MeshArrays, Int32Array]:
     """The mesh with long edges halved, and (triangles,) for each of its triangles the mesh's that it is a part of.
 
-    `relative` (vertices, 3): the mesh's vertices in world axes about the star centre. Stops early before it would
+    `relative` (vertices, 3): the mesh's vertices in world axes about the star center. Stops early before it would
     pass `most_triangles`.
     """
     corners, corner_vertex = mesh.triangles, mesh.corner_vertex
@@ -93,7 +93,7 @@ def split_mesh(
         first, second = corner_vertex[pairs[:, 0]], corner_vertex[pairs[:, 1]]
         vertex_middle, vertex_pairs = number_pairs(first, second, len(vertex_layers[0]))
         vertex_layers = [_with_middles(layer, vertex_pairs) for layer in vertex_layers]
-        # Halves of interpolated attributes are kept as they are: normals not renormalised, so that the fragment's
+        # Halves of interpolated attributes are kept as they are: normals not renormalized, so that the fragment's
         # interpolation is the unsplit triangle's.
         corner_layers = [_with_middles(layer, pairs) for layer in corner_layers]
         corner_vertex = np.concatenate([corner_vertex, vertex_middle])

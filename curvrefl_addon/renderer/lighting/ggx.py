@@ -68,7 +68,7 @@ def integrate_ggx(strata: int = 96) -> Float32Array:
 
 
 def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
-    """Unpolarised reflectance of a smooth dielectric, `ior` >= 1."""
+    """Unpolarized reflectance of a smooth dielectric, `ior` >= 1."""
     g = np.sqrt(np.maximum(ior * ior - 1.0 + cosine * cosine, 1e-12))
     a = (g - cosine) / (g + cosine)
     b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0)

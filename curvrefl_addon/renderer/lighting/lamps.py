@@ -46,10 +46,10 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
     Balls are sampled so that they look like an even disk from every side, as Cycles' soft-falloff lamps.
     """
     matrix = light.matrix
-    x, y, back, centre = (matrix[:3, k] for k in range(4))
+    x, y, back, center = (matrix[:3, k] for k in range(4))
     weight = 0.0 if light.kind == "SUN" else 1.0
     if count == 1 or not is_soft(light):
-        middle = back if light.kind == "SUN" else centre
+        middle = back if light.kind == "SUN" else center
         return np.tile(np.append(middle, weight), (1, 1))
     # half of the points; the rest lie opposite
     half = (count + 1) // 2
@@ -60,11 +60,11 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
         offsets = 0.5 * _half_disk(u, v) * light.size @ np.stack([x, y])
     elif light.kind == "SUN":
         offsets = np.tan(0.5 * min(light.angle, 3.1)) * _half_disk(u, v) @ np.stack([x, y])
-        centre = back
+        center = back
     else:
         offsets = light.radius * _half_ball(u, v)
     offsets = np.stack([offsets, -offsets], axis=1).reshape(-1, 3)[:count]
-    places = centre + offsets
+    places = center + offsets
     if light.kind == "SUN":
         places /= np.linalg.norm(places, axis=1, keepdims=True)
     return np.column_stack([places, np.full(count, weight)])
@@ -77,12 +77,12 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     """
     records = np.zeros((LAMP_RECORDS, 4))
     matrix = light.matrix
-    x, y, back, centre = (matrix[:3, k] for k in range(4))
+    x, y, back, center = (matrix[:3, k] for k in range(4))
     color = np.asarray(light.color, np.float64)
     kind = KINDS[light.kind]
     extent = light.radius
     records[0] = [*place[:3], kind]
-    records[2] = [*(back if kind == SUN else centre), light.radius]
+    records[2] = [*(back if kind == SUN else center), light.radius]
     records[3, :3] = -back
     records[4, :3], records[5, :3] = x, y
     records[5, 3] = float(light.visible_glossy)

@@ -234,7 +234,7 @@ def meets_faces(place: Float64Array, centers: Float64Array, radii: Float64Array)
 
 
 def _meet_pyramid(centers: Float64Array, radii: Float64Array, axes: Float64Array) -> bool:
-    """Whether any of the balls, about centres (n, 3) relative to the apex, may meet the 90 degree pyramid along
+    """Whether any of the balls, about centers (n, 3) relative to the apex, may meet the 90 degree pyramid along
     -axes[2]."""
     points = centers @ axes.T
     outside = np.zeros(len(centers), bool)
@@ -324,7 +324,7 @@ def _hull_planes(
 def _balls(
     points: Float64Array, group: NDArray[np.int64], owner: NDArray[np.int64]
 ) -> tuple[Float64Array, Float64Array, NDArray[np.int64]]:
-    """Balls (centres (n, 3), radii (n,), groups (n,)) around the points of each instance in each group."""
+    """Balls (centers (n, 3), radii (n,), groups (n,)) around the points of each instance in each group."""
     if len(points) == 0:
         return np.zeros((0, 3)), np.zeros(0), np.zeros(0, np.int64)
     order = np.lexsort((group, owner))

@@ -211,7 +211,7 @@ def _sobol(count: int) -> tuple[Float64Array, Float64Array]:
 def _median_cut(directions: Float64Array, energy: Float64Array, count: int) -> list[np.ndarray]:
     """Cut the sky into `count` groups of indices: always the one with the most energy times extent, across its length.
 
-    The groups come in the order of the tree of cuts, so neighbours in the list are neighbours on the sky.
+    The groups come in the order of the tree of cuts, so neighbors in the list are neighbors on the sky.
     """
 
     def priority(members: np.ndarray) -> float:

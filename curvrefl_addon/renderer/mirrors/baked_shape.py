@@ -47,7 +47,7 @@ class BakedShape:
         self.radial: Any = None
         """Cube texture of the map"""
         self.world_to_map, self.bound = _bounding_frame(facts, instance)
-        """(4, 4) rigid, and the largest distance of the surface from the frame's origin, metres"""
+        """(4, 4) rigid, and the largest distance of the surface from the frame's origin, meters"""
         if resolution > 0:
             try:
                 self.map = bake_placed(facts.mesh, instance, resolution)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rasterises a mesh from the origin onto the six faces of a cube: farthest and nearest hit along every direction."""
+"""Rasterizes a mesh from the origin onto the six faces of a cube: farthest and nearest hit along every direction."""
 
 from __future__ import annotations
 

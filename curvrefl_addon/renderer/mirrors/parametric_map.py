@@ -48,7 +48,7 @@ RIM = 4096
 
 
 class ParametricMap:
-    """The textures of one reflector, in the map frame (metres about its centre)."""
+    """The textures of one reflector, in the map frame (meters about its center)."""
 
     def __init__(self, surface: SampledMap, cover: float) -> None:
         self.surface = surface

@@ -17,7 +17,7 @@ from .reflector_map import ReflectorMap
 
 @dataclass(frozen=True)
 class PlacedMesh:
-    """A mesh in axes parallel to the map frame, about the object's origin, in metres; float64."""
+    """A mesh in axes parallel to the map frame, about the object's origin, in meters; float64."""
 
     name: str
     map_to_world: Float64Array
@@ -43,7 +43,7 @@ class PlacedMesh:
 
 
 def place_mesh(mesh: MeshArrays, instance: InstanceArrays) -> PlacedMesh:
-    """Check a mesh and scale it to metres, leaving out the instance's rotation and place."""
+    """Check a mesh and scale it to meters, leaving out the instance's rotation and place."""
     name = instance.object_name
     linear = np.asarray(instance.matrix[:3, :3], np.float64)
     if problem := _problem(mesh, instance.matrix):

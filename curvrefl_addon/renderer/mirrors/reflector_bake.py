@@ -105,8 +105,8 @@ def bake_placed(
 ) -> ReflectorMap:
     """Bake a placed mesh into cube maps of `resolution` x `resolution` texels a face.
 
-    The star centre is `center` (3,), in world space, or else found. Raises InputError for a resolution out of range,
-    an empty or non-finite mesh, a matrix without inverse, a centre that sees nothing of the mesh, and a mesh past
+    The star center is `center` (3,), in world space, or else found. Raises InputError for a resolution out of range,
+    an empty or non-finite mesh, a matrix without inverse, a center that sees nothing of the mesh, and a mesh past
     the `limits`; GpuUnavailableError without a GPU context.
     """
     if not MIN_RESOLUTION <= resolution <= MAX_RESOLUTION:

@@ -31,9 +31,9 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class ReflectorMap:
-    """Cube maps of one placed reflector about its star centre.
+    """Cube maps of one placed reflector about its star center.
 
-    The *map frame* has the star centre at its origin, the instance's rotation and the world's unit (metres), so the
+    The *map frame* has the star center at its origin, the instance's rotation and the world's unit (meters), so the
     map stays valid when the object moves or turns without changing its size. Faces are in OpenGL order and layout
     (see `optics.surfaces.cube_map`).
     """
@@ -44,9 +44,9 @@ class ReflectorMap:
     world_to_map: Float64Array
     """(4, 4) rigid"""
     center_name: str
-    """How the star centre was found: which candidate of `optics.surfaces.star_center`, or "given\""""
+    """How the star center was found: which candidate of `optics.surfaces.star_center`, or "given\""""
     radial: Float32Array
-    """(6, n, n, 4): radius r along the texel's direction in metres, and grad r on the unit sphere (tangential), such
+    """(6, n, n, 4): radius r along the texel's direction in meters, and grad r on the unit sphere (tangential), such
     that r u - grad r points along the interpolated shading normal; filled in over holes"""
     positions: Float32Array
     """(6, n, n, 4): point of the surface in the map frame; w is 1 where the mesh was hit, 0 in a hole"""
@@ -71,7 +71,7 @@ class ReflectorMap:
 
     @property
     def center(self) -> Float64Array:
-        """(3,) star centre in world space."""
+        """(3,) star center in world space."""
         return -self.world_to_map[:3, :3].T @ self.world_to_map[:3, 3]
 
     def describe(self) -> list[str]:

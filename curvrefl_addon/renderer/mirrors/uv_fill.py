@@ -13,7 +13,7 @@ from ...scene.arrays import Float64Array
 
 
 def joins_around(values: Float64Array, hit: NDArray[np.bool_], axis: int) -> bool:
-    """Whether the map's first and last texels along u (0) or v (1) are neighbours on the surface."""
+    """Whether the map's first and last texels along u (0) or v (1) are neighbors on the surface."""
     first, last = ((slice(None), 0), (slice(None), -1)) if axis == 0 else ((0,), (-1,))
     both = hit[first] & hit[last]
     if both.mean() < 0.5:

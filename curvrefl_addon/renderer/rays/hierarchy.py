@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bounding-volume hierarchies over boxes, built level by level. Pure numpy.
 
-All nodes of a level are split at once: the items of a node are neighbours in one array, and what is asked of nodes is a
+All nodes of a level are split at once: the items of a node are neighbors in one array, and what is asked of nodes is a
 reduction over segments of it. Trees over many meshes grow side by side, as numpy asks as much for a short array as for
 a thousand numbers. Splits follow the surface-area heuristic over a few bins an axis (Wald 2007, "On fast
 construction of SAH-based bounding volume hierarchies"). The quick build sorts items along Morton's curve (Lauterbach
-et al. 2009, "Fast BVH construction on GPUs") and asks the heuristic only about clusters of neighbours.
+et al. 2009, "Fast BVH construction on GPUs") and asks the heuristic only about clusters of neighbors.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ type Boxes = tuple[Float32Array, Float32Array]
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """A binary tree of boxes. Node 0 is the root; the two children of a node are neighbours, and come after it."""
+    """A binary tree of boxes. Node 0 is the root; the two children of a node are neighbors, and come after it."""
 
     order: IntArray
     """(items,) the items, leaf by leaf"""

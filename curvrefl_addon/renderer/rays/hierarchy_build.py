@@ -16,9 +16,9 @@ BINS = 8
 LEAF = 4
 """Most items of a leaf"""
 CLUSTER = 16
-"""Neighbours on Morton's curve that the quick build does not take apart by the heuristic"""
+"""Neighbors on Morton's curve that the quick build does not take apart by the heuristic"""
 LARGE = 1 / 512
-"""An item with this share of the whole's area is a cluster of its own: it would blow up its neighbours' box"""
+"""An item with this share of the whole's area is a cluster of its own: it would blow up its neighbors' box"""
 HEURISTIC_LEVELS = 30
 """Deeper down nodes are halved by number, so that no input makes a deep tree"""
 
@@ -129,7 +129,7 @@ def _apart(forest: Hierarchy, counts: IntArray) -> list[Hierarchy]:
         child = forest.link[inner]
         root[child] = root[child + 1] = root[inner]
         in_level.append(np.bincount(root[begin:end], minlength=trees))
-    # Nodes keep their order: children stay neighbours, and come after their parent.
+    # Nodes keep their order: children stay neighbors, and come after their parent.
     nodes = np.argsort(root, kind="stable")
     sizes = np.bincount(root, minlength=trees)
     number = np.empty(len(nodes), np.int64)

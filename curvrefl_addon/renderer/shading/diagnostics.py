@@ -71,7 +71,7 @@ class DiagnosticPass:
         Writes premultiplied scene-linear color with alpha = `weight`, as the shade pass does. `reflected` is the
         reflected scene's surface buffer, or for each mirror the environment whose positions stand for it; views that
         are not in `SOLVED_MODES` do not look at it.
-        `methods` are the catalogue names by which each mirror is drawn; the status view shows the vertices of `parts`,
+        `methods` are the catalog names by which each mirror is drawn; the status view shows the vertices of `parts`,
         per mirror. `chosen`: record texture by mirrors' numbers, 1 of those that are drawn, None for all.
         """
         if mode not in MODES:

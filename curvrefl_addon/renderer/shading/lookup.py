@@ -32,7 +32,7 @@ class Environment:
     """What stands for the surroundings of one mirror, in one view."""
 
     lookup: str
-    """Name of its shader: a method of the catalogue"""
+    """Name of its shader: a method of the catalog"""
     radiance: Any
     """Texture of scene-linear radiance"""
     positions: Callable[[], Any]

@@ -88,7 +88,7 @@ class Shown(ABC):
 
     @property
     def method(self) -> str:
-        """Name in the catalogue."""
+        """Name in the catalog."""
         return self.settings.method
 
     @property

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials on the GPU: base colours per batch, the rest as a record texture that the shade pass looks up."""
+"""Materials on the GPU: base colors per batch, the rest as a record texture that the shade pass looks up."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ RECORDS = 5
 TABLE = Piece(samplers={"materials": "FLOAT_2D"}, defines={"MATERIAL_RECORDS": RECORDS})
 """What `material_records.glsl` needs: `Materials.table`"""
 PLAIN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"}, defines=flags("PLAIN"))
-"""What `surface_color.glsl` needs for materials without an image, UV and vertex colour to interpolate"""
+"""What `surface_color.glsl` needs for materials without an image, UV and vertex color to interpolate"""
 TEXTURED = Piece(
     constants={"base_color": "VEC3", "material": "FLOAT", "uv_transform": "VEC4", "uses_vertex_color": "FLOAT"},
     samplers={"base_image": "FLOAT_2D"},

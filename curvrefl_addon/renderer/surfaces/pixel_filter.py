@@ -18,10 +18,10 @@ _COEFFICIENTS = (0.35875, -0.48829, 0.14128, -0.01168)
 
 
 def offsets(samples: int) -> Float64Array:
-    """(samples, 2) pixel offsets, mean zero; one sample looks through the pixel's centre."""
+    """(samples, 2) pixel offsets, mean zero; one sample looks through the pixel's center."""
     if samples == 1:
         return np.zeros((1, 2))
-    # Two-dimensional low-discrepancy points (Hammersley set), centred in their strata.
+    # Two-dimensional low-discrepancy points (Hammersley set), centered in their strata.
     index = np.arange(samples)
     bits = np.zeros(samples)
     scale, left = 0.5, index.copy()

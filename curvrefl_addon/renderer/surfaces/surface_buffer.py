@@ -25,7 +25,7 @@ class SurfaceBuffer:
         self.normal = empty_texture(width, height)
         """xyz unit shading normal, material index"""
         self.color = empty_texture(width, height, "RGBA16F")
-        """Base colour; the solver's iterations (reflected), or (primary) the mirror's number, -1 of other surfaces, -2
+        """Base color; the solver's iterations (reflected), or (primary) the mirror's number, -1 of other surfaces, -2
         of a hole in the picture, 0 where nothing is seen"""
         self.depth = depth_texture(width, height)
         self.frame_buffer = frame_buffer(self.position, self.normal, self.color, depth=self.depth)

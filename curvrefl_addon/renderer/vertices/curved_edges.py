@@ -4,7 +4,7 @@
 
 `split` halves edges by a bound that knows no eye and no bumps. What it leaves is done here, in one view, for a picture
 that is worth it: midpoints of edges are solved too, and an edge is halved where its midpoint is seen more than the
-tolerance away from where the rasteriser would draw it. The halves are asked again. Triangles that are cut so are taken
+tolerance away from where the rasterizer would draw it. The halves are asked again. Triangles that are cut so are taken
 out of their chunk's batches; their parts are drawn from records of their own: those that the chunk's solution has for
 the old vertices, and those of the solved midpoints. So the scene's geometry stays as it is, and no vertex is solved
 twice.

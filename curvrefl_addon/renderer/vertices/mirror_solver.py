@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ...optics.catalogue import Method
+from ...optics.catalog import Method
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.curvature_regions import curvature_regions
 from ...scene.view import View

@@ -24,7 +24,7 @@ from .solution import SolvedChunk
 STRETCHED_COSINE = float(np.cos(np.radians(8.0)))
 """Cosine of the largest angle between a pixel's own reflected ray and the direction to what it shows"""
 STRETCHED_COSINE_IN_REGION = float(np.cos(np.radians(3.0)))
-"""The same for further images: near folds neighbouring vertices may be in different ones"""
+"""The same for further images: near folds neighboring vertices may be in different ones"""
 
 
 def draw_reflected(
@@ -41,7 +41,7 @@ def draw_reflected(
     """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
 
     `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth
-    range, metres; `window` (x, y, width, height) holds all of the mirror's pixels.
+    range, meters; `window` (x, y, width, height) holds all of the mirror's pixels.
     """
     if window[2] <= 0 or window[3] <= 0:
         return

@@ -3,7 +3,7 @@
 """The vertex solve: a compute shader finds the reflection point of every position of a geometry.
 
 A method is one function, `solve` of its shader file `gpu_shaders/solvers/<method>.comp.glsl`, between what all share:
-`solver.glsl` before it and `solver_main.glsl` after it. What of the reflector it reads is named in the catalogue and
+`solver.glsl` before it and `solver_main.glsl` after it. What of the reflector it reads is named in the catalog and
 bound from here.
 """
 
@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ...optics.catalogue import METHODS
+from ...optics.catalog import METHODS
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
@@ -72,16 +72,16 @@ _BLOCK = np.dtype(
 
 @dataclass(frozen=True)
 class Reflector:
-    """What a solve knows of one reflector. Map frame: `world_to_map`'s, metres."""
+    """What a solve knows of one reflector. Map frame: `world_to_map`'s, meters."""
 
     world_to_map: Float64Array
     """(4, 4) rigid"""
     bound: float
-    """No point of it is farther from the origin of the map frame, metres"""
+    """No point of it is farther from the origin of the map frame, meters"""
     textures: Mapping[str, Any] = field(default_factory=dict)
     """By the sampler names of the method's maps"""
     side: float = 1.0
-    """1: it reflects on its outer side, seen from the star centre; -1: on its inner side"""
+    """1: it reflects on its outer side, seen from the star center; -1: on its inner side"""
     plane: Sequence[float] = (0.0, 0.0, 1.0, 0.0)
     """Unit normal n and offset d in the map frame, n . p = d"""
     map_to_search: Float64Array = field(default_factory=lambda: np.eye(4))

@@ -13,7 +13,7 @@ from ..arrays import Float32Array
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
-# Blender's names of the colour spaces whose numbers are those of the scene (or are no colours at all).
+# Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
 
 
@@ -32,7 +32,7 @@ class ImageReader:
         return [warning for warnings in self._warnings.values() for warning in warnings]
 
     def read(self, image: bpy.types.Image) -> Float32Array:
-        """(height, width, 4) scene-linear, row 0 at the bottom, colours not multiplied with alpha.
+        """(height, width, 4) scene-linear, row 0 at the bottom, colors not multiplied with alpha.
 
         Packed and generated images too. A missing file gives one magenta pixel and a warning.
         """
@@ -83,7 +83,7 @@ def srgb_to_linear(values: Float32Array) -> Float32Array:
 
 
 def _decode_srgb(pixels: Float32Array) -> None:
-    """Make the colours of a byte image (h, w, 4) linear, in place; a few rows at a time, which stay in the cache."""
+    """Make the colors of a byte image (h, w, 4) linear, in place; a few rows at a time, which stay in the cache."""
     table = _srgb_table()
     for start in range(0, len(pixels), 16):
         rows = pixels[start : start + 16]
@@ -98,7 +98,7 @@ def _srgb_table() -> Float32Array:
 
 
 def _four_channels(pixels: Float32Array) -> Float32Array:
-    """(h, w, 1..4) to (h, w, 4): grey is spread, alpha is 1."""
+    """(h, w, 1..4) to (h, w, 4): gray is spread, alpha is 1."""
     height, width, channels = pixels.shape
     if channels == 4:
         return pixels

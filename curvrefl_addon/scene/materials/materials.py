@@ -18,7 +18,7 @@ from .reliefs import Relief, read_relief
 from .surface_textures import SurfaceTexture, SurfaceTextureReader
 
 EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
-"""What Cycles draws without a material: a diffuse grey"""
+"""What Cycles draws without a material: a diffuse gray"""
 
 # Inputs of the Principled BSDF that are not drawn unless they are at this value.
 _IGNORED = {
@@ -35,11 +35,11 @@ _IGNORED = {
 
 @dataclass(frozen=True, slots=True)
 class _Surface:
-    """A material whose base colour may still have textures."""
+    """A material whose base color may still have textures."""
 
     color: NodeColor
     rest: MaterialArrays
-    """All but the base colour and the relief"""
+    """All but the base color and the relief"""
     relief: Relief | None = None
 
 

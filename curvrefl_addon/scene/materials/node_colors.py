@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The colour that nodes make, as far as it is a constant times a texture times vertex colours.
+"""The color that nodes make, as far as it is a constant times a texture times vertex colors.
 
-What nodes do to colours is done to the constant and to the texture's pixels alike. Formulas are those of Cycles.
+What nodes do to colors is done to the constant and to the texture's pixels alike. Formulas are those of Cycles.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .node_links import Source
 
 type Pixels = NDArray[np.float32] | NDArray[np.float64]
 type Change = Callable[[Pixels], Pixels]
-"""From colours (..., 3) to colours of the same shape"""
+"""From colors (..., 3) to colors of the same shape"""
 
 LUMA = np.array([0.2126, 0.7152, 0.0722])
 """Luminance of scene-linear Rec.709"""
@@ -32,25 +32,25 @@ class Texture(Protocol):
         """(h, w, 3)"""
 
     def changed(self, change: Change) -> Self:
-        """The texture with other colours."""
+        """The texture with other colors."""
 
 
 @dataclass(frozen=True, slots=True)
 class NodeColor:
-    """`factor` times texture times vertex colours."""
+    """`factor` times texture times vertex colors."""
 
     factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
     texture: Any | None = None
     """A `Texture`"""
     vertex_colors: str | None = None
-    """Name of the colour attribute ("" for the default one), None for none"""
+    """Name of the color attribute ("" for the default one), None for none"""
 
     @property
     def is_constant(self) -> bool:
         return self.texture is None and self.vertex_colors is None
 
     def mean(self) -> tuple[float, float, float]:
-        """The nearest constant; vertex colours count as white."""
+        """The nearest constant; vertex colors count as white."""
         if self.texture is None:
             return self.factor
         return _triple(np.asarray(self.factor) * self.texture.colors().reshape(-1, 3).mean(axis=0, dtype=np.float64))
@@ -61,20 +61,20 @@ class NodeColor:
 
 
 def gray(factor: float) -> NodeColor:
-    """A constant grey."""
+    """A constant gray."""
     return NodeColor((factor, factor, factor))
 
 
 class ColorReader:
-    """Evaluates colour inputs of one node tree's nodes."""
+    """Evaluates color inputs of one node tree's nodes."""
 
     def __init__(self, read_texture: Callable[[Source], NodeColor | None], notes: list[str]) -> None:
-        """`read_texture` gives the colour of texture nodes (None: cannot). `notes` gets what was not understood."""
+        """`read_texture` gives the color of texture nodes (None: cannot). `notes` gets what was not understood."""
         self._read_texture = read_texture
         self._notes = notes
 
     def color(self, source: Source) -> NodeColor:
-        """The colour at the end of the links `source`."""
+        """The color at the end of the links `source`."""
         node = source.node
         if node is None:
             return _plain(getattr(source.socket, "default_value", 0.0))
@@ -161,7 +161,7 @@ class ColorReader:
         return None
 
     def _change(self, source: Source) -> Change | None:
-        """What a node does to the colour at its input "Color"."""
+        """What a node does to the color at its input "Color"."""
         node = source.node
         assert node is not None
 
@@ -234,7 +234,7 @@ class ColorReader:
 
 
 def _plain(value: Any) -> NodeColor:
-    """Of a socket's default value: a number, a vector or a colour with alpha."""
+    """Of a socket's default value: a number, a vector or a color with alpha."""
     if isinstance(value, int | float):
         return gray(float(value))
     return NodeColor(_triple(value[:3]))
@@ -246,7 +246,7 @@ def _triple(values: Any) -> tuple[float, float, float]:
 
 
 def _luminance(color: tuple[float, float, float]) -> float:
-    """Exact for a grey."""
+    """Exact for a gray."""
     return color[0] if color[0] == color[1] == color[2] else float(np.dot(color, LUMA))
 
 

@@ -55,7 +55,7 @@ class SurfaceTextureReader:
         self._arrays.clear()
 
     def read(self, source: Source, notes: list[str]) -> NodeColor | None:
-        """The colour of a texture node, None where it cannot be one. Approximations are added to `notes`."""
+        """The color of a texture node, None where it cannot be one. Approximations are added to `notes`."""
         node = source.node
         assert node is not None
         if node.type == "TEX_IMAGE":
@@ -97,7 +97,7 @@ class SurfaceTextureReader:
             return None
         reader = ColorReader(lambda inner: self.read(inner, notes), notes)
         squares = reader.number(source.input("Scale"), "checker scale")
-        # Black and white squares: the output "Factor" is 1 on squares of the first colour.
+        # Black and white squares: the output "Factor" is 1 on squares of the first color.
         pair = np.array([(1.0, 1.0, 1.0), (0.0, 0.0, 0.0)], np.float32)
         if source.socket.name == "Color":
             ends = [reader.color(source.input(name)) for name in ("Color1", "Color2")]

@@ -28,7 +28,7 @@ class MeshNeeds:
     uv_map: str | None = None
     """Name of a UV map, "" for the one active for rendering, GENERATED, OBJECT, or None for no texture"""
     colors: str | None = None
-    """Name of a colour attribute, "" for the default one, or None"""
+    """Name of a color attribute, "" for the default one, or None"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class MeshReading:
     dropped: int = 0
     """Triangles left out because a coordinate is not finite"""
     missing: tuple[str, ...] = ()
-    """UV maps and colour attributes that a material names and the mesh lacks"""
+    """UV maps and color attributes that a material names and the mesh lacks"""
 
 
 def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:

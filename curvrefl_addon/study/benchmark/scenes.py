@@ -31,7 +31,7 @@ THINGS = 24
 NEAREST, FARTHEST = 1.4, 6.0
 """Distances of their centers, in radii of the mirror"""
 MIRROR_BANDS = 48
-GREY, CHROME = 0, 1
+GRAY, CHROME = 0, 1
 EYE = (0.0, -6.0, 2.0)
 ANGLE = 0.7
 """Horizontal field of view in which the mirror is FULL pixels of 640 wide, radians"""
@@ -46,7 +46,7 @@ def hall(triangles: int, things: int = THINGS, as_one: bool = False, seed: int =
     meshes = [radial_mesh(Ellipsoid(1.0, 0.8, 0.7), MIRROR_BANDS, 2 * MIRROR_BANDS), _floor()]
     instances = [
         InstanceArrays("mirror", 1, 0, np.eye(4), (CHROME,)),
-        InstanceArrays("floor", 2, 1, np.eye(4), (GREY,)),
+        InstanceArrays("floor", 2, 1, np.eye(4), (GRAY,)),
     ]
     clutter, matrices = [], []
     for index in range(things):
@@ -55,12 +55,12 @@ def hall(triangles: int, things: int = THINGS, as_one: bool = False, seed: int =
         matrices.append(_placed(rng))
     if as_one:
         meshes.append(joined(clutter, matrices))
-        instances.append(InstanceArrays("clutter", 3, 2, np.eye(4), (GREY,)))
+        instances.append(InstanceArrays("clutter", 3, 2, np.eye(4), (GRAY,)))
     else:
         for index, (mesh, matrix) in enumerate(zip(clutter, matrices, strict=True)):
-            instances.append(InstanceArrays(f"thing {index}", 3 + index, len(meshes), matrix, (GREY,)))
+            instances.append(InstanceArrays(f"thing {index}", 3 + index, len(meshes), matrix, (GRAY,)))
             meshes.append(mesh)
-    materials = (MaterialArrays("grey"), MaterialArrays("chrome", (1.0, 1.0, 1.0), metallic=1.0, roughness=0.0))
+    materials = (MaterialArrays("gray"), MaterialArrays("chrome", (1.0, 1.0, 1.0), metallic=1.0, roughness=0.0))
     return SceneArrays(tuple(meshes), tuple(instances), materials, (), (), WorldArrays((0.5, 0.5, 0.5)), (1,))
 
 
@@ -68,7 +68,7 @@ def crowd(instances: int, seed: int = 0) -> SceneArrays:
     """The mirror amid so many instances of one small mesh."""
     rng = np.random.default_rng(seed)
     scene = hall(96, things=1, seed=seed)
-    more = tuple(InstanceArrays(f"thing {index}", 4 + index, 2, _placed(rng), (GREY,)) for index in range(instances))
+    more = tuple(InstanceArrays(f"thing {index}", 4 + index, 2, _placed(rng), (GRAY,)) for index in range(instances))
     return replace(scene, instances=(*scene.instances[:2], *more))
 
 

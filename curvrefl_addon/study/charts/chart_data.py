@@ -14,7 +14,7 @@ from dataclasses import replace
 import bpy
 
 from ...errors import InputError
-from ...optics.catalogue import METHODS, Method
+from ...optics.catalog import METHODS, Method
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...report.compare import Comparison
@@ -37,7 +37,7 @@ PEER_REPEATS, PEER_SECONDS = 3, 2.0
 
 
 def sweep(name: str) -> Iterator[tuple[Settings, float, bool]]:
-    """Settings, value and whether it is the default, for the values that the method's entry in the catalogue names."""
+    """Settings, value and whether it is the default, for the values that the method's entry in the catalog names."""
     method = METHODS[name]
     default = default_value(method)
     for value in method.sweep[1]:

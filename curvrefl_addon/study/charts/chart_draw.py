@@ -17,7 +17,7 @@ import numpy as np
 
 from ...diagnostic_colors import GOLDEN_RATIO
 from ...errors import InputError
-from ...optics.catalogue import METHODS, label_of
+from ...optics.catalog import METHODS, label_of
 from ...report.table import milliseconds
 from .chart_marks import LEVELS, MOST_WRONG, Level, Mark, front_marks, point
 from .vertex_curves import Curve
@@ -55,7 +55,7 @@ MISSING_MATPLOTLIB = (
 
 
 def method_style(name: str) -> tuple[str, str]:
-    """Color and marker of a method of the catalogue; one without an entry in STYLES gets its own by its place there."""
+    """Color and marker of a method of the catalog; one without an entry in STYLES gets its own by its place there."""
     if name in STYLES:
         return STYLES[name]
     place = list(METHODS).index(name)

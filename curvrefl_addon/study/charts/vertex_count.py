@@ -103,7 +103,7 @@ def _shell(shape: BakedShape, count: int) -> Chunk:
 
 
 def shell_positions(count: int, radius: float) -> Float32Array:
-    """(count, 3) points around the origin, neighbours in the list near in space as in meshes."""
+    """(count, 3) points around the origin, neighbors in the list near in space as in meshes."""
     share = (np.arange(count) + 0.5) / count
     z = 1.0 - 2.0 * share
     # A spiral from pole to pole whose turns lie as far apart as its points.

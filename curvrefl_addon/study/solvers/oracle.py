@@ -3,7 +3,7 @@
 """All reflection points of vertices on a star-shaped surface, in float64: what every method is judged by.
 
 The gradient of the path length is bracketed on a dense grid of directions: a node whose bisector is closer to the
-normal than those of its neighbours starts a Newton search for a zero of the gradient, of any kind; so do a few
+normal than those of its neighbors starts a Newton search for a zero of the gradient, of any kind; so do a few
 directions between eye and vertex, for vertices in contact whose reflection hides between nodes, and directions on both
 sides of a point that is nearly degenerate, for images about to merge at a caustic. What converges, lies on the right
 side and is no copy is a reflection point.
@@ -65,12 +65,12 @@ class Oracle:
         u = texel_directions(resolution).reshape(-1, 3)
         self._nodes = u
         self._at = sample(surface, u)
-        self._neighbours = _neighbours(u, resolution)
+        self._neighbors = _neighbors(u, resolution)
 
     def reflection_points(self, eye: Float64Array, vertices: Float64Array) -> ReflectionPoints:
         """All of vertices (n, 3) for the homogeneous eye (4,), or for eyes (n, 4) one per vertex.
 
-        Everything relative to the star centre. A vertex that is not finite has none.
+        Everything relative to the star center. A vertex that is not finite has none.
         """
         eyes = np.broadcast_to(eye, (len(vertices), 4))
         rows, u = self._starts(eye if eye.ndim == 1 else eyes, vertices)
@@ -118,14 +118,14 @@ class Oracle:
         # All others have one row, the last.
         row_of_node = np.full(len(self._nodes), len(nodes))
         row_of_node[nodes] = np.arange(len(nodes))
-        neighbours = row_of_node[self._neighbours[nodes]].T
+        neighbors = row_of_node[self._neighbors[nodes]].T
         rows, directions = [], []
         for first in range(0, len(finite), BLOCK):
             block = finite[first : first + BLOCK]
             error = self._errors(at, eyes[None] if eyes.ndim == 1 else eyes[block], vertices[block])
             smallest = error[:-1] < LARGEST_ERROR
-            for neighbour in neighbours:
-                smallest &= error[:-1] <= error[neighbour]
+            for neighbor in neighbors:
+                smallest &= error[:-1] <= error[neighbor]
             found, node = np.nonzero(smallest.T)
             rank = np.arange(len(found)) - np.searchsorted(found, found)
             few = rank < MOST_BRACKETS
@@ -290,7 +290,7 @@ def _to_eye(eyes: Float64Array, points: Float64Array) -> Float64Array:
     return np.where(eyes[:, 3] > 0.0, distance, -_dot(eyes[:, :3], points))
 
 
-def _neighbours(u: Float64Array, resolution: int) -> NDArray[np.int64]:
+def _neighbors(u: Float64Array, resolution: int) -> NDArray[np.int64]:
     """(nodes, 8) the nodes around each: the texels where one would be on an endless face."""
     first, second = tangent_frame(u)
     spacing = 2.0 / resolution

@@ -23,7 +23,7 @@ class ReflectionPoints:
     vertex: NDArray[np.int64]
     """(k,) index of the vertex"""
     u: Float64Array
-    """(k, 3) direction from the star centre"""
+    """(k, 3) direction from the star center"""
     point: Float64Array
     """(k, 3) P"""
     length: Float64Array

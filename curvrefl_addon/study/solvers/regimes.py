@@ -44,7 +44,7 @@ MESH_SIZE = 0.25
 
 @dataclass(frozen=True)
 class Cases:
-    """n vertices of one regime; float64, relative to the star centre. May hold fewer than were asked for, or none."""
+    """n vertices of one regime; float64, relative to the star center. May hold fewer than were asked for, or none."""
 
     eye: Float64Array
     """(4,) homogeneous"""
@@ -200,10 +200,10 @@ def _several(study: Study, eye: Float64Array, count: int, random: np.random.Gene
 
 
 def _caustic(study: Study, eye: Float64Array, count: int, random: np.random.Generator) -> Cases:
-    """Vertices within 5 percent of where neighbouring reflected rays cross, before a mirror hollow there."""
+    """Vertices within 5 percent of where neighboring reflected rays cross, before a mirror hollow there."""
     u = unit(random.normal(size=(16 * count, 3)))
     point, ray, cosine = _rays(study, eye, u)
-    # Rays from the eye's neighbourhood of u: dP + t dR loses rank where the pencil focuses.
+    # Rays from the eye's neighborhood of u: dP + t dR loses rank where the pencil focuses.
     delta = 1e-5
     frame = tangent_frame(u)
     moved = [_rays(study, eye, unit(u + delta * direction)) for direction in frame]

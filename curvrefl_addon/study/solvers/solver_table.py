@@ -19,7 +19,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...optics import status
-from ...optics.catalogue import METHODS, Method
+from ...optics.catalog import METHODS, Method
 from ...optics.screen import Screen
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings

@@ -63,7 +63,7 @@ class Saddle:
 class TorusSection:
     """A piece of a ring, about a point in the middle of its tube; a ball cuts it off smoothly at both ends.
 
-    The ring's centre is at (-ring, 0, 0), its axis along z.
+    The ring's center is at (-ring, 0, 0), its axis along z.
     """
 
     ring: float = 4.0
@@ -147,7 +147,7 @@ class Study:
 
     surface: RadialSurface
     eye: tuple[float, float, float]
-    """Relative to the star centre"""
+    """Relative to the star center"""
     side: float = 1.0
     """-1: it is hollow, and reflects on its inner side"""
     mixed: bool = False

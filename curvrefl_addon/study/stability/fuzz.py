@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...optics import status
-from ...optics.catalogue import METHODS, Method
+from ...optics.catalog import METHODS, Method
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution
@@ -35,7 +35,7 @@ SPECIAL = np.array(
 )
 """Put into every batch"""
 WILD = 1.02
-"""Bounding radii from the centre past which no reflection point can be"""
+"""Bounding radii from the center past which no reflection point can be"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...optics import status
-from ...optics.catalogue import METHODS
+from ...optics.catalog import METHODS
 from ...optics.surfaces.radial_surfaces import Float64Array
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution

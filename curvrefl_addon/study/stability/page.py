@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
-from ...optics.catalogue import label_of
+from ...optics.catalog import label_of
 from ...report.html import STYLE
 from ...report.table import percent
 from .fuzz import Fuzz

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...optics.catalogue import METHODS, label_of
+from ...optics.catalog import METHODS, label_of
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...report.display import display_transform

@@ -72,7 +72,7 @@ def trials() -> list[Trial]:
             "hollow mirror",
             "Things before and past the focus of a bowl: past it images stand on their heads, a point has up to three, "
             "and the bowl is seen in itself; methods that solve vertices find one image of each and tear where "
-            "neighbours found different ones, Secant Search and Newton refuse open mirrors, and environment maps see "
+            "neighbors found different ones, Secant Search and Newton refuse open mirrors, and environment maps see "
             "no focus at all; use Automatic or Exact.",
             "bowl",
             (0.4, -0.9, 3.4),

@@ -128,7 +128,7 @@ def hidden_in_renders(ball: bpy.types.Object) -> None:
 
 
 def bent_to_a_horseshoe(ball: bpy.types.Object) -> None:
-    """Closed, and not star-shaped however the centre is chosen: a long ellipsoid, bent by 270 degrees."""
+    """Closed, and not star-shaped however the center is chosen: a long ellipsoid, bent by 270 degrees."""
     for vertex in ball.data.vertices:
         x, y, z = vertex.co
         angle, radius = 0.75 * np.pi * x, 1.0 + 0.3 * z
@@ -136,7 +136,7 @@ def bent_to_a_horseshoe(ball: bpy.types.Object) -> None:
 
 
 def turned_to_a_bowl(ball: bpy.types.Object) -> None:
-    """The upper half of the ball pushed in: about any centre in the wall, directions pass the wall twice."""
+    """The upper half of the ball pushed in: about any center in the wall, directions pass the wall twice."""
     for vertex in ball.data.vertices:
         if vertex.co.z > 0.0:
             vertex.co.z *= -0.8
@@ -274,7 +274,7 @@ def test_nothing_to_reflect(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -
 
     code, output = render(saved(tmp_path, change))
     assert "nothing" in warned(code, capfd).lower()
-    # Chrome before a white world: its base colour 0.8 in the middle, white around it.
+    # Chrome before a white world: its base color 0.8 in the middle, white around it.
     picture = load_exr(output)
     np.testing.assert_allclose(picture[SIZE[1] // 2, SIZE[0] // 2, :3], 0.8, atol=0.02)
     np.testing.assert_allclose(picture[0, 0, :3], 1.0, atol=1e-3)

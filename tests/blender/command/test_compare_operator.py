@@ -22,7 +22,7 @@ from curvrefl.operators.compare_with_cycles import TEXT_NAME, CURVREFL_OT_compar
 
 @pytest.fixture
 def calls(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[list[dict[str, Any]]]:
-    """The registered operator in a saved scene with two meshes; comparisons are recorded and make grey pictures."""
+    """The registered operator in a saved scene with two meshes; comparisons are recorded and make gray pictures."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     for name in ("ball", "floor"):
         bpy.ops.mesh.primitive_cube_add()

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.optics.environment import (
     axis_frame,
     parallax_directions,
@@ -221,7 +221,7 @@ def visible_triangles(mesh: MeshArrays, count: int, offset: float = 0.0) -> np.n
 
 
 def aimed(point: np.ndarray) -> View:
-    """A picture whose middle pixel's centre is a point."""
+    """A picture whose middle pixel's center is a point."""
     return look_at(EYE, point, 9, 9, np.radians(6))
 
 
@@ -329,7 +329,7 @@ def test_light_and_geometry_are_of_one_lookup(method: str) -> None:
     frame = renderer_of(scene, method, 128).render(VIEW)
     numbers = frame.reflected_object()
     shown = numbers[1:-1, 1:-1]
-    # Where all neighbours show the same, filters do not matter.
+    # Where all neighbors show the same, filters do not matter.
     for dy in range(-1, 2):
         for dx in range(-1, 2):
             moved = np.roll(numbers, (dy, dx), (0, 1))[1:-1, 1:-1]

@@ -46,7 +46,7 @@ def build_blender(stage: Stage) -> None:
 
 
 def cycles_picture(stage: Stage, samples: int = 256, world_light_samples: bool = True) -> np.ndarray:
-    """(pixels, pixels, 3) scene-linear, row 0 at the bottom: light at the pixel centres, no indirect diffuse light."""
+    """(pixels, pixels, 3) scene-linear, row 0 at the bottom: light at the pixel centers, no indirect diffuse light."""
     build_blender(stage)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"

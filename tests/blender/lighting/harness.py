@@ -24,7 +24,7 @@ from mathutils import Vector
 
 
 def surface_buffers(stage: Stage) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Position, normal, direction to the viewer (pixels, pixels, 3) and body index (-1 background) at pixel centres."""
+    """Position, normal, direction to the viewer (pixels, pixels, 3) and body index (-1 background) at pixel centers."""
     build_blender(stage)
     depsgraph = bpy.context.evaluated_depsgraph_get()
     matrix = camera_matrix(stage)

@@ -26,7 +26,7 @@ class Body:
     positions: np.ndarray
     triangles: np.ndarray
     material: MaterialArrays = field(
-        default_factory=lambda: MaterialArrays("grey", (0.5, 0.5, 0.5), specular_level=0.0)
+        default_factory=lambda: MaterialArrays("gray", (0.5, 0.5, 0.5), specular_level=0.0)
     )
     smooth_center: tuple[float, float, float] | None = None
     """Shading normals point away from here; None: flat"""
@@ -43,7 +43,7 @@ class Stage:
     eye: tuple[float, float, float] = (0.0, 0.0, 6.0)
     target: tuple[float, float, float] = (0.0, 0.0, 0.0)
     width: float = 2.0
-    """Orthographic width of the picture, metres"""
+    """Orthographic width of the picture, meters"""
     pixels: int = 48
 
 

@@ -16,7 +16,7 @@ from lighting.stage import Body, Stage, ball, box, lamp, plane
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
-GREY = MaterialArrays("grey", (0.7, 0.7, 0.7), specular_level=0.0)
+GRAY = MaterialArrays("gray", (0.7, 0.7, 0.7), specular_level=0.0)
 RED = MaterialArrays("red", (0.8, 0.2, 0.1), specular_level=0.0)
 POWER = (100.0, 50.0, 20.0)
 
@@ -151,9 +151,9 @@ def test_lamp_behind_something_or_hidden_from_mirrors_is_not_seen() -> None:
 def still_life() -> list[Body]:
     """A ball in contact with the floor, a box standing on it and a board hanging above it."""
     return [
-        plane(20.0, material=GREY),
+        plane(20.0, material=GRAY),
         ball((0, 0, 0.5), 0.5, material=RED),
-        box((0.7, -0.4, 0), (1.2, 0.3, 0.6), material=GREY),
+        box((0.7, -0.4, 0), (1.2, 0.3, 0.6), material=GRAY),
         box((-1.4, -0.6, 0.4), (-0.8, 0.6, 0.45), material=RED),
     ]
 

@@ -119,13 +119,13 @@ def test_flat_shading_is_baked_flat() -> None:
         np.testing.assert_allclose(baked.normals[face, ..., :3], np.broadcast_to(expected, (32, 32, 3)), atol=1e-6)
 
 
-def test_the_centre_is_found_where_the_origin_is_outside() -> None:
+def test_the_center_is_found_where_the_origin_is_outside() -> None:
     baked = bake(moved(star_mesh(Bumpy(0.3), 48), (30.0, -20.0, 10.0)))
     assert np.linalg.norm(baked.center - [30.0, -20.0, 10.0]) < 0.3
     assert baked.holes == 0.0 and baked.multiple_hits == 0.0
 
 
-def test_the_centre_is_found_where_every_plain_guess_is_outside() -> None:
+def test_the_center_is_found_where_every_plain_guess_is_outside() -> None:
     turn = affine(rotation(9) @ np.diag([1.0, -3.0, 1.0]), (100.0, 0.0, 0.0))
     baked = bake_reflector(scene_of(moved(corner_block(), (-2.0, -2.0, 0.0)), turn), 1, 64)
     assert baked.holes == 0.0 and baked.multiple_hits == 0.0
@@ -133,8 +133,8 @@ def test_the_centre_is_found_where_every_plain_guess_is_outside() -> None:
     assert (inside[:3] > 0.1).all() and (inside[:3] < 0.9).all()
 
 
-def test_a_given_centre_is_in_world_space() -> None:
-    """A sphere from off its centre: r = c.u + sqrt((c.u)^2 + 1 - c.c) for c from the star centre to the sphere's."""
+def test_a_given_center_is_in_world_space() -> None:
+    """A sphere from off its center: r = c.u + sqrt((c.u)^2 + 1 - c.c) for c from the star center to the sphere's."""
     place = np.array([3.0, -2.0, 5.0])
     offset = np.array([0.3, 0.2, -0.1])
     mesh = star_mesh(Ellipsoid(), 96)
@@ -208,7 +208,7 @@ def test_closed_meshes_have_no_cracks(seed: int) -> None:
     matrix = affine(rotation(seed) * 10.0 ** rng.uniform(-3, 3), tuple(rng.normal(size=3)))
     resolution = int(rng.integers(8, 200))
     if seed % 2:
-        # Lattice directions: texel centres exactly on edges and vertices.
+        # Lattice directions: texel centers exactly on edges and vertices.
         matrix, resolution = np.eye(4), 2 * resolution + 1
     baked = bake_reflector(scene_of(mesh, matrix), 1, resolution)
     assert baked.holes == 0.0

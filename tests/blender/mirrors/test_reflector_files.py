@@ -107,7 +107,7 @@ DAMAGES: dict[str, Callable[[Path], object]] = {
     "newer version": rewritten(lambda d: d.update(version=99)),
     "radius missing": rewritten(lambda d: d.pop("r_max")),
     "radius no number": rewritten(lambda d: d.update(r_max="wide")),
-    "something more": rewritten(lambda d: d.update(colour="red")),
+    "something more": rewritten(lambda d: d.update(color="red")),
     "matrix stretches": rewritten(lambda d: d.update(world_to_map=(2.0 * np.eye(4)).tolist())),
     "matrix too small": rewritten(lambda d: d.update(world_to_map=[[1.0]])),
     "resolution of another map": rewritten(lambda d: d.update(resolution=SIZE + 1)),

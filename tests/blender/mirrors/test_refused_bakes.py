@@ -102,11 +102,11 @@ def test_resolutions_out_of_range_are_refused(resolution: int) -> None:
 
 
 @pytest.mark.parametrize("center", [(0.0, 0.0), (np.nan, 0.0, 0.0)])
-def test_bad_centres_are_refused(center: tuple[float, ...]) -> None:
+def test_bad_centers_are_refused(center: tuple[float, ...]) -> None:
     with pytest.raises(InputError, match="three finite numbers"):
         bake(star_mesh(Ellipsoid(), 8), center=center)
 
 
-def test_a_centre_outside_is_refused() -> None:
+def test_a_center_outside_is_refused() -> None:
     with pytest.raises(InputError, match="star-shaped"):
         bake(star_mesh(Ellipsoid(), 16), center=(5.0, 0.0, 0.0))

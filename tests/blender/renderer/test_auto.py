@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.solvers.descent import minimise
+from curvrefl.curvrefl_addon.optics.solvers.descent import minimize
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.renderer import choice as choices
 from curvrefl.curvrefl_addon.renderer import preparation
@@ -46,7 +46,7 @@ def pixel_errors(surface: RadialSurface, frame: Frame) -> np.ndarray:
     shown = frame.reflected_position()[shows][:, :3].astype(np.float64)
     start = unit(frame.reflector_position()[shows].astype(np.float64))
     screen = Screen(frame.view.eye, frame.view.focal_pixels)
-    u, converged, _ = minimise(surface, screen, shown, start, 60, 1e-4)
+    u, converged, _ = minimize(surface, screen, shown, start, 60, 1e-4)
     assert converged.mean() > 0.999
     radius, _ = surface.radius(u)
     row, column = np.nonzero(shows)

@@ -201,7 +201,7 @@ def test_eye_inside_the_mirror() -> None:
     assert any("inside" in sentence for sentence in frame.warnings)
 
 
-def test_bumpy_mirror_shows_finite_colours() -> None:
+def test_bumpy_mirror_shows_finite_colors() -> None:
     room = Room()
     room.add_mirror(Bumpy(0.3))
     room.add_rectangle((0.0, 0.0, -1.4), (10, 0, 0), (0, 10, 0))

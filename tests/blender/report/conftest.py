@@ -19,7 +19,7 @@ def _gpu_context() -> None:
 
 @pytest.fixture
 def blend(_gpu_context: None, tmp_path: Path) -> Path:
-    """A chrome ball over a red floor in a grey world, saved as a file."""
+    """A chrome ball over a red floor in a gray world, saved as a file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.world = bpy.data.worlds.new("world")

@@ -30,7 +30,7 @@ def principled(name: str, **inputs: Any) -> bpy.types.Material:
 
 @pytest.fixture
 def scene() -> bpy.types.Scene:
-    """A wide grey floor that fills the picture, seen from above, under a sun of irradiance 2 W/m2."""
+    """A wide gray floor that fills the picture, seen from above, under a sun of irradiance 2 W/m2."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.world = bpy.data.worlds.new("world")
@@ -38,7 +38,7 @@ def scene() -> bpy.types.Scene:
     bpy.ops.mesh.primitive_plane_add(size=100)
     floor = bpy.context.object
     floor.name = "floor"
-    floor.data.materials.append(principled("grey", Base_Color=(0.5, 0.4, 0.3, 1), Specular_IOR_Level=0.0))
+    floor.data.materials.append(principled("gray", Base_Color=(0.5, 0.4, 0.3, 1), Specular_IOR_Level=0.0))
     bpy.ops.object.light_add(type="SUN", location=(0, 0, 5))
     bpy.context.object.data.energy = 2.0
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
@@ -87,7 +87,7 @@ def state_of_file() -> dict[str, Any]:
 
 
 def differences(before: dict[str, Any], after: dict[str, Any]) -> dict[str, Any]:
-    # An empty colour space is one that Blender has not set up yet; it does when an EXR is first chosen.
+    # An empty color space is one that Blender has not set up yet; it does when an EXR is first chosen.
     return {
         key: (before.get(key), after.get(key))
         for key in before.keys() | after.keys()
@@ -126,7 +126,7 @@ def make_eventful(scene: bpy.types.Scene) -> None:
 
 
 def test_light_of_a_sun_on_a_diffuse_floor(scene: bpy.types.Scene) -> None:
-    """Radiance = base colour * irradiance / pi, in closed form."""
+    """Radiance = base color * irradiance / pi, in closed form."""
     still = render_reference(scene, bpy.context.view_layer, WIDTH, HEIGHT, 16)
     assert still.pixels.shape == (HEIGHT, WIDTH, 4)
     expected = np.array([0.5, 0.4, 0.3]) * 2.0 / np.pi

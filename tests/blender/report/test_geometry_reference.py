@@ -75,7 +75,7 @@ def render(scene: bpy.types.Scene) -> GeometryReference:
 
 
 def pixel_rays(scene: bpy.types.Scene) -> np.ndarray:
-    """(h, w, 3) unit directions through the pixel centres, row 0 at the bottom."""
+    """(h, w, 3) unit directions through the pixel centers, row 0 at the bottom."""
     camera = scene.camera
     projection = np.array(
         camera.calc_matrix_camera(bpy.context.evaluated_depsgraph_get(), x=WIDTH, y=HEIGHT), np.float64

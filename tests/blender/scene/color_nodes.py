@@ -12,7 +12,7 @@ import numpy as np
 
 type Tree = bpy.types.NodeTree
 type BuildColor = Callable[[Tree], Any]
-"""Makes nodes; returns the output with the colour"""
+"""Makes nodes; returns the output with the color"""
 
 
 def node(tree: Tree, kind: str, inputs: dict[str | int, Any] | None = None, **properties: Any) -> Any:

@@ -42,7 +42,7 @@ def world_triangles(name: str) -> np.ndarray:
 
 
 def distance_to_body(name: str) -> float:
-    """Smallest radial distance of an object's surface samples from the kettle, in metres; negative is inside it."""
+    """Smallest radial distance of an object's surface samples from the kettle, in meters; negative is inside it."""
     triangles = world_triangles(name)
     weights = np.array([(i, j, 20 - i - j) for i in range(21) for j in range(21 - i)]) / 20.0
     points = np.einsum("wc,tcx->twx", weights, triangles).reshape(-1, 3)

@@ -123,7 +123,7 @@ TEXTURES: dict[str, BuildColor] = {
 
 
 def test_textures_are_those_of_cycles() -> None:
-    """Squares beside each other in one picture, read as base colours and then shown by emission."""
+    """Squares beside each other in one picture, read as base colors and then shown by emission."""
     pixels, count = 30, len(TEXTURES)
     shown = []
     for index, (name, build) in enumerate(TEXTURES.items()):
@@ -145,7 +145,7 @@ def test_textures_are_those_of_cycles() -> None:
         uv = _interpolated_uv(scene, name, local)
         ours = texture_color(scene, name, uv)
         theirs = picture[:, index * pixels : (index + 1) * pixels]
-        # The pixel filter blurs sharp edges, and the neighbour comes in at the border.
+        # The pixel filter blurs sharp edges, and the neighbor comes in at the border.
         error = np.abs(ours - theirs)[2:-2, 2:-2].max(axis=-1)
         quantile = 0.4 if name in ("closest", "checker") else 0.9
         # Between the texels of byte images Cycles interpolates before it decodes.

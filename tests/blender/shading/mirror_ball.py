@@ -25,7 +25,7 @@ SECANT = ("secant_star",)
 
 
 class Ball:
-    """The unit ball about the origin as every pixel's centre sees it. Arrays (h, w, ...)."""
+    """The unit ball about the origin as every pixel's center sees it. Arrays (h, w, ...)."""
 
     def __init__(self, view: View = VIEW) -> None:
         self.view = view

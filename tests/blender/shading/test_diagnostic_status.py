@@ -31,7 +31,7 @@ def solved_ball_points() -> tuple[np.ndarray, np.ndarray]:
 
 
 def solution_of(points: np.ndarray, code: np.ndarray) -> VertexSolution:
-    """As the solver stores it: each vertex a metre from its point, and where it is itself if it was not found."""
+    """As the solver stores it: each vertex a meter from its point, and where it is itself if it was not found."""
     behind = points - unit(EYE - points)
     behind[code == status.UNSOLVED] = points[code == status.UNSOLVED] + [1.0, 0.0, 0.0]
     packed = code + 4 * 3

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.diagnostic_colors import MODES, DiagnosticOptions, method_color
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
@@ -40,7 +40,7 @@ def test_zebra_bands_are_at_their_reflected_directions() -> None:
         assert picture[middle & ~white][:, :3].max() < 0.02
 
 
-def test_zebra_finer_than_pixels_is_grey() -> None:
+def test_zebra_finer_than_pixels_is_gray() -> None:
     ball = Ball()
     picture = drawn(VIEW, ball.seen(), (), "ZEBRA", DiagnosticOptions(stripes=20000))
     # The way to the axis itself is a point where the bands are rings.
@@ -78,7 +78,7 @@ def test_angle_error_is_the_angle() -> None:
 
 
 def test_angle_error_of_an_environment_cube() -> None:
-    """A cube map shows, along a ray from the point P, what is along it from the centre."""
+    """A cube map shows, along a ray from the point P, what is along it from the center."""
     ball = Ball()
     size = 64
     distance = 3.0
@@ -145,7 +145,7 @@ def room() -> Room:
 
 
 def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
-    """A view through the pixel centres and the shade pass's picture of the mirrors beside it."""
+    """A view through the pixel centers and the shade pass's picture of the mirrors beside it."""
     renderer = Renderer(room().arrays(), Settings(method=method, samples=1, environment_resolution=64))
     canvas = Canvas.of_size(VIEW.width, VIEW.height)
     reflection = renderer.reflect(VIEW)

@@ -152,7 +152,7 @@ def test_shell_is_around_the_mirror() -> None:
     assert distance.min() > 2.0 and distance.max() < 8.0 + 1e-5
     assert np.abs(positions.mean(axis=0)).max() < 1.0
     steps = np.linalg.norm(np.diff(positions / distance[:, None], axis=0), axis=1)
-    assert np.median(steps) < 0.1, "neighbours in the list are neighbours in space"
+    assert np.median(steps) < 0.1, "neighbors in the list are neighbors in space"
 
 
 def test_closing_leaves_nothing_and_the_operator_shows_the_table(tmp_path: Path) -> None:

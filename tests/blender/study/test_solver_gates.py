@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import pytest
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.study.solvers.solver_table import Row, solver_table
 from curvrefl.curvrefl_addon.study.stability.fuzz import fuzz
 from curvrefl.curvrefl_addon.study.stability.motion import measure_motion

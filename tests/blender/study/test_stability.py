@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.renderer.mirrors.screen_maps import ScreenMaps
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A new method is its shader file and its entry in the catalogue: tried out in a copy of the repository."""
+"""A new method is its shader file and its entry in the catalog: tried out in a copy of the repository."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("gpu")
 
 ROOT = Path(__file__).resolve().parents[3]
 COPIED = ("curvrefl_addon", "gpu_shaders", "operators", "tools", "tests")
-CATALOGUE = "curvrefl_addon/optics/catalogue.py"
+CATALOG = "curvrefl_addon/optics/catalog.py"
 HEADER = "// SPDX-FileCopyrightText: 2026 Curvrefl contributors\n// SPDX-License-Identifier: GPL-3.0-or-later\n"
 
 DESCENT = """#include "solver_pieces/star_ending.glsl"
@@ -26,7 +26,7 @@ Solved solve(int index, vec3 vertex)
 {
   int iterations = 0;
   vec3 u = guess_between(solver.eye, vertex);
-  bool converged = minimise(
+  bool converged = minimize(
       solver.eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, false, u, iterations);
   return finish(vertex, u, converged, iterations);
 }
@@ -72,13 +72,13 @@ def copy(tmp_path: Path) -> Path:
 
 
 def add_method(copy: Path, shader: str, source: str, entry: str) -> None:
-    """The two files: a shader of this name and an entry at the catalogue's end."""
+    """The two files: a shader of this name and an entry at the catalog's end."""
     assert not (copy / shader).exists()
     (copy / shader).write_text(HEADER + source, encoding="utf-8")
-    catalogue = copy / CATALOGUE
-    text = catalogue.read_text(encoding="utf-8").rstrip()
+    catalog = copy / CATALOG
+    text = catalog.read_text(encoding="utf-8").rstrip()
     assert text.endswith("}")
-    catalogue.write_text(f"{text[:-1]}{entry}}}\n", encoding="utf-8")
+    catalog.write_text(f"{text[:-1]}{entry}}}\n", encoding="utf-8")
 
 
 def drawn(copy: Path, twin: str, method: str, folder: Path) -> tuple[dict, dict, list[dict]]:

@@ -51,11 +51,11 @@ def rendered(animation: bool) -> Steps:
     def complete(*_: Any) -> None:
         ended.append("complete")
 
-    def cancelled(*_: Any) -> None:
-        ended.append("cancelled")
+    def canceled(*_: Any) -> None:
+        ended.append("canceled")
 
     bpy.app.handlers.render_complete.append(complete)
-    bpy.app.handlers.render_cancel.append(cancelled)
+    bpy.app.handlers.render_cancel.append(canceled)
     with in_view():
         bpy.ops.render.render("INVOKE_DEFAULT", animation=animation)
     for _ in range(4):

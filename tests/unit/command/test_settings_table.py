@@ -16,7 +16,7 @@ import pytest
 import write_settings
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.optics.catalogue import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.renderer.settings import Settings, check_settings
 from curvrefl.curvrefl_addon.setting import Setting, value_of
 from curvrefl.curvrefl_addon.settings_table import NAMED, OF_OBJECTS, OF_SCENES, RENDERER

@@ -74,7 +74,7 @@ def test_face_coordinates_lie_on_the_face() -> None:
     np.testing.assert_allclose(t, [-0.5, -0.25, 0.0])
 
 
-def test_sampling_at_texel_centres_gives_the_texels() -> None:
+def test_sampling_at_texel_centers_gives_the_texels() -> None:
     faces = np.random.default_rng(0).normal(size=(6, 8, 8, 3))
     sampled = sample_cube(faces, texel_directions(8).reshape(-1, 3))
     np.testing.assert_allclose(sampled.reshape(faces.shape), faces, atol=1e-12)
@@ -94,7 +94,7 @@ def test_sampling_is_continuous_over_edges_and_corners() -> None:
 
 
 def test_sampling_a_smooth_function_gets_better_with_resolution() -> None:
-    """Of second order inside the faces; of first order within half a texel of an edge, where the neighbour's texels
+    """Of second order inside the faces; of first order within half a texel of an edge, where the neighbor's texels
     are up to half a texel out of line with the face's own, as on a GPU.
     """
     inside = random_directions(5000)

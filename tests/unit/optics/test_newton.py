@@ -184,7 +184,7 @@ def test_from_behind_the_way_back_leads_to_the_front() -> None:
     vertices = np.column_stack([random.uniform(-0.5, 0.5, (400, 2)), random.uniform(0.5, 1.5, 400)])
     below = np.tile([0.0, 0.0, -1.0], (400, 1))
     screen = Screen(eye, 660.0)
-    u, converged, _ = descent.minimise(surface, screen, vertices, below, newton.STEPS, 0.05)
+    u, converged, _ = descent.minimize(surface, screen, vertices, below, newton.STEPS, 0.05)
     wrong = converged & (u[:, 2] < 0.0)
     assert wrong.mean() > 0.3
     u, converged, _ = newton._descend(surface, screen, vertices, below, 0.05, hollow=False, any_kind=False)
@@ -203,7 +203,7 @@ def test_the_shortest_path_is_a_reflection_or_the_segment(name: str) -> None:
         length = np.linalg.norm(at.position - eye[:3], axis=1) + np.linalg.norm(at.position - vertex, axis=1)
         best = int(length.argmin())
         start = nodes[best : best + 1]
-        u, _, _ = descent.minimise(study.surface, Screen(eye, 660.0), vertex[None], start, 30, 0.01)
+        u, _, _ = descent.minimize(study.surface, Screen(eye, 660.0), vertex[None], start, 30, 0.01)
         end = fermat.sample(study.surface, u)
         pierced = pierce(study.surface, eye, vertex[None])[0][0]
         h = np.linalg.norm(fermat.half_vector(eye, vertex[None], end.position))

@@ -9,7 +9,7 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.surfaces.pixel_filter import WIDTH, offsets
 
 
-def test_one_sample_looks_through_the_centre() -> None:
+def test_one_sample_looks_through_the_center() -> None:
     assert offsets(1).tolist() == [[0.0, 0.0]]
 
 

@@ -221,7 +221,7 @@ def test_first_triangles_are_never_flat() -> None:
 
 
 def test_gradient_in_u_vanishes_at_a_pole() -> None:
-    """The paper's artefact is there: over a pole many vertices are lost, but none is shown in a wrong place."""
+    """The paper's artifact is there: over a pole many vertices are lost, but none is shown in a wrong place."""
     pole = EllipsoidMap().sample(np.array([[0.3, 1.0]]))
     gradient = secant_uv.path_gradient(EYE, np.array([[3.0, 1.0, 2.0]]), pole)
     assert abs(gradient[0, 0]) < 1e-12 and abs(gradient[0, 1]) > 0.1

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Star centres of meshes whose kernel is known."""
+"""Star centers of meshes whose kernel is known."""
 
 from __future__ import annotations
 

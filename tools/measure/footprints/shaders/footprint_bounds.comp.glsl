@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where on screen each triangle's reflection may fall: a box around the reflection points of its corners and of the
-// middles of its edges. What may cover a pixel centre goes on a list.
+// middles of its edges. What may cover a pixel center goes on a list.
 //
 // Records of a triangle in `triangles`: (three positions, material), (three edges, 0), (three corners, 0).
-// Of a box in `boxes`: (centre, half axis), (other half axis, triangle, 0); pixels.
+// Of a box in `boxes`: (center, half axis), (other half axis, triangle, 0); pixels.
 // `margins`: share of what edges bend that a box is grown by, pixels more, pixels more of triangles that cross the
 // horizon, share of their size. `window`: lowest and highest pixel edge of the mirror's window.
 #include "common/invocation.glsl"
@@ -120,7 +120,7 @@ void main()
     margin += margins.w * max(high.x - low.x, high.y - low.y);
   }
   vec4 box = vec4(max(low - margin, window.xy), min(high + margin, window.zw));
-  // Without a pixel centre inside there is nothing to draw.
+  // Without a pixel center inside there is nothing to draw.
   if (any(greaterThan(ceil(box.xy - 0.5), floor(box.zw - 0.5)))) {
     return;
   }
