@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..scene.view import View
-from .costs import STRICTER_SHARE, Scenery, cost_share, in_shadow
+from .costs import STILL_SHARE, STRICTER_SHARE, Scenery, cost_share, in_shadow
 from .mirrors.mirror import Mirror
 from .settings import Settings
 
@@ -222,7 +222,7 @@ def _choose(
         settings,
         method=VERTICES,
         map_resolution=resolution,
-        pixel_tolerance=max(tolerance * (1.0 if is_still else STRICTER_SHARE), 0.01),
+        pixel_tolerance=max(tolerance * (STILL_SHARE if is_still else STRICTER_SHARE), 0.01),
     )
     return MirrorChoice(name, points, f"{cost}: reflection points are solved.", hidden, shown)
 

@@ -27,9 +27,9 @@ read back for that, and midpoints solved"""
 SAMPLED_VERTICES, SILHOUETTE_SIDES, PIXELS_PROBED = 2000, 16, 16
 """A mirror's silhouette is taken as a polygon of so many sides around about so many of its vertices, and its pixels are
 counted by so many probes along each side of its window"""
-BEFORE_SHARE, MOST_BEFORE = 0.8, 64
+BEFORE_SHARE, MOST_BEFORE = 0.58, 64
 """Radii of an object's ball, and so many of the largest balls: what they cover in the view counts as before the mirror.
-An object fills less than the ball around it."""
+The balls hold the objects' boxes: so much of it is a round object's own radius."""
 SOLVE_BEGUN = 1500.0
 """Cost of a mirror's solve and draw before the first vertex: programs are bound, results waited for"""
 SPLIT_TRIANGLES = 30.0
@@ -41,6 +41,8 @@ edges are farther away"""
 STRICTER_SHARE = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
 may be off. In stills solved midpoints see to it."""
+STILL_SHARE = 0.9
+"""The same in stills: the rest is the map's and the search's"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +76,8 @@ def cost_share(
     layers = layers_around(mirror.shape().center, scenery.centers[~unseen], scenery.radii[~unseen])
     by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
     by_points += once / (settings.samples if is_still else 1)
-    share = by_points / max(by_rays, 1e-30)
+    # (Of one pixel at least, where all may be hidden.)
+    share = by_points / max(by_rays, PIXEL_BY_RAY)
     return share, f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
 
 
@@ -83,7 +86,7 @@ def split_triangles(
 ) -> float:
     """About how many triangles splitting adds to what a mirror may show: none where they are small already."""
     frame = mirror.shape()
-    tolerance = settings.pixel_tolerance * (1.0 if is_still else STRICTER_SHARE)
+    tolerance = settings.pixel_tolerance * (STILL_SHARE if is_still else STRICTER_SHARE)
     radii = scenery.radii[~unseen]
     distance = np.linalg.norm(scenery.centers[~unseen] - frame.center, axis=1)
     angle = radii / np.maximum(np.maximum(distance, NEAREST_SPLIT * radii), 1e-30)
