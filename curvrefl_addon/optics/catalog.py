@@ -56,6 +56,12 @@ class Method:
 DEFAULT_COMPARED = ("auto", "exact", "secant_star", "environment_cube")
 """Put beside Cycles where no method is named"""
 
+
+def label_of(name: str) -> str:
+    """What a user reads for a method, or for what stands in its place."""
+    return METHODS[name].label if name in METHODS else name.capitalize()
+
+
 METHODS: dict[str, Method] = {
     "auto": Method(
         "Automatic",
@@ -157,8 +163,3 @@ METHODS: dict[str, Method] = {
         ("environment_resolution", (64, 128, 256, 512)),
     ),
 }
-
-
-def label_of(name: str) -> str:
-    """What a user reads for a method, or for what stands in its place."""
-    return METHODS[name].label if name in METHODS else name.capitalize()

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from curvrefl.curvrefl_addon.optics.solvers import secant_uv
+from curvrefl.curvrefl_addon.optics.surfaces import parametric_surfaces
 from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import ParametricMap, bake_parametric
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays
 from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds, read_mesh
@@ -28,7 +28,7 @@ def grid_mesh(shape: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.nda
 
 
 def torus_section(angle: float = np.pi / 2.0) -> MeshArrays:
-    surface = secant_uv.TorusSection(angle=angle)
+    surface = parametric_surfaces.TorusSection(angle=angle)
 
     def shape(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         at = surface.sample(np.column_stack([u, v]))

@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.optics.surfaces.cube_map import texel_directions
 from curvrefl.curvrefl_addon.optics.surfaces.parametric_surfaces import (
     EllipsoidMap,
     ParametricSample,
+    ParametricSurface,
     SampledMap,
     TorusSection,
 )
@@ -59,7 +60,7 @@ def vertices_around(count: int, nearest: float, seed: int = 1) -> np.ndarray:
     return unit(rng.normal(size=(count, 3))) * (1.0 + 10 ** rng.uniform(np.log10(nearest), 1.0, count))[:, None]
 
 
-def sampled(surface: secant_uv.ParametricSurface, size: int, flags: int) -> SampledMap:
+def sampled(surface: ParametricSurface, size: int, flags: int) -> SampledMap:
     centers = (np.arange(size) + 0.5) / size
     v, u = np.meshgrid(centers, centers, indexing="ij")
     at = surface.sample(np.column_stack([u.ravel(), v.ravel()]))
