@@ -1,13 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bounding-volume hierarchies over boxes, built level by level. Pure numpy.
-
-All nodes of a level are split at once: the items of a node are neighbors in one array, and what is asked of nodes is a
-reduction over segments of it. Trees over many meshes grow side by side, as numpy asks as much for a short array as for
-a thousand numbers. Splits follow the surface-area heuristic over a few bins an axis (Wald 2007, "On fast
-construction of SAH-based bounding volume hierarchies"). The quick build sorts items along Morton's curve (Lauterbach
-et al. 2009, "Fast BVH construction on GPUs") and asks the heuristic only about clusters of neighbors.
-"""
+"""A bounding-volume hierarchy over boxes, and fitting it to boxes that have moved. Pure numpy; `hierarchy_build` grows
+it."""
 
 from __future__ import annotations
 
