@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ...optics.catalog import METHODS
+from ...optics.catalog import METHODS, Method
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
@@ -150,12 +150,12 @@ class PreparedSolve:
         block["is_same_view"] = previous is not None and previous.inputs == inputs
         self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
         """There once it has run"""
-        self._method = method
+        self._method, self._entry = method, METHODS[method]
         self._images = {
             "reflection_points": self.solution.reflection_points,
             "virtual_positions": self.solution.virtual_positions,
         }
-        if METHODS[method].stragglers:
+        if self._entry.stragglers:
             self._images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
         self._textures = {
             **reflector.textures,
@@ -168,16 +168,16 @@ class PreparedSolve:
 
     def run(self) -> None:
         """Have the GPU do it; returns before it has."""
-        stragglers, count = METHODS[self._method].stragglers, self.solution.count
+        stragglers, count = self._entry.stragglers, self.solution.count
         if stragglers:
             self._images["straggler_count"].clear(format="UINT", value=(0,))
         for name, most in ((self._method, count), (stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
             if not name:
                 continue
-            shader = _solver_shader(name, self._method)
+            shader = _solver_shader(name, self._method, self._entry)
             shader.bind()
             shader.uniform_block("solver", self._uniforms)
-            for sampler in ("positions", *(sampler for _, sampler in _samplers(self._method))):
+            for sampler in ("positions", *(sampler for _, sampler in _samplers(self._entry))):
                 shader.uniform_sampler(sampler, self._textures[sampler])
             for image, texture in self._images.items():
                 shader.image(image, texture)
@@ -268,8 +268,8 @@ def plain_block(count: int) -> np.ndarray:
     return block
 
 
-def _samplers(method: str) -> list[tuple[str, str]]:
-    return [pair for name in METHODS[method].maps for pair in SAMPLERS[name]]
+def _samplers(entry: Method) -> list[tuple[str, str]]:
+    return [pair for name in entry.maps for pair in SAMPLERS[name]]
 
 
 _SOLVE = Piece(
@@ -294,10 +294,10 @@ def build_solver(name: str, label: str, *pieces: Piece) -> Any:
 
 
 @cache
-def _solver_shader(name: str, method: str) -> Any:
-    """`gpu_shaders/solvers/<name>.comp.glsl` with what `method` gives its shaders."""
-    pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(method)})]
-    if METHODS[method].stragglers:
+def _solver_shader(name: str, method: str, entry: Method) -> Any:
+    """`gpu_shaders/solvers/<name>.comp.glsl` with what `method`, with this entry, gives its shaders."""
+    pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(entry)})]
+    if entry.stragglers:
         pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
     return build_solver(name, f"{name} of {method}", *pieces)
 
