@@ -39,6 +39,9 @@ KEPT_MAP = 1.5
 """The map of the view before is kept while the mirror is at most so many times as large as that map is for"""
 SHARPEST_SPLIT = np.radians(1.0)
 """Where normals of one place of a mirror differ by more no map tells them apart, and none is baked to find out"""
+SHARPEST_BEND = np.radians(16.0)
+"""Where normals turn by more within a triangle, what is reflected has kinks at the triangle's sides, of which the
+midpoint of an edge does not tell"""
 THINNEST_SHARE = 0.004
 """A mirror is too thin for a map whose inner ball has less than this share of its outer one: texels seen from inside do
 not tell its rim's two sides apart at any resolution"""
@@ -196,6 +199,8 @@ def _choose(
         )
     if mirror.facts.sharpest_split > SHARPEST_SPLIT:
         return rays(f'"{name}" has edges at which its normals jump')
+    if mirror.facts.sharpest_bend > SHARPEST_BEND:
+        return rays(f'"{name}" has too few faces for its bends')
     frame = mirror.shape()
     if mirror.inner_ball[1] < THINNEST_SHARE * frame.bound:
         return rays(f'"{name}" is too thin for a map that reflection points could be found on')

@@ -41,7 +41,7 @@ edges are farther away"""
 STRICTER_SHARE = 0.7
 """Share of the error asked for to which edges are split while a view moves: an edge is half of what a triangle's inside
 may be off. In stills solved midpoints see to it."""
-STILL_SHARE = 0.9
+STILL_SHARE = 0.75
 """The same in stills: the rest is the map's and the search's"""
 
 

@@ -13,7 +13,7 @@ from .mesh_inside import is_closed
 from .mesh_pieces import MeshPieces, box_of, mesh_pieces
 from .solid import solid_side
 from .split import longest_edge
-from .split_normals import sharpest_split
+from .split_normals import sharpest_bend, sharpest_split
 
 
 class MeshFacts:
@@ -43,6 +43,11 @@ class MeshFacts:
     def sharpest_split(self) -> float:
         """Largest angle, radians, between shading normals that corners of triangles have in one place."""
         return sharpest_split(self.mesh)
+
+    @cached_property
+    def sharpest_bend(self) -> float:
+        """Largest angle, radians, that shading normals turn by within a triangle."""
+        return sharpest_bend(self.mesh)
 
     @property
     def never_sees_itself(self) -> bool:

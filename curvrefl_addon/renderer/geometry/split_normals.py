@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the shading normals of a mesh jump at its edges. Pure numpy."""
+"""Whether the shading normals of a mesh jump at its edges, or turn far within a triangle. Pure numpy."""
 
 from __future__ import annotations
 
@@ -34,3 +34,15 @@ def sharpest_split(mesh: MeshArrays) -> float:
     sines = np.linalg.norm(np.cross(normals, mean), axis=1) / lengths
     cosines = np.einsum("ij,ij->i", normals, mean) / lengths
     return 2.0 * float(np.arctan2(sines, cosines).max())
+
+
+def sharpest_bend(mesh: MeshArrays) -> float:
+    """Largest angle, radians, between the shading normals of two corners of one triangle."""
+    normals = mesh.corner_normals[mesh.triangles].astype(np.float64)
+    largest = 0.0
+    for k in range(3):
+        one, other = normals[:, k], normals[:, (k + 1) % 3]
+        sines = np.linalg.norm(np.cross(one, other), axis=1)
+        angles = np.arctan2(sines, np.einsum("ij,ij->i", one, other))
+        largest = max(largest, float(angles.max(initial=0.0)))
+    return largest
