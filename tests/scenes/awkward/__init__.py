@@ -8,20 +8,10 @@ from .settings import cameras, detail, display
 from .surfaces import images, materials, mirrors
 from .things import instances, kinds, numbers, shapes
 
-TOPICS = (
-    display,
-    detail,
-    cameras,
-    materials,
-    images,
-    mirrors,
-    lamps,
-    visibility,
-    worlds,
-    shapes,
-    kinds,
-    instances,
-    numbers,
-)
+SETTINGS = (display, detail, cameras)
+SURFACES = (materials, images, mirrors)
+LIGHT = (lamps, visibility, worlds)
+THINGS = (shapes, kinds, instances, numbers)
+TOPICS = (*SETTINGS, *SURFACES, *LIGHT, *THINGS)
 
 __all__ = ["SCENES", "TOPICS", "Awkward"]

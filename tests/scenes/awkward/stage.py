@@ -33,7 +33,7 @@ type Place = Sequence[float]
 
 
 def stage(sky: Color | None = SKY, sun: float = 3.0, with_mirror: bool = True, things: bool = True) -> bpy.types.Scene:
-    """The usual scene, replacing the open file. Objects: Mirror (radius 1, at 0, 0, 1), Floor, Red, Blue, Green, Sun."""
+    """The usual scene, in place of the open file: Mirror (radius 1, at 0, 0, 1), Floor, Red, Blue, Green, Sun."""
     scene: Any = start_empty_scene(*SIZE)
     # Light that mirrors throw on other things is light from one surface to another.
     scene.cycles.caustics_reflective = scene.cycles.caustics_refractive = False

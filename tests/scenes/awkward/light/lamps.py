@@ -366,7 +366,7 @@ def lamp_between(folder: Path) -> None:
 
 @awkward("a lamp with a custom shader output and a lamp of another scene")
 def lamp_of_other_scene(folder: Path) -> None:
-    scene = _lit("POINT", shadow_soft_size=0.05)
+    _lit("POINT", shadow_soft_size=0.05)
     other = bpy.data.scenes.new("Other")
     lamp = bpy.data.objects.new("Elsewhere", bpy.data.lights.new("Elsewhere", "SUN"))
     other.collection.objects.link(lamp)

@@ -259,6 +259,7 @@ def is_viewport_node(folder: Path) -> None:
     source, output = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
     switch, viewport = tree.nodes.new("GeometryNodeSwitch"), tree.nodes.new("GeometryNodeIsViewport")
     move = tree.nodes.new("GeometryNodeTransform")
+    switch.input_type = "GEOMETRY"
     move.inputs["Translation"].default_value = (0.0, 0.0, 1.5)
     tree.links.new(viewport.outputs[0], switch.inputs["Switch"])
     tree.links.new(source.outputs[0], move.inputs["Geometry"])
@@ -270,7 +271,7 @@ def is_viewport_node(folder: Path) -> None:
 
 @awkward("a mirror that lies in a disabled collection of another scene too")
 def two_scenes(folder: Path) -> None:
-    scene = stage()
+    stage()
     other = bpy.data.scenes.new("Other")
     other.collection.objects.link(find(MIRROR))
     add_sheet("Wall", (0.0, 2.5, 1.5), (4.0, 3.0), matte("Wall", (0.5, 0.4, 0.1)), (1.5708, 0.0, 0.0))
