@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.demo.data_blocks import (
     add_camera,
     add_object,
     add_sun,
+    emitter,
     mirror,
     principled,
     set_world_color,
@@ -190,4 +191,31 @@ def mesh_of(name: str, positions: Any, polygons: Any, material: bpy.types.Materi
     return add_object(name, shape, material, smooth=smooth)
 
 
-__all__ = [name for name in globals() if not name.startswith("_") and name != "annotations"]
+__all__ = [
+    "add_ball",
+    "add_box",
+    "add_lamp",
+    "add_object",
+    "add_sheet",
+    "ball",
+    "box",
+    "bpy",
+    "emitter",
+    "find",
+    "give",
+    "link",
+    "matte",
+    "mesh_of",
+    "mirror",
+    "node",
+    "output_of",
+    "picture",
+    "plane",
+    "principled",
+    "principled_node",
+    "stage",
+    "stripes",
+    "surface",
+    "textured",
+    "world_tree",
+]
