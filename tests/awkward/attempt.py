@@ -183,7 +183,8 @@ def share_off(ours: np.ndarray, reference: np.ndarray) -> float:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2:])
+    given = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
+    main(Path(given[0]), given[1:])
     sys.stdout.flush()
     # (Blender as a module may crash in Python's teardown.)
     os._exit(0)

@@ -8,7 +8,6 @@ to name the cause. A refusal is a sentence instead of a picture. All else fails:
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import shutil
@@ -22,7 +21,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+from blender_process import script_command
+
+ATTEMPT = Path(__file__).with_name("attempt.py")
 MOST_OFF = 0.02
 LONGEST = 240.0
 """Seconds for one scene, its reference included, on a busy machine"""
@@ -54,7 +55,7 @@ def _try_batch(number: int, names: list[str], folder: Path) -> list[dict[str, An
     left = list(names)
     while left:
         with (place / "output.txt").open("w+", encoding="utf-8", errors="replace") as said:
-            command = [sys.executable, str(Path(__file__).with_name("attempt.py")), str(place), *left]
+            command = script_command(ATTEMPT, str(place), *left)
             child = subprocess.Popen(command, stdout=said, stderr=subprocess.STDOUT, env=_environment())
             ended = _wait(child, lines)
             said.seek(0)
@@ -151,23 +152,3 @@ def judge(names: Sequence[str], keep: Path | None = None, processes: int | None 
             print(f"--- {result['name']}:\n{result['crash']}")
     print(summary(results))
     return 1 if any(result["outcome"] in FAILURES for result in results) else 0
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*")
-    parser.add_argument("--keep", type=Path, help="folder for pictures and results")
-    parser.add_argument("--processes", type=int)
-    options = parser.parse_args()
-    return judge(options.names, options.keep, options.processes)
-
-
-if __name__ == "__main__":
-    sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests")]
-    import bootstrap
-    import bpy  # noqa: F401  (builders import it)
-
-    bootstrap.load_package()
-    code = main()
-    sys.stdout.flush()
-    os._exit(code)

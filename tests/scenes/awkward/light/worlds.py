@@ -24,8 +24,11 @@ def _colored(kind: str, output: str = "Color", **inputs: Any) -> Any:
 
 
 def _environment(image: Any) -> Any:
-    made = _colored("TexEnvironment")
+    """The scene's world becomes this picture; returns its node."""
+    tree, background = world_tree()
+    made = node(tree, "TexEnvironment")
     made.image = image
+    tree.links.new(made.outputs["Color"], background.inputs["Color"])
     return made
 
 
@@ -70,11 +73,13 @@ def world_negative(folder: Path) -> None:
 
 @awkward("a picture as the world")
 def world_image(folder: Path) -> None:
+    stage()
     _environment(_panorama(64, 32))
 
 
 @awkward("an 8-bit picture as the world")
 def world_image_bytes(folder: Path) -> None:
+    stage()
     _environment(_panorama(64, 32, is_float=False))
 
 
@@ -92,16 +97,19 @@ def world_studio_sunset(folder: Path) -> None:
 
 @awkward("a world picture of one pixel")
 def world_one_pixel(folder: Path) -> None:
+    stage()
     _environment(picture("One", np.full((1, 1, 4), (0.7, 0.5, 0.2, 1.0)), is_float=True))
 
 
 @awkward("a world picture of two pixels")
 def world_two_pixels(folder: Path) -> None:
+    stage()
     _environment(picture("Two", np.array([[(0.8, 0.2, 0.1, 1.0), (0.1, 0.3, 0.8, 1.0)]]), is_float=True))
 
 
 @awkward("a world picture whose file is missing", words=("missing", "gone.hdr", "no pixels", "cannot be read"))
 def world_missing(folder: Path) -> None:
+    stage()
     image = bpy.data.images.new("gone", 4, 4)
     image.source, image.filepath = "FILE", str(folder / "gone.hdr")
     _environment(image)
@@ -114,16 +122,19 @@ def world_without_image(folder: Path) -> None:
 
 @awkward("a world picture seen as a mirror ball")
 def world_mirror_ball(folder: Path) -> None:
+    stage()
     _environment(_panorama(64, 64)).projection = "MIRROR_BALL"
 
 
 @awkward("a world picture without smoothing")
 def world_closest(folder: Path) -> None:
+    stage()
     _environment(_panorama(16, 8)).interpolation = "Closest"
 
 
 @awkward("a world picture turned about all axes")
 def world_turned(folder: Path) -> None:
+    stage()
     made = _environment(_panorama(64, 32))
     tree = made.id_data
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
@@ -134,6 +145,7 @@ def world_turned(folder: Path) -> None:
 
 @awkward("a world picture scaled by its mapping")
 def world_scaled(folder: Path) -> None:
+    stage()
     made = _environment(_panorama(64, 32))
     tree = made.id_data
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
@@ -144,6 +156,7 @@ def world_scaled(folder: Path) -> None:
 
 @awkward("a world picture of 20,000 x 8 pixels", words=("scaled", "larger", "wide", "texture"))
 def world_wide(folder: Path) -> None:
+    stage()
     _environment(_panorama(20000, 8, is_float=False))
 
 
@@ -234,6 +247,7 @@ def world_nan(folder: Path) -> None:
 
 @awkward("a world picture with a pixel that is not a number", words=("not a number", "finite", "Panorama"))
 def world_nan_pixel(folder: Path) -> None:
+    stage()
     image = _panorama(64, 32)
     pixels = np.array(image.pixels[:], np.float32).reshape(32, 64, 4)
     pixels[20:22, 30:34, :3] = np.nan
@@ -245,6 +259,7 @@ def world_nan_pixel(folder: Path) -> None:
 
 @awkward("a world picture with an endless pixel", words=("not a number", "finite", "Panorama"))
 def world_inf_pixel(folder: Path) -> None:
+    stage()
     image = _panorama(64, 32)
     pixels = np.array(image.pixels[:], np.float32).reshape(32, 64, 4)
     pixels[20, 30, :3] = np.inf
@@ -262,11 +277,13 @@ def world_bright(folder: Path) -> None:
 
 @awkward("a world that only its own sampling setting hides from lamps")
 def world_unsampled(folder: Path) -> None:
+    stage()
     _environment(_panorama(64, 32))
     bpy.context.scene.world.cycles.sampling_method = "NONE"
 
 
 @awkward("a sun hidden in the world by the Sun settings of EEVEE, which Cycles ignores")
 def world_eevee_sun(folder: Path) -> None:
+    stage()
     _environment(_panorama(64, 32))
     bpy.context.scene.world.sun_threshold = 0.1

@@ -15,7 +15,6 @@ from ..stage import (
     add_sheet,
     bpy,
     find,
-    give,
     matte,
     node,
     picture,
@@ -28,7 +27,6 @@ from ..stage import (
 
 def _wall(material: bpy.types.Material) -> Any:
     """A wall behind the camera that the mirror shows, and a ball that the eye sees; returns the wall."""
-    stage()
     add_ball("Sample", (-1.2, -1.9, 0.55), 0.55, material)
     return add_sheet("Wall", (0.0, -5.5, 2.0), (6.0, 4.0), material, (-np.pi / 2.0, 0.0, np.pi))
 
@@ -42,22 +40,26 @@ def _clear_stripes() -> np.ndarray:
 
 @awkward("an image, as usual")
 def image_plain(folder: Path) -> None:
+    stage()
     _wall(textured("Striped", picture("Stripes", stripes()))[0])
 
 
 @awkward("an image with alpha that is not linked: Cycles shows black there")
 def image_alpha_unlinked(folder: Path) -> None:
+    stage()
     _wall(textured("Leaf", picture("Leaf", _clear_stripes(), alpha=True))[0])
 
 
 @awkward("an image with alpha that is linked", words=("alpha", "transparen"))
 def image_alpha_linked(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Leaf", picture("Leaf", _clear_stripes(), alpha=True))
     tree.links.new(texture.outputs["Alpha"], principled_node(material).inputs["Alpha"])
     _wall(material)
 
 
 def _alpha_mode(mode: str) -> None:
+    stage()
     image = picture("Leaf", _clear_stripes(), alpha=True)
     image.alpha_mode = mode
     _wall(textured("Leaf", image)[0])
@@ -86,9 +88,7 @@ def image_premultiplied_exr(folder: Path) -> None:
     image.save()
     bpy.data.images.remove(image)
     stage()
-    material = textured("Leaf", bpy.data.images.load(str(file)))[0]
-    add_ball("Sample", (-1.2, -1.9, 0.55), 0.55, material)
-    add_sheet("Wall", (0.0, -5.5, 2.0), (6.0, 4.0), material, (-np.pi / 2.0, 0.0, np.pi))
+    _wall(textured("Leaf", bpy.data.images.load(str(file)))[0])
 
 
 def _written(folder: Path, name: str, pixels: np.ndarray, kind: str = "PNG") -> Path:
@@ -107,8 +107,7 @@ def image_relative_path(folder: Path) -> None:
     file = _written(folder, "stripes.png", stripes())
     image = bpy.data.images.load(str(file))
     image.filepath = "//stripes.png"
-    give("Red", textured("Striped", image)[0])
-    give("Blue", bpy.data.materials["Striped"])
+    _wall(textured("Striped", image)[0])
 
 
 @awkward("a numbered sequence of images")
@@ -121,8 +120,7 @@ def image_sequence(folder: Path) -> None:
     material, _, texture = textured("Film", image)
     texture.image_user.frame_duration, texture.image_user.use_auto_refresh = 3, True
     texture.image_user.frame_start = 1
-    for name in ("Red", "Blue", "Green"):
-        give(name, material)
+    _wall(material)
     bpy.context.scene.frame_set(3)
 
 
@@ -144,6 +142,7 @@ def image_udim(folder: Path) -> None:
 
 @awkward("an image whose file is missing: Cycles shows magenta")
 def image_missing(folder: Path) -> None:
+    stage()
     image = bpy.data.images.new("gone", 4, 4)
     image.source, image.filepath = "FILE", str(folder / "gone.png")
     _wall(textured("Lost", image)[0])
@@ -154,11 +153,12 @@ def image_damaged(folder: Path) -> None:
     stage()
     file = _written(folder, "broken.png", stripes())
     file.write_bytes(file.read_bytes()[:60])
-    give("Red", textured("Torn", bpy.data.images.load(str(file)))[0])
+    _wall(textured("Torn", bpy.data.images.load(str(file)))[0])
 
 
 @awkward("an Image Texture without an image: Cycles shows black")
 def image_none(folder: Path) -> None:
+    stage()
     material, _, texture = textured("Bare", picture("Stripes", stripes()))
     texture.image = None
     _wall(material)
@@ -166,11 +166,13 @@ def image_none(folder: Path) -> None:
 
 @awkward("an image of one pixel")
 def image_one_pixel(folder: Path) -> None:
+    stage()
     _wall(textured("Dot", picture("Dot", np.full((1, 1, 4), (0.9, 0.4, 0.1, 1.0))))[0])
 
 
 @awkward("an image that is non-color data but used as color")
 def image_non_color(folder: Path) -> None:
+    stage()
     image = picture("Data", stripes())
     image.colorspace_settings.name = "Non-Color"
     _wall(textured("Data", image)[0])
@@ -178,6 +180,7 @@ def image_non_color(folder: Path) -> None:
 
 @awkward("a float image over 1")
 def image_float(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Bright", picture("Bright", 3.0 * stripes(), is_float=True))
     shader = principled_node(material)
     tree.links.new(texture.outputs["Color"], shader.inputs["Emission Color"])
@@ -208,6 +211,7 @@ def image_extensions(folder: Path) -> None:
 
 @awkward("an image without smoothing")
 def image_closest(folder: Path) -> None:
+    stage()
     material, _, texture = textured("Pixels", picture("Pixels", stripes(size=4)))
     texture.interpolation = "Closest"
     _wall(material)
@@ -215,6 +219,7 @@ def image_closest(folder: Path) -> None:
 
 @awkward("an image by box projection", words=("box", "projection"))
 def image_box(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Boxed", picture("Stripes", stripes()))
     texture.projection, texture.projection_blend = "BOX", 0.2
     coordinate = node(tree, "TexCoord")
@@ -224,6 +229,7 @@ def image_box(folder: Path) -> None:
 
 @awkward("a rotated mapping")
 def mapping_rotation(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Turned", picture("Stripes", stripes()))
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
     mapping.inputs["Rotation"].default_value = (0.0, 0.0, 0.8)
@@ -234,6 +240,7 @@ def mapping_rotation(folder: Path) -> None:
 
 @awkward("a mapping as of a texture", words=("mapping",))
 def mapping_texture_type(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Turned", picture("Stripes", stripes()))
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
     mapping.vector_type = "TEXTURE"
@@ -247,6 +254,7 @@ def mapping_texture_type(folder: Path) -> None:
 
 @awkward("a mapping turned about X", words=("mapping",))
 def mapping_about_x(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Turned", picture("Stripes", stripes()))
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
     mapping.inputs["Rotation"].default_value = (1.0, 0.0, 0.7)
@@ -256,6 +264,7 @@ def mapping_about_x(folder: Path) -> None:
 
 
 def _by_coordinate(output: str) -> None:
+    stage()
     material, tree, texture = textured("Placed", picture("Stripes", stripes()))
     coordinate = node(tree, "TexCoord")
     tree.links.new(coordinate.outputs[output], texture.inputs["Vector"])
@@ -284,6 +293,7 @@ def coordinates_reflection(folder: Path) -> None:
 
 @awkward("a named UV map that is not the active one")
 def uv_named(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Named", picture("Stripes", stripes()))
     uv = node(tree, "UVMap")
     uv.uv_map = "Second"
@@ -300,6 +310,7 @@ def uv_named(folder: Path) -> None:
 
 @awkward("a UV map that does not exist")
 def uv_missing(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Named", picture("Stripes", stripes()))
     uv = node(tree, "UVMap")
     uv.uv_map = "Nowhere"
@@ -309,6 +320,7 @@ def uv_missing(folder: Path) -> None:
 
 @awkward("a mesh without UVs under an image")
 def uv_none(folder: Path) -> None:
+    stage()
     _wall(textured("Striped", picture("Stripes", stripes()))[0])
     for name in ("Wall", "Sample"):
         layers = find(name).data.uv_layers
@@ -317,6 +329,7 @@ def uv_none(folder: Path) -> None:
 
 @awkward("the render UV map is another than the active one")
 def uv_active_render(folder: Path) -> None:
+    stage()
     _wall(textured("Striped", picture("Stripes", stripes()))[0])
     layers = find("Wall").data.uv_layers
     second = layers.new(name="Second")
@@ -329,6 +342,7 @@ def uv_active_render(folder: Path) -> None:
 
 def _attribute(kind: str, domain: str, values: Any, field: str) -> None:
     """Wall and ball whose color is an attribute of them of this kind and domain."""
+    stage()
     material = matte("Attributed", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     attribute = node(tree, "Attribute")
@@ -378,6 +392,7 @@ def attribute_bool(folder: Path) -> None:
 
 @awkward("an attribute that no mesh has")
 def attribute_missing(folder: Path) -> None:
+    stage()
     material = matte("Attributed", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     attribute = node(tree, "Attribute")
@@ -388,6 +403,7 @@ def attribute_missing(folder: Path) -> None:
 
 @awkward("an attribute of the object")
 def attribute_of_object(folder: Path) -> None:
+    stage()
     material = matte("Attributed", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     attribute = node(tree, "Attribute")
@@ -399,6 +415,7 @@ def attribute_of_object(folder: Path) -> None:
 
 @awkward("the Color Attribute node")
 def vertex_color_node(folder: Path) -> None:
+    stage()
     material = matte("Painted", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     color = node(tree, "VertexColor")

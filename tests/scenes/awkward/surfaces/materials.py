@@ -36,7 +36,6 @@ def plain(folder: Path) -> None:
 
 def _wall(material: bpy.types.Material) -> bpy.types.Object:
     """A wall behind the camera's things, which the mirror shows, and a ball of it that the eye sees."""
-    stage()
     add_ball("Sample", (-1.2, -1.9, 0.55), 0.55, material)
     return add_sheet("Wall", (0.0, -5.5, 2.0), (6.0, 4.0), material, (-np.pi / 2.0, 0.0, np.pi))
 
@@ -61,16 +60,19 @@ def _gltf(metallic: float, roughness: float) -> bpy.types.Material:
 
 @awkward("glTF's metallic and roughness in one image: rough, not metallic")
 def gltf_leather(folder: Path) -> None:
+    stage()
     _wall(_gltf(0.0, 0.95))
 
 
 @awkward("glTF's metallic and roughness in one image: rough metal", words=("rough", "metal", "glTF", "gloss"))
 def gltf_metal(folder: Path) -> None:
+    stage()
     _wall(_gltf(1.0, 0.6))
 
 
 @awkward("glTF's occlusion in its group node")
 def gltf_occlusion(folder: Path) -> None:
+    stage()
     material = _gltf(0.0, 0.9)
     tree: Any = material.node_tree
     group = bpy.data.node_groups.new("glTF Material Output", "ShaderNodeTree")
@@ -84,6 +86,7 @@ def gltf_occlusion(folder: Path) -> None:
 
 @awkward("a material whose output has no surface")
 def no_surface(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("Nothing")
     tree: Any = material.node_tree
     tree.links.remove(output_of(tree).inputs["Surface"].links[0])
@@ -98,6 +101,7 @@ def empty_slot(folder: Path) -> None:
 
 @awkward("a material without any node")
 def no_nodes(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("Empty")
     material.node_tree.nodes.clear()
     _wall(material)
@@ -105,6 +109,7 @@ def no_nodes(folder: Path) -> None:
 
 @awkward("two outputs, of which one is for another engine")
 def two_outputs(folder: Path) -> None:
+    stage()
     material = matte("Two", (0.8, 0.1, 0.1))
     tree: Any = material.node_tree
     output_of(tree).target = "EEVEE"
@@ -199,6 +204,7 @@ def alpha_zero(folder: Path) -> None:
 
 @awkward("a mix of transparent and diffuse by a checker", words=("transparen", "Checker", "alpha"))
 def alpha_checker(folder: Path) -> None:
+    stage()
     material = matte("Grid", (0.8, 0.1, 0.1))
     tree: Any = material.node_tree
     checker = node(tree, "TexChecker", Scale=6.0)
@@ -208,6 +214,7 @@ def alpha_checker(folder: Path) -> None:
 
 @awkward("subsurface scattering: wax", words=("subsurface",), samples=128)
 def subsurface(folder: Path) -> None:
+    stage()
     material = principled("Wax", (0.9, 0.3, 0.2), roughness=1.0)
     shader = principled_node(material)
     shader.inputs["Subsurface Weight"].default_value = 1.0
@@ -218,6 +225,7 @@ def subsurface(folder: Path) -> None:
 
 @awkward("sheen: velvet", words=("sheen",))
 def sheen(folder: Path) -> None:
+    stage()
     material = matte("Velvet", (0.1, 0.02, 0.02))
     principled_node(material).inputs["Sheen Weight"].default_value = 1.0
     principled_node(material).inputs["Sheen Roughness"].default_value = 0.5
@@ -226,6 +234,7 @@ def sheen(folder: Path) -> None:
 
 @awkward("a coat over paint", words=("coat",))
 def coat(folder: Path) -> None:
+    stage()
     material = matte("Paint", (0.5, 0.02, 0.02))
     principled_node(material).inputs["Coat Weight"].default_value = 1.0
     _wall(material)
@@ -233,6 +242,7 @@ def coat(folder: Path) -> None:
 
 @awkward("a thin film", words=("film", "thin"))
 def thin_film(folder: Path) -> None:
+    stage()
     material = principled("Soap", (0.1, 0.1, 0.1), roughness=0.05, metallic=1.0)
     principled_node(material).inputs["Thin Film Thickness"].default_value = 400.0
     _wall(material)
@@ -261,46 +271,55 @@ def shiny_ball(folder: Path) -> None:
 
 @awkward("rough metal", words=("rough", "gloss"))
 def rough_metal(folder: Path) -> None:
+    stage()
     _wall(principled("Steel", (0.8, 0.7, 0.5), metallic=1.0, roughness=0.5))
 
 
 @awkward("the Metallic shader", words=("metallic", "gloss", "shader"))
 def metallic_shader(folder: Path) -> None:
+    stage()
     _wall(surface("Gold", "BsdfMetallic", Base_Color=(0.9, 0.6, 0.2, 1.0), Roughness=0.6))
 
 
 @awkward("an old Glossy shader", words=("gloss",))
 def glossy_shader(folder: Path) -> None:
+    stage()
     _wall(surface("Glossy", "BsdfAnisotropic", Color=(0.3, 0.7, 0.9, 1.0), Roughness=0.5))
 
 
 @awkward("a rough diffuse shader: Oren-Nayar")
 def oren_nayar(folder: Path) -> None:
+    stage()
     _wall(surface("Clay", "BsdfDiffuse", Color=(0.7, 0.4, 0.3, 1.0), Roughness=1.0))
 
 
 @awkward("light that comes through: Translucent", words=("translucent",))
 def translucent(folder: Path) -> None:
+    stage()
     _wall(surface("Paper", "BsdfTranslucent", Color=(0.9, 0.8, 0.6, 1.0)))
 
 
 @awkward("the toon shader", words=("toon",))
 def toon(folder: Path) -> None:
+    stage()
     _wall(surface("Toon", "BsdfToon", Color=(0.9, 0.2, 0.2, 1.0), Size=0.5, Smooth=0.0))
 
 
 @awkward("the old velvet shader", words=("sheen", "velvet"))
 def sheen_shader(folder: Path) -> None:
+    stage()
     _wall(surface("Sheen", "BsdfSheen", Color=(0.9, 0.3, 0.8, 1.0)))
 
 
 @awkward("hair shaders on a surface", words=("hair",))
 def hair_shader(folder: Path) -> None:
+    stage()
     _wall(surface("Hair", "BsdfHairPrincipled"))
 
 
 @awkward("a ray portal", words=("portal",))
 def ray_portal(folder: Path) -> None:
+    stage()
     _wall(surface("Portal", "BsdfRayPortal", Color=(0.5, 1.0, 0.5, 1.0)))
 
 
@@ -312,11 +331,13 @@ def holdout_shader(folder: Path) -> None:
 
 @awkward("a background shader on a surface", words=("background", "shader"))
 def background_on_surface(folder: Path) -> None:
+    stage()
     _wall(surface("Odd", "Background", Color=(0.3, 0.8, 0.4, 1.0)))
 
 
 @awkward("Add Shader of two")
 def add_shader(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("Sum")
     tree: Any = material.node_tree
     tree.nodes.clear()
@@ -331,6 +352,7 @@ def add_shader(folder: Path) -> None:
 
 @awkward("Mix Shader by Fresnel", words=("fresnel", "mix", "layer weight"))
 def mix_by_fresnel(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("Mixed")
     tree: Any = material.node_tree
     tree.nodes.clear()
@@ -347,6 +369,7 @@ def mix_by_fresnel(folder: Path) -> None:
 
 @awkward("Mix Shader by Backfacing: paint outside, another inside", words=("geometry", "backfacing"))
 def mix_by_backfacing(folder: Path) -> None:
+    stage()
     material = matte("Sides", (0.7, 0.1, 0.1))
     tree: Any = material.node_tree
     mix = node(tree, "Mix")
@@ -361,6 +384,7 @@ def mix_by_backfacing(folder: Path) -> None:
 
 @awkward("emission from Principled over its own color")
 def principled_emission(folder: Path) -> None:
+    stage()
     _wall(principled("Glow", (0.1, 0.1, 0.1), emission=(0.8, 0.3, 0.05)))
 
 
@@ -372,18 +396,19 @@ def emitter_lights(folder: Path) -> None:
 
 @awkward("displacement in the material", words=("displace",))
 def material_displacement(folder: Path) -> None:
+    stage()
     material = matte("Rocks", (0.6, 0.4, 0.2))
     material.displacement_method = "BOTH"
     tree: Any = material.node_tree
     displace, noise = node(tree, "Displacement", Scale=0.8), node(tree, "TexNoise", Scale=3.0)
     tree.links.new(noise.outputs["Fac"], displace.inputs["Height"])
     tree.links.new(displace.outputs[0], output_of(tree).inputs["Displacement"])
-    stage()
     add_ball("Rock", (-1.0, -1.8, 0.6), 0.6, material, 128)
 
 
 @awkward("bump of a thing", words=("bump", "relief"))
 def bump_of_thing(folder: Path) -> None:
+    stage()
     material = matte("Bumpy", (0.7, 0.6, 0.5))
     tree: Any = material.node_tree
     bump, wave = node(tree, "Bump", Distance=0.5), node(tree, "TexWave", Scale=2.0)
@@ -394,6 +419,7 @@ def bump_of_thing(folder: Path) -> None:
 
 def _colored(kind: str, output: str = "Color", **inputs: Any) -> None:
     """A wall whose color is a node's."""
+    stage()
     material = matte("Patterned", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     made = node(tree, kind, **inputs)
@@ -463,6 +489,7 @@ def wavelength(folder: Path) -> None:
 
 
 def _ramped(output: str, stops: list[tuple[float, tuple[float, ...]]]) -> None:
+    stage()
     material = matte("Ramped", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     ramp = node(tree, "ValToRGB", Fac=0.7)
@@ -483,6 +510,7 @@ def ramp_alpha(folder: Path) -> None:
 
 
 def _mixed(blend: str, factor: float, clamp: bool) -> None:
+    stage()
     material = matte("Mix", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     mix = node(tree, "Mix")
@@ -517,6 +545,7 @@ def mix_factor_two(folder: Path) -> None:
 
 @awkward("hue and saturation", words=("hue",))
 def hue_saturation(folder: Path) -> None:
+    stage()
     material, tree, texture = textured("Hue", picture("Orange", np.full((4, 4, 4), (0.9, 0.5, 0.1, 1.0))))
     change = node(tree, "HueSaturation", Hue=0.8, Saturation=1.4)
     tree.links.new(texture.outputs[0], change.inputs["Color"])
@@ -526,6 +555,7 @@ def hue_saturation(folder: Path) -> None:
 
 @awkward("a node group in a node group")
 def nested_groups(folder: Path) -> None:
+    stage()
     groups = []
     for number in range(2):
         group: Any = bpy.data.node_groups.new(f"Group {number}", "ShaderNodeTree")
@@ -552,6 +582,7 @@ def nested_groups(folder: Path) -> None:
 
 @awkward("a muted node, a reroute, and frames")
 def muted_nodes(folder: Path) -> None:
+    stage()
     material = matte("Muted", (0.8, 0.8, 0.8))
     tree: Any = material.node_tree
     color, invert = node(tree, "RGB"), node(tree, "Invert")

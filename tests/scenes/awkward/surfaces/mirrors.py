@@ -30,12 +30,12 @@ from ..stage import (
 
 
 def _of(material: bpy.types.Material) -> None:
-    stage()
     give(MIRROR, material)
 
 
 def _metal(**inputs: Any) -> Any:
     """Chrome with other inputs; returns its tree."""
+    stage()
     material = mirror("Chrome 2")
     for name, value in inputs.items():
         principled_node(material).inputs[name.replace("_", " ")].default_value = value
@@ -104,11 +104,13 @@ def mirror_china(folder: Path) -> None:
 
 @awkward("a matte mirror: nothing is reflected", words=("rough", "diffuse", "Mirror"))
 def mirror_matte(folder: Path) -> None:
+    stage()
     _of(matte("Chalk", (0.8, 0.3, 0.2)))
 
 
 @awkward("a mirror of glass", words=("glass", "transmi", "refract"))
 def mirror_glass(folder: Path) -> None:
+    stage()
     _of(surface("Glass", "BsdfGlass", Roughness=0.0, IOR=1.45))
 
 
@@ -154,21 +156,25 @@ def mirror_thin_film(folder: Path) -> None:
 
 @awkward("a mirror of an emitter alone", words=("emission", "emit", "rough", "reflect"))
 def mirror_emitter(folder: Path) -> None:
+    stage()
     _of(emitter("Lamp", (0.7, 0.5, 0.2)))
 
 
 @awkward("an old Glossy shader without roughness")
 def mirror_glossy_shader(folder: Path) -> None:
+    stage()
     _of(surface("Glossy", "BsdfAnisotropic", Color=(0.9, 0.7, 0.4, 1.0), Roughness=0.0))
 
 
 @awkward("a Metallic shader without roughness", words=("metallic", "shader"))
 def mirror_metallic_shader(folder: Path) -> None:
+    stage()
     _of(surface("Metal", "BsdfMetallic", Base_Color=(0.9, 0.7, 0.4, 1.0), Roughness=0.0))
 
 
 @awkward("a Metallic shader by physical values", words=("metallic", "shader", "conductor"))
 def mirror_metallic_physical(folder: Path) -> None:
+    stage()
     material = surface("Metal", "BsdfMetallic", Roughness=0.0)
     shader = next(item for item in material.node_tree.nodes if item.type == "BSDF_METALLIC")
     shader.fresnel_type = "PHYSICAL_CONDUCTOR"
@@ -176,6 +182,7 @@ def mirror_metallic_physical(folder: Path) -> None:
 
 
 def _mixed(weight: str) -> None:
+    stage()
     material = bpy.data.materials.new("Mixed")
     tree: Any = material.node_tree
     tree.nodes.clear()
@@ -203,6 +210,7 @@ def mirror_mix_half(folder: Path) -> None:
 
 @awkward("an old transparent and glossy mix: lazy glass", words=("transparen", "mix"))
 def mirror_lazy_glass(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("Lazy")
     tree: Any = material.node_tree
     tree.nodes.clear()
@@ -268,6 +276,7 @@ def mirror_bump(folder: Path) -> None:
 
 @awkward("displacement in the mirror's material", words=("displace",))
 def mirror_displacement(folder: Path) -> None:
+    stage()
     tree = _metal()
     bpy.data.materials["Chrome 2"].displacement_method = "DISPLACEMENT"
     displace, noise = node(tree, "Displacement", Scale=0.6), node(tree, "TexNoise", Scale=1.5)
@@ -307,6 +316,7 @@ def mirror_random_roughness(folder: Path) -> None:
 
 @awkward("a one-way mirror: glossy outside, transparent inside", words=("transparen", "geometry", "mix"))
 def mirror_one_way(folder: Path) -> None:
+    stage()
     material = bpy.data.materials.new("One way")
     tree: Any = material.node_tree
     tree.nodes.clear()
