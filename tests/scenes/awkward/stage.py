@@ -27,6 +27,8 @@ from curvrefl.curvrefl_addon.demo.shapes import Shape, ball, box, plane
 from .registry import MIRROR
 
 SIZE = (160, 120)
+DARK = (0.02, 0.02, 0.03)
+"""A sky that lamps are seen in"""
 SKY = (0.45, 0.56, 0.74)
 EYE = (0.0, -4.6, 2.1)
 type Color = tuple[float, float, float]
@@ -106,6 +108,12 @@ def add_lamp(kind: str, place: Place, energy: float, target: Place = (0.0, 0.0, 
     thing.rotation_euler = (Vector(target) - Vector(place)).to_track_quat("-Z", "Y").to_euler()
     bpy.context.scene.collection.objects.link(thing)
     return thing
+
+
+def wall_of(material: bpy.types.Material) -> bpy.types.Object:
+    """A wall behind the camera, for the mirror, and a ball for the eye: Wall, which is returned, and Sample."""
+    add_ball("Sample", (-1.2, -1.9, 0.55), 0.55, material)
+    return add_sheet("Wall", (0.0, -5.5, 2.0), (6.0, 4.0), material, (-np.pi / 2.0, 0.0, np.pi))
 
 
 def link(data: Any, name: str, place: Place = (0.0, 0.0, 0.0)) -> Any:
@@ -192,6 +200,7 @@ def mesh_of(name: str, positions: Any, polygons: Any, material: bpy.types.Materi
 
 
 __all__ = [
+    "DARK",
     "add_ball",
     "add_box",
     "add_lamp",
@@ -217,5 +226,6 @@ __all__ = [
     "stripes",
     "surface",
     "textured",
+    "wall_of",
     "world_tree",
 ]
