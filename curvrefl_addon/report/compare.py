@@ -26,8 +26,8 @@ from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import Float32Array, SceneArrays
-from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
-from ..scene.extract import extract_scene
+from ..scene.blend_file import find_camera, open_blend
+from ..scene.render_depsgraph import read_render_scene
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
@@ -177,13 +177,12 @@ def compare_steps(
     """
     output = checked_folder(output)
     count = 4 + len(comparison.methods) + len(comparison.peers)
-    with _camera_in_use(scene, camera) as camera_object:
+    with _camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
-        view = view_of_camera(scene, camera_object, comparison.width, comparison.height)
-        with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-            depsgraph = bpy.context.evaluated_depsgraph_get()
         start = time.perf_counter()
-        arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
+        arrays, view = read_render_scene(
+            scene, view_layer, reflector_names, comparison.width, comparison.height, camera
+        )
         extract_ms = 1e3 * (time.perf_counter() - start)
         with folder_to_publish(output) as folder:
             run = _run(
@@ -312,12 +311,11 @@ def _silent(_message: str) -> None:
 
 
 @contextmanager
-def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[bpy.types.Object]:
-    """`scene.camera` is the camera object called `name` (or stays) for the time being."""
+def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+    """`scene.camera` is for the time being the camera object called `name`, or the one that Blender renders by."""
     before = scene.camera
-    camera = find_camera(scene, name)
-    scene.camera = camera
+    scene.camera = find_camera(scene, name)
     try:
-        yield camera
+        yield
     finally:
         scene.camera = before

@@ -7,8 +7,7 @@ Everything that is changed for a still is set back after it. All stills are scen
 (height, width, 4), row 0 at the BOTTOM, of the scene's camera at its current frame, without denoising,
 compositing, sequencer, stereo or crop, and with an opaque background.
 
-The geometry is the *viewport's* (its subdivision levels, its hidden objects), since that is what the
-renderer under test is given.
+The geometry is the file's, as F12 renders it.
 """
 
 from __future__ import annotations
@@ -23,9 +22,10 @@ import bpy
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array
+from ..scene.render_depsgraph import use_camera
+from ..scene.temporary_settings import TemporarySettings, temporary_settings
 from .images import load_exr
 from .repeats import Timing, repeated
-from .temporary_settings import TemporarySettings, temporary_settings
 
 LIGHTS = ("direct", "full")
 PEERS = ("eevee", "cycles1", "cycles8", "cycles64")
@@ -70,7 +70,6 @@ def render_reference(
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
-        use_viewport_geometry(changes, scene, view_layer)
         use_cycles(changes, scene, view_layer, samples, light)
         return render_still(scene, view_layer)
 
@@ -93,7 +92,6 @@ def render_peer(
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
-        use_viewport_geometry(changes, scene, view_layer)
         # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
         if peer == "eevee":
             _use_eevee(changes, scene, light)
@@ -149,35 +147,7 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
     if isinstance(camera, bpy.types.Camera):
         # The renderer under test has a pinhole.
         changes.set(camera.dof, use_dof=False)
-    for marker in scene.timeline_markers:
-        # A marker with a camera would replace the chosen one as the render starts.
-        changes.set(marker, camera=None)
-    # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
-    changes.set(scene, camera=scene.camera)
-
-
-def use_viewport_geometry(changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
-    """Render what the viewport's dependency graph shows: its detail and its hidden objects."""
-    changes.set(scene.render, simplify_subdivision_render=scene.render.simplify_subdivision)
-    in_view_layer = set(view_layer.objects)
-    for obj in bpy.data.objects:
-        hidden = obj.hide_viewport or (obj in in_view_layer and not obj.visible_get(view_layer=view_layer))
-        if hidden:
-            changes.set(obj, hide_render=True)
-        changes.set(obj, show_instancer_for_render=obj.show_instancer_for_viewport)
-        modifier: Any
-        for modifier in obj.modifiers:
-            changes.set(modifier, show_render=modifier.show_viewport)
-            if modifier.type in ("SUBSURF", "MULTIRES"):
-                changes.set(modifier, render_levels=modifier.levels)
-            if modifier.type == "SUBSURF":
-                changes.set(modifier, use_adaptive_subdivision=False)
-            elif modifier.type == "SCREW":
-                changes.set(modifier, render_steps=modifier.steps)
-    for curve in bpy.data.curves:
-        changes.set(curve, render_resolution_u=0, render_resolution_v=0)
-    for metaball in bpy.data.metaballs:
-        changes.set(metaball, render_resolution=metaball.resolution)
+    use_camera(changes, scene, scene.camera)
 
 
 def use_cycles(

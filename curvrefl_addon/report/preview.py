@@ -14,11 +14,11 @@ import bpy
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
-from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
-from ..scene.changes import Changes
+from ..scene.blend_file import find_reflectors
 from ..scene.extract import SceneReader
+from ..scene.render_depsgraph import read_render_scene
+from ..scene.temporary_settings import temporary_settings
 from .images import save_exr, to_image_datablock
-from .temporary_settings import temporary_settings
 
 
 class PreviewRenderer:
@@ -28,7 +28,7 @@ class PreviewRenderer:
         """`mirrors`: names of objects."""
         self._mirrors = tuple(mirrors)
         self._samples = samples
-        self._reader = SceneReader(for_render=True)
+        self._reader = SceneReader()
         self._renderer: Renderer | None = None
 
     def render(self, context: bpy.types.Context) -> Float32Array:
@@ -36,16 +36,16 @@ class PreviewRenderer:
 
         Raises InputError for what the user can change: camera, mirrors.
         """
-        scene = context.scene
-        assert scene is not None
+        scene, view_layer = context.scene, context.view_layer
+        assert scene is not None and view_layer is not None
         scale = scene.render.resolution_percentage / 100.0
         width = max(int(scene.render.resolution_x * scale), 1)
         height = max(int(scene.render.resolution_y * scale), 1)
-        depsgraph = context.evaluated_depsgraph_get()
-        view = view_of_camera(scene, find_camera(scene), width, height, depsgraph)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
-        mirrors = find_reflectors(scene, self._mirrors)
-        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True), overrides_of(mirrors))
+        overrides = overrides_of(find_reflectors(scene, self._mirrors))
+        arrays, view = read_render_scene(
+            scene, view_layer, self._mirrors, width, height, reader=self._reader, overrides=overrides
+        )
         settings = settings_of(scene.curvrefl, self._samples)
         if self._renderer is None:
             self._renderer = Renderer(arrays, settings)

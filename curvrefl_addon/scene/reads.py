@@ -95,6 +95,12 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
     return materials or [None]
 
 
+def is_diced(obj: bpy.types.Object) -> bool:
+    """Whether Cycles subdivides an object as finely as its pixels ask for."""
+    modifier = obj.original.modifiers[-1] if obj.original.modifiers else None
+    return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
+
+
 def needs_of(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
     """What the first slots that need a UV map or colors say: a mesh has one of each here."""
     uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
