@@ -116,6 +116,10 @@ class Settings:
         soft=(1, 32),
         panel="Quality",
         preference=True,
+        flags=(
+            Flag("render", "--bounces", "from mirror to mirror"),
+            Flag("compare", "--bounces", "from mirror to mirror, of Cycles' direct light too"),
+        ),
         said="{} bounces are",
     )
     """Mirrors on the way of a ray (`exact`); what the last one shows of a mirror is its own light alone"""

@@ -31,6 +31,7 @@ from ..scene.extract import extract_scene
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
+from .direct_light import mirrors_met
 from .display import inverse_display_transform
 from .geometry_reference import render_geometry
 from .html import report_page
@@ -79,13 +80,8 @@ class Comparison:
 
 
 def new_renderer(comparison: Comparison) -> MakeRenderer:
-    """Makes the extension's renderers, with the comparison's settings.
-
-    In direct light Cycles follows one bounce off a mirror, and so do they.
-    """
+    """Makes the extension's renderers, with the comparison's settings."""
     settings = comparison.settings
-    if comparison.light == "direct":
-        settings = replace(settings, bounces=1)
     return lambda scene, method: Renderer(scene, replace(settings, method=method))
 
 
@@ -249,7 +245,8 @@ def _run(
     truth = render_geometry(scene, view_layer, width, height, object_ids, arrays.reflectors)
     mask = truth.mask != 0
     yield f"Rendering the reference in Cycles with {comparison.samples} samples"
-    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
+    bounces = mirrors_met(arrays, comparison.settings.bounces)
+    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light, bounces)
     save_png(folder / "reference.png", _opaque(reference.pixels))
 
     methods, mismatch = {}, {}
@@ -276,7 +273,7 @@ def _run(
     peers = {}
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
-        still = render_peer(scene, view_layer, peer, width, height, comparison.light)
+        still = render_peer(scene, view_layer, peer, width, height, comparison.light, bounces=bounces)
         save_png(folder / f"{peer}.png", _opaque(still.pixels))
         peers[peer] = {
             "image": image_error(still.pixels, reference.pixels, mask),

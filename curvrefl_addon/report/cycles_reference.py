@@ -62,16 +62,18 @@ def render_reference(
     height: int,
     samples: int,
     light: str = "direct",
+    bounces: int = 1,
 ) -> Still:
     """The scene in Cycles on the CPU.
 
-    `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that
-    way; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter that the user has set.
+    `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that way, up to
+    `bounces` mirrors one after the other; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter
+    that the user has set.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
         use_viewport_geometry(changes, scene, view_layer)
-        use_cycles(changes, scene, view_layer, samples, light)
+        use_cycles(changes, scene, view_layer, samples, light, bounces)
         return render_still(scene, view_layer)
 
 
@@ -84,6 +86,7 @@ def render_peer(
     light: str = "direct",
     repeats: int = 1,
     seconds: float = 0.0,
+    bounces: int = 1,
 ) -> PeerStill:
     """The scene in one of `PEERS`. A first render compiles and loads; then come up to `repeats` timed ones, as long as
     `seconds` have not passed.
@@ -101,7 +104,7 @@ def render_peer(
             render_still(scene, view_layer)
             changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES)
         elif peer in PEERS:
-            use_cycles(changes, scene, view_layer, 1, light)
+            use_cycles(changes, scene, view_layer, 1, light, bounces)
             cycles = cycles_settings(scene)
             changes.set(cycles, seed=(cycles.seed + 1) % MOST_SEEDS)
             render_still(scene, view_layer)
@@ -186,8 +189,9 @@ def use_cycles(
     view_layer: bpy.types.ViewLayer,
     samples: int,
     light: str,
+    bounces: int = 1,
 ) -> None:
-    """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for `light`."""
+    """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for the light."""
     cycles = cycles_settings(scene)
     changes.set(scene.render, engine="CYCLES")
     changes.set(
@@ -201,13 +205,13 @@ def use_cycles(
     )
     changes.set(view_layer, samples=0, use_pass_combined=True)
     if light == "direct":
-        # One bounce off the mirror; what it shows is lit, then the path ends. Cycles still follows the last
-        # bounce to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
+        # From mirror to mirror; what the last one shows is lit, then the path ends. Cycles still follows that bounce
+        # to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
         changes.set(
             cycles,
-            max_bounces=1,
+            max_bounces=bounces,
             diffuse_bounces=0,
-            glossy_bounces=1,
+            glossy_bounces=bounces,
             transmission_bounces=0,
             volume_bounces=0,
             sample_clamp_direct=0.0,
