@@ -181,6 +181,13 @@ class Settings:
         flags=(Flag("render", "--shadow-rays", _SHADOW_RAYS), Flag("compare", "--shadow-rays", _SHADOW_RAYS)),
     )
 
+    film_transparent: bool = setting(
+        False,
+        label="Transparent Film",
+        text="The background is left out where the eye sees it itself; mirrors show it",
+    )
+    """Of renders it is the scene's own"""
+
     @property
     def entry(self) -> Method:
         """Of the method, in the catalog."""

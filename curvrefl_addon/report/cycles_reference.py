@@ -5,7 +5,7 @@
 
 Everything that is changed for a still is set back after it. All stills are scene-linear float32 arrays
 (height, width, 4), row 0 at the BOTTOM, of the scene's camera at its current frame, without denoising,
-compositing, sequencer, stereo or crop, and with an opaque background.
+compositing, sequencer, stereo or crop. Film exposure is 1: pictures get theirs as they are shown.
 
 The geometry is the *viewport's* (its subdivision levels, its hidden objects), since that is what the
 renderer under test is given.
@@ -131,8 +131,6 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         use_sequencer=False,
         use_stamp=False,
         use_freestyle=False,
-        use_motion_blur=False,
-        film_transparent=False,
         use_file_extension=True,
         use_overwrite=True,
         use_placeholder=False,
@@ -148,15 +146,19 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         color_depth="32",
         exr_codec="NONE",
     )
-    camera = scene.camera.data if scene.camera is not None else None
-    if isinstance(camera, bpy.types.Camera):
-        # The renderer under test has a pinhole.
-        changes.set(camera.dof, use_dof=False)
     for marker in scene.timeline_markers:
         # A marker with a camera would replace the chosen one as the render starts.
         changes.set(marker, camera=None)
     # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
     changes.set(scene, camera=scene.camera)
+
+
+def use_pinhole(changes: TemporarySettings, scene: bpy.types.Scene) -> None:
+    """The moment of the frame through a point, on an opaque film."""
+    changes.set(scene.render, use_motion_blur=False, film_transparent=False)
+    camera = scene.camera.data if scene.camera is not None else None
+    if isinstance(camera, bpy.types.Camera):
+        changes.set(camera.dof, use_dof=False)
 
 
 def use_viewport_geometry(changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:

@@ -9,7 +9,7 @@ from ..scene.arrays import SceneArrays
 
 
 def mirrors_met(scene: SceneArrays, bounces: int) -> int:
-    """Mirrors one after the other on the way of a ray in direct light: `bounces` where mirrors can meet mirrors, else 1.
+    """Mirrors one after the other on the way of a ray in direct light: `bounces` where mirrors can meet, else 1.
 
     With a single closed convex mirror the renderer needs no more, and with one bounce Cycles follows no reflections in
     glossy objects that are not chosen as mirrors.

@@ -124,7 +124,9 @@ def _marks(
     mask = geometry.mask != 0
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
-        still = render_peer(scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS, bounces)
+        still = render_peer(
+            scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS, bounces
+        )
         error = image_error(still.pixels, reference.pixels, mask)
         samples = peer.removeprefix("cycles")
         engine = ("cycles", "samples", float(samples)) if samples.isdigit() else (peer, "", None)
