@@ -25,6 +25,7 @@ from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
 from .shown.nothing import ShownNothing
+from .shown.rays import ShownRays
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import Targets
 from .surfaces.canvas import Canvas
@@ -185,7 +186,7 @@ class Renderer:
         """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`."""
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
-        reflection = self.reflect(view, last=last, is_still=True, at_rest=True)
+        reflection = self.reflect(view, last=last, is_still=view.lens is None, at_rest=True)
         reflection.wait()
         solved = perf_counter()
         for index in range(self.settings.samples):
@@ -239,6 +240,8 @@ class Renderer:
         with a `diagnostic` view.
         """
         dx, dy = self._jitter[index]
+        if reflection.view.lens is not None:
+            reflection = self._through_lens(reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
@@ -248,10 +251,21 @@ class Renderer:
             return
         self._lighting.prepare(index)
         if not groups:
-            self._shade.add(canvas, sub_frame.targets.seen, None, sub_frame.uniforms, weight, window)
+            seen, film = sub_frame.targets.seen, self.settings.film_transparent
+            self._shade.add(canvas, seen, None, sub_frame.uniforms, weight, window, film_transparent=film)
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            kind.add_light(members, sub_frame, Light(canvas, weight, chosen, with_others=number == 0))
+            light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
+            kind.add_light(members, sub_frame, light)
+
+    def _through_lens(self, reflection: Reflection, index: int) -> Reflection:
+        """What the mirrors show from a place on the lens: solved again where it depends on the eye."""
+        lens = reflection.view.lens
+        assert lens is not None
+        view = reflection.view.through(*lens.points(self.settings.samples)[index])
+        if all(kind is ShownRays for kind, _ in reflection.groups):
+            return replace(reflection, view=view)
+        return self.reflect(view, last=reflection, at_rest=True)
 
     def _add_diagnostic(
         self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic

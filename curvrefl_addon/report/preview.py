@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import replace
 from types import TracebackType
 from typing import Self
 
@@ -17,8 +17,7 @@ from ..scene.arrays import Float32Array
 from ..scene.blend_file import find_reflectors
 from ..scene.extract import SceneReader
 from ..scene.render_depsgraph import read_render_scene
-from ..scene.temporary_settings import temporary_settings
-from .images import save_exr, to_image_datablock
+from .as_shown import on_film
 
 
 class PreviewRenderer:
@@ -46,12 +45,12 @@ class PreviewRenderer:
         arrays, view = read_render_scene(
             scene, view_layer, self._mirrors, width, height, reader=self._reader, overrides=overrides
         )
-        settings = settings_of(scene.curvrefl, self._samples)
+        settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
         if self._renderer is None:
             self._renderer = Renderer(arrays, settings)
         else:
             self._renderer.update(arrays)
-        return self._renderer.render(view).color()
+        return on_film(self._renderer.render(view).color(), scene)
 
     def __enter__(self) -> Self:
         return self
@@ -62,27 +61,3 @@ class PreviewRenderer:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
-
-
-def save_displayed(pixels: Float32Array, scene: bpy.types.Scene, path: Path) -> None:
-    """Write a scene-linear picture (h, w, 4): .exr as it is, .png through the scene's view transform and look.
-
-    Raises OSError when the file cannot be written.
-    """
-    if path.suffix.lower() == ".exr":
-        save_exr(path, pixels)
-        return
-    image = to_image_datablock("curvrefl preview", pixels)
-    try:
-        with temporary_settings() as changes:
-            changes.set(
-                scene.render.image_settings,
-                media_type="IMAGE",
-                file_format="PNG",
-                color_management="FOLLOW_SCENE",
-                color_mode="RGB",
-                color_depth="8",
-            )
-            image.save_render(str(path), scene=scene)
-    finally:
-        bpy.data.images.remove(image)

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from .lens import lens_of
 from .view import View
 
 SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
@@ -118,6 +119,7 @@ def view_of_camera(
         view_to_clip=np.array(projection, dtype=np.float64),
         width=width,
         height=height,
+        lens=lens_of(data, placed, depsgraph),
     )
 
 

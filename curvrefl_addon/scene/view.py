@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from .arrays import Float64Array
+from .lens import Lens
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,8 @@ class View:
     """(4, 4) projection"""
     width: int
     height: int
+    lens: Lens | None = None
+    """Sub-frames look through places on it; None is a pinhole"""
 
     @property
     def is_orthographic(self) -> bool:
@@ -58,6 +61,17 @@ class View:
         shift[0, 3] = 2.0 * dx / self.width
         shift[1, 3] = 2.0 * dy / self.height
         return replace(self, view_to_clip=shift @ self.view_to_clip)
+
+    def through(self, x: float, y: float) -> View:
+        """The pinhole at this place on the lens, meters: what is in focus stays where it is in the picture."""
+        assert self.lens is not None
+        shift, lean = np.eye(4), np.eye(4)
+        shift[:2, 3] = (-x, -y)
+        lean[:2, 2] = (-x / self.lens.focus, -y / self.lens.focus)
+        if self.is_orthographic:
+            # All rays lean the same way: the eye is in another direction.
+            return replace(self, world_to_view=shift @ lean @ self.world_to_view, lens=None)
+        return replace(self, world_to_view=shift @ self.world_to_view, view_to_clip=self.view_to_clip @ lean, lens=None)
 
     def project(self, points: Float64Array) -> Float64Array:
         """Pixel coordinates (n, 2), origin bottom left, of world points (n, 3)."""
