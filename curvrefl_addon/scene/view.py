@@ -38,6 +38,19 @@ class View:
         return np.array([*view_to_world[:3, 3], 1.0])
 
     @cached_property
+    def place(self) -> Float64Array:
+        """(3,) where the view's own origin is in the world."""
+        return np.asarray(np.linalg.inv(self.world_to_view)[:3, 3], np.float64)
+
+    def about(self, origin: Float64Array) -> View:
+        """The same view of a world whose origin is at the point (3,) of this one."""
+        if not origin.any():
+            return self
+        world_to_view = self.world_to_view.copy()
+        world_to_view[:3, 3] += world_to_view[:3, :3] @ origin
+        return replace(self, world_to_view=world_to_view)
+
+    @cached_property
     def world_to_clip(self) -> Float64Array:
         """(4, 4)"""
         return self.view_to_clip @ self.world_to_view
