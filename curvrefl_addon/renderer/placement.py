@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, LightArrays, MeshArrays, SceneArrays
-from ..scene.view import View
+from ..scene.view import DEEPEST, View
 from .geometry.mesh_facts import MeshFactsCache
 from .geometry.scene_geometry import SceneGeometry
 from .mirrors.mirror import Mirror
@@ -27,6 +27,9 @@ NEAREST = 0.01
 """Share of its size that the eye counts as away from what it looks at, if it is nearer"""
 OFF_CENTER = 16.0
 """A mesh is moved whose middle lies so many times its size from its object's origin"""
+
+SLACK = 0.99
+"""Of distances that a view is fitted to"""
 
 
 class Placement:
@@ -141,3 +144,28 @@ def _eyes(view: View, centers: Float64Array) -> Float64Array:
         return np.broadcast_to(view.place, centers.shape)
     axis = view.eye[:3]
     return view.place + ((centers - view.place) @ axis)[:, None] * axis
+
+
+def with_depths_that_fit(view: View, scene: SceneArrays, geometry: SceneGeometry) -> View:
+    """The view with a projection for what there is between its ends, where these are very far apart."""
+    near, far = view.clip_range
+    if not geometry.placed or (not view.is_orthographic and far <= DEEPEST * near):
+        return view
+    corners = geometry.box_corners(range(len(geometry.placed))).reshape(-1, 8, 3)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    lamps = [light for light in scene.lights if light.kind != "SUN"]
+    if lamps:
+        places = np.array([light.matrix[:3, 3] for light in lamps])
+        reaches = np.array([[max(light.radius, *light.size)] for light in lamps])
+        low, high = np.concatenate([low, places - reaches]), np.concatenate([high, places + reaches])
+    ends = np.stack([low, high])
+    row = view.world_to_view[2]
+    # Along the line of sight, of the box's corner that is nearest and of the one that is farthest.
+    ahead = -(row[:3] * ends)
+    nearest, farthest = ahead.min(axis=0).sum(axis=1) - row[3], ahead.max(axis=0).sum(axis=1) - row[3]
+    if not view.is_orthographic:
+        # No point of the picture is farther off the line of sight than its corners.
+        slopes = (1.0 + np.abs(view.view_to_clip[[0, 1], 2])) / np.diag(view.view_to_clip)[:2]
+        away = np.linalg.norm(np.clip(view.place, low, high) - view.place, axis=1)
+        nearest = np.maximum(nearest, away / np.sqrt(1.0 + slopes @ slopes))
+    return view.fitted(SLACK * float(nearest.min()), float(farthest.max()) / SLACK)

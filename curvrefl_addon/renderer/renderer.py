@@ -20,7 +20,7 @@ from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
-from .placement import Placement, wanted_origin
+from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
@@ -33,7 +33,7 @@ from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
-from .surfaces.primary import draw_primary
+from .surfaces.primary import depths_of, draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
@@ -220,7 +220,7 @@ class Renderer:
         origin = self._placement.origin
         view = view.about(origin)
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
-        view = view.about(self._placement.origin - origin)
+        view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
@@ -331,6 +331,7 @@ class Renderer:
             None if everywhere else window,
             lambda chunk: self.geometry.hidden_faces(chunk, view),
             with_reliefs=lambda chunk: id(chunk) not in smooth,
+            depths=depths_of(view),
         )
         return sub_frame
 

@@ -15,6 +15,8 @@ from ..errors import InputError
 from .finite import problem_of_place
 from .view import View
 
+EXACT_DEPTHS = 1.001e4
+"""Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
 SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """Object types that may evaluate to a mesh"""
 # Uncompressed, Zstandard and (before Blender 3.0) gzip.
@@ -113,6 +115,7 @@ def view_of_camera(
         view_to_clip=np.array(projection, dtype=np.float64),
         width=width,
         height=height,
+        clip=(data.clip_start, data.clip_end) if data.clip_end > EXACT_DEPTHS * data.clip_start else None,
     )
 
 

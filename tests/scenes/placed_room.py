@@ -35,15 +35,15 @@ def build(place: Place = (0.0, 0.0, 0.0), scale: float = 1.0, size: tuple[int, i
         return Vector((place[0] + scale * x, place[1] + scale * y, place[2] + scale * z))
 
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=2.0 * scale)
-    ball = _placed(at(0, 0, 2), _material("Chrome", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.0), MIRROR)
+    ball = placed_object(at(0, 0, 2), material("Chrome", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.0), MIRROR)
     ball.data.polygons.foreach_set("use_smooth", np.ones(len(ball.data.polygons), bool))
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8, size=32.0 * scale)
-    _placed(at(0, 0, 0), _material("Gray", (0.5, 0.5, 0.5)), "Floor")
+    placed_object(at(0, 0, 0), material("Gray", (0.5, 0.5, 0.5)), "Floor")
     blocks = ((4, 0, 1, 2), (-4, 1, 1, 2), (-2, -3, 1, 1), (3, -3, 1, 1), (0, 6, 3, 4), (1, -7, 1, 1))
     colors = ((0.8, 0.1, 0.1), (0.1, 0.6, 0.1), (0.1, 0.2, 0.8), (0.8, 0.7, 0.1), (0.7, 0.2, 0.7), (0.1, 0.7, 0.7))
     for number, ((x, y, z, edge), color) in enumerate(zip(blocks, colors, strict=True), 1):
         bpy.ops.mesh.primitive_cube_add(size=edge * scale)
-        _placed(at(x, y, z), _material(f"Paint {number}", color), f"Block {number}")
+        placed_object(at(x, y, z), material(f"Paint {number}", color), f"Block {number}")
     _lamp("POINT", at(-3, -5, 6), 600.0 * scale**2, radius=0.25 * scale)
     _lamp("AREA", at(5, -3, 7), 500.0 * scale**2, radius=2.0 * scale)
     _lamp("SUN", at(0, 0, 8), 0.5, radius=0.0)
@@ -64,14 +64,16 @@ def read(ball: bpy.types.Object, size: tuple[int, int] = (96, 72)) -> tuple[Scen
     return extract_scene(depsgraph, scene, [ball]), view_of_camera(scene, scene.camera, *size)
 
 
-def _placed(location: Vector, material: bpy.types.Material, name: str) -> bpy.types.Object:
+def placed_object(location: Vector | Place, paint: bpy.types.Material, name: str) -> bpy.types.Object:
+    """The active object, named, placed and painted."""
     thing = bpy.context.object
     thing.name, thing.location = name, location
-    thing.data.materials.append(material)
+    thing.data.materials.append(paint)
     return thing
 
 
-def _material(name: str, color: Place, metallic: float = 0.0, roughness: float = 0.5) -> bpy.types.Material:
+def material(name: str, color: Place, metallic: float = 0.0, roughness: float = 0.5) -> bpy.types.Material:
+    """A plain Principled BSDF."""
     material = bpy.data.materials.new(name)
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (*color, 1.0)

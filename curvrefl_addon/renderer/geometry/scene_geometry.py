@@ -199,7 +199,7 @@ class SceneGeometry:
                 keep = np.array([item.instance.visible_camera for item in chunk.placed])
                 if batches := chunk.batches(keep, holdouts=True):
                     self._seen.append((chunk, batches))
-        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_clip)]
+        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_volume)]
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
