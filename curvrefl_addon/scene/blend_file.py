@@ -12,9 +12,12 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from .finite import problem_of_place
 from .lens import lens_of
 from .view import View
 
+EXACT_DEPTHS = 1.001e4
+"""Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
 SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """Object types that may evaluate to a mesh"""
 # Uncompressed, Zstandard and (before Blender 3.0) gzip.
@@ -101,8 +104,10 @@ def view_of_camera(
     if data.type not in ("PERSP", "ORTHO"):
         raise InputError(f'Camera "{camera.name}" is panoramic: make it perspective or orthographic.')
     placed = np.array(evaluated.matrix_world, dtype=np.float64)
+    if problem := problem_of_place(placed, 0.0):
+        raise InputError(f'Camera "{camera.name}" {problem}: clear its location, rotation and scale.')
     lengths = np.linalg.norm(placed[:3, :3], axis=0)
-    if not np.isfinite(placed).all() or lengths.min() == 0.0:
+    if lengths.min() == 0.0:
         raise InputError(f'Camera "{camera.name}" has a zero or endless scale: clear its scale.')
     placed[:3, :3] /= lengths
     if abs(np.linalg.det(placed[:3, :3])) < 1e-6:
@@ -114,12 +119,15 @@ def view_of_camera(
         scale_x=scene.render.pixel_aspect_x,
         scale_y=scene.render.pixel_aspect_y,
     )
+    if not np.isfinite(np.array(projection)).all():
+        raise InputError(f'Camera "{camera.name}" has a lens, shift or clip range that is not a usable number: set it.')
     return View(
         world_to_view=np.linalg.inv(placed),
         view_to_clip=np.array(projection, dtype=np.float64),
         width=width,
         height=height,
         lens=lens_of(data, placed, depsgraph),
+        clip=(data.clip_start, data.clip_end) if data.clip_end > EXACT_DEPTHS * data.clip_start else None,
     )
 
 

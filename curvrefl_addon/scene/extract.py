@@ -18,6 +18,7 @@ import numpy as np
 from ..errors import InputError
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
+from .finite import problem_of_place
 from .lights import read_light
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
@@ -237,6 +238,11 @@ class SceneReader:
             return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
+        if problem := problem_of_place(matrix, 0.0):
+            return ShownInstance(
+                warnings=(f'"{name}" {problem} and is left out.',) if rays.any else (),
+                error=f'"{name}" {problem}: clear its location, rotation and scale.',
+            )
         # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
         determinant = instance.matrix_world.to_3x3().determinant()
         squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
@@ -257,6 +263,11 @@ class SceneReader:
         error = (
             f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
         )
+        if problem := problem_of_place(matrix, stored.reach):
+            return ShownInstance(
+                warnings=(*warnings, f'"{name}" {problem} and is left out.'),
+                error=error or f'"{name}" {problem}: clear its scale, or choose another.',
+            )
         if len(self._meshes.meshes[stored.number].triangles) == 0:
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
         if is_diced(obj):

@@ -20,6 +20,8 @@ SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
 
 
+SMALLEST_SIZE = 1e-12
+"""Greatest stretch under which nothing is left of a mesh"""
 SURELY_REGULAR = 1e-4
 """Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
 
@@ -148,4 +150,4 @@ def is_singular(matrix: Float64Array) -> bool:
     if not np.isfinite(matrix).all():
         return True
     stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])
+    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0] or stretches[0] < SMALLEST_SIZE)

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
+from .finite import usable_world
 from .materials.images import ImageReader
 from .materials.node_colors import Change, ColorReader, NodeColor
 from .materials.node_links import Source, find_input, source_of, surface_source
@@ -45,12 +46,14 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
     if world is None:
         return WorldArrays()
     source = surface_source(world.node_tree)
-    if source is None:
+    notes: list[str] = []
+    if source is not None:
+        result = _WorldReader(images, notes).background(source)
+    else:
         # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
         has_output = world.node_tree is not None and world.node_tree.get_output_node("CYCLES") is not None
-        return WorldArrays() if has_output else WorldArrays(_triple(world.color))
-    notes: list[str] = []
-    result = _WorldReader(images, notes).background(source)
+        result = WorldArrays() if has_output else WorldArrays(_triple(world.color))
+    result = usable_world(result, notes)
     if notes:
         warnings.append(f'World "{world.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
     return result

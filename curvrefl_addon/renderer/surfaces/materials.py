@@ -95,5 +95,6 @@ class Materials:
 
 
 def _texture(image: ImageArrays) -> Any:
-    fmt = "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F"
+    fits = image.pixels.max(initial=0.0) < 6e4 and image.pixels.min(initial=0.0) > -6e4
+    fmt = "RGBA16F" if fits else "RGBA32F"
     return texture_2d(image.pixels, fmt, not image.nearest, image.repeat)

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..arrays import Float32Array
+from ..finite import usable_pixels
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
@@ -66,6 +67,12 @@ class ImageReader:
             warnings.append(f'Image "{image.name}" has no pixels: it is drawn magenta, as in Blender.')
             return np.array([[MISSING_COLOR]], np.float32)
         pixels = _four_channels(pixels.reshape(height, width, -1))
+        if image.is_float:
+            pixels, count = usable_pixels(pixels)
+            if count:
+                warnings.append(
+                    f'Image "{image.name}" has pixels that are not usable numbers ({count}): they are drawn black.'
+                )
         # Blender makes float images linear as it loads them; bytes stay as they are in the file.
         space = image.colorspace_settings.name
         if not image.is_float and space not in _LINEAR:

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..arrays import ImageArrays, MaterialArrays, ReliefArrays
+from ..finite import usable_image, usable_material
 from ..meshes.meshes import MeshNeeds
 from .images import ImageReader
 from .node_colors import ColorReader, NodeColor
@@ -115,7 +116,7 @@ class MaterialReader:
             plain = MaterialArrays(
                 material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
             )
-            return plain, MeshNeeds()
+            return usable_material(plain, notes), MeshNeeds()
         surface = _ShaderReader(self._textures, notes).surface(source)
         arrays = replace(surface.rest, name=material.name, base_color=surface.color.factor)
         needs = MeshNeeds(colors=surface.color.vertex_colors)
@@ -123,13 +124,14 @@ class MaterialReader:
         if isinstance(texture, SurfaceTexture):
             arrays = replace(
                 arrays,
-                image=self._image_index(texture.image),
+                image=self._image_index(usable_image(texture.image, notes)),
                 uv_scale=texture.space.scale,
                 uv_offset=texture.space.offset,
             )
             needs = replace(needs, uv_map=texture.space.uv_map)
         if surface.relief is not None:
             arrays, needs = self._with_relief(arrays, needs, surface.relief, notes)
+        arrays = usable_material(arrays, notes)
         return replace(arrays, uses_vertex_color=needs.colors is not None), needs
 
     def _with_relief(
@@ -141,7 +143,7 @@ class MaterialReader:
             notes.append("its bumps are left out: they are on another UV map than its color")
             return arrays, needs
         found = ReliefArrays(
-            self._image_index(relief.texture.image, arrays.image),
+            self._image_index(usable_image(relief.texture.image, notes), arrays.image),
             relief.is_bump,
             relief.strength,
             relief.distance,

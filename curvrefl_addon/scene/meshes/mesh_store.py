@@ -40,6 +40,8 @@ class StoredMesh:
     warnings: tuple[str, ...]
     owners: frozenset[int]
     """`session_uid` of data-blocks whose change of geometry changes the mesh"""
+    reach: float
+    """Largest distance of a vertex from the object's origin, or more"""
 
 
 class MeshStore:
@@ -89,7 +91,8 @@ class MeshStore:
                 arrays, dropped, warnings = mirrored(self.meshes[plain.number]), plain.dropped, plain.warnings
             else:
                 arrays, dropped, warnings = self._read(obj, needs)
-            self._stored[key] = StoredMesh(self._number(arrays), dropped, warnings, owners)
+            reach = 2.0 * float(np.abs(arrays.positions).max(initial=0.0))
+            self._stored[key] = StoredMesh(self._number(arrays), dropped, warnings, owners, reach)
         return self._stored[key]
 
     def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[str, ...]]:
@@ -100,6 +103,7 @@ class MeshStore:
             warnings.insert(
                 0, f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
             )
+        warnings += [f'"{obj.name}" has {what}.' for what in reading.repaired]
         return reading.mesh, reading.dropped, tuple(warnings)
 
     def _number(self, arrays: MeshArrays) -> int:

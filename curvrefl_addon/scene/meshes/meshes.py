@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
+from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..signature import array_signature
 from .corners import merge_corners
 
@@ -40,6 +41,8 @@ class MeshReading:
     """Triangles left out because a coordinate is not finite"""
     missing: tuple[str, ...] = ()
     """UV maps and color attributes that a material names and the mesh lacks"""
+    repaired: tuple[str, ...] = ()
+    """What of it was no number and has been replaced"""
 
 
 def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
@@ -56,17 +59,18 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         _data(mesh.attributes["position"]).foreach_get("vector", positions.reshape(-1))
     slots = _triangle_slots(mesh, len(triangle_corners))
 
-    finite = np.isfinite(positions)
     dropped = 0
-    if not finite.all():
-        good_vertex = finite.all(axis=1)
+    if not is_usable(positions, LARGEST_PLACE):
+        # (Comparisons with what is not a number are not true.)
+        good_vertex = (np.abs(positions) <= LARGEST_PLACE).all(axis=1)
         good = good_vertex[corner_vertex[triangle_corners]].all(axis=1)
         dropped = int(len(good) - np.count_nonzero(good))
         triangle_corners, slots = triangle_corners[good], slots[good]
 
     missing: list[str] = []
-    uv = _uv(mesh, needs.uv_map, positions, corner_vertex, missing)
-    colors = _colors(mesh, needs.colors, corner_vertex, missing)
+    repaired: list[str] = []
+    uv = _usable(_uv(mesh, needs.uv_map, positions, corner_vertex, missing), "texture coordinates", repaired)
+    colors = _usable(_colors(mesh, needs.colors, corner_vertex, missing), "vertex colors", repaired)
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
 
@@ -109,7 +113,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         triangle_slot=slots,
         signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots),
     )
-    return MeshReading(arrays, dropped, tuple(missing))
+    return MeshReading(arrays, dropped, tuple(missing), tuple(repaired))
 
 
 def mirrored(mesh: MeshArrays) -> MeshArrays:
@@ -205,6 +209,14 @@ def _colors(
     if len(data):
         data.foreach_get("color", colors.reshape(-1))
     return colors[corner_vertex] if attribute.domain == "POINT" else colors
+
+
+def _usable(layer: Float32Array | None, what: str, repaired: list[str]) -> Float32Array | None:
+    """A layer (n, k) with 0 in place of what is no number."""
+    if layer is None or is_usable(layer):
+        return layer
+    repaired.append(f"{what} that are not usable numbers, which are taken for 0")
+    return np.where(np.abs(layer) <= LARGEST_LIGHT, layer, np.float32(0.0))
 
 
 def _compact(indices: Int32Array, count: int, complete: bool) -> tuple[Int32Array | None, Int32Array]:
