@@ -24,12 +24,12 @@ def texture_color(scene: SceneArrays, name: str, uv: np.ndarray) -> np.ndarray:
     """What the renderer's shader does (surface_color.glsl), for (h, w, 2) coordinates."""
     material = material_of(scene, name)
     image = scene.images[material.image]
-    place = uv * np.array(material.uv_scale) + np.array(material.uv_offset)
+    place = uv * np.array(material.uv_scale) + uv[..., ::-1] * np.array(material.uv_turn) + np.array(material.uv_offset)
     height, width = image.pixels.shape[:2]
     place = place * (width, height)
     if image.nearest:
         column, row = np.floor(place[..., 0]).astype(int), np.floor(place[..., 1]).astype(int)
-        found = _texel(image.pixels, column, row, image.repeat)
+        found = _texel(image.pixels, column, row, image.extension)
     else:
         place = place - 0.5
         low = np.floor(place).astype(int)
@@ -37,17 +37,25 @@ def texture_color(scene: SceneArrays, name: str, uv: np.ndarray) -> np.ndarray:
         found = sum(
             (part[..., 0:1] if dx else 1 - part[..., 0:1])
             * (part[..., 1:2] if dy else 1 - part[..., 1:2])
-            * _texel(image.pixels, low[..., 0] + dx, low[..., 1] + dy, image.repeat)
+            * _texel(image.pixels, low[..., 0] + dx, low[..., 1] + dy, image.extension)
             for dx in (0, 1)
             for dy in (0, 1)
         )
     return found[..., :3] * np.array(material.base_color)
 
 
-def _texel(pixels: np.ndarray, column: np.ndarray, row: np.ndarray, repeat: bool) -> np.ndarray:
+def _texel(pixels: np.ndarray, column: np.ndarray, row: np.ndarray, extension: str) -> np.ndarray:
     height, width = pixels.shape[:2]
-    if repeat:
+    if extension == "REPEAT":
         return pixels[row % height, column % width]
+    if extension == "MIRROR":
+        row, column = (
+            np.minimum(place % (2 * size), 2 * size - 1 - place % (2 * size))
+            for place, size in ((row, height), (column, width))
+        )
+    outside = (row < 0) | (row >= height) | (column < 0) | (column >= width)
+    if extension == "CLIP":
+        return np.where(outside[..., None], 0.0, pixels[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)])
     return pixels[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
 
 
@@ -198,7 +206,7 @@ def test_a_missing_image_is_magenta() -> None:
     tree.links.new(node(tree, "ShaderNodeTexImage", image=image).outputs[0], shader.inputs["Color"])
     scene = extracted()
     np.testing.assert_array_equal(scene.images[0].pixels, [[(1.0, 0.0, 1.0, 1.0)]])
-    assert any('"lost" has no pixels' in warning for warning in scene.warnings)
+    assert 'The pixels of image "lost" are missing: drawn magenta, as in Cycles.' in scene.warnings
 
 
 def test_a_packed_image(tmp_path: Any) -> None:
