@@ -115,7 +115,7 @@ class _WorldReader:
             return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
         if node.type != "TEX_ENVIRONMENT":
             return None
-        is_alpha = source.socket.name == "Alpha"
+        is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         splits_alpha = "Alpha" in node.outputs and any(not link.is_muted for link in node.outputs["Alpha"].links)

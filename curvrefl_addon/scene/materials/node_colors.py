@@ -31,8 +31,22 @@ class ColorReader:
 
     def color(self, source: Source) -> NodeColor:
         """The color at the end of the links `source`; of a number or a vector its three parts."""
-        found = self._color(source)
-        return self._gray(found, source) if source.is_number else found
+        node = source.node
+        if node is None:
+            return plain(getattr(source.socket, "default_value", 0.0))
+        if node.type in ("RGB", "VALUE"):
+            return plain(source.socket.default_value)
+        if node.type in ("VERTEX_COLOR", "ATTRIBUTE"):
+            return self._attribute(source)
+        if node.type.startswith("TEX_"):
+            texture = self.read_texture(source)
+            if texture is not None:
+                if self._is_coarse and texture.texture is not None:
+                    texture = replace(texture, texture=texture.texture.coarse())
+                return texture
+        handler = HANDLERS.get(node.type)
+        found = None if handler is None else handler(self, source)
+        return self.guess(source) if found is None else found
 
     def value(self, source: Source) -> NodeColor:
         """The same where one number is asked for: a gray, the luminance of a color, the mean of a vector."""
@@ -68,27 +82,9 @@ class ColorReader:
             color = self._without_paint(color)
         return self.made(lambda c: spread(c @ weights.astype(c.dtype)), color)
 
-    def _color(self, source: Source) -> NodeColor:
-        node = source.node
-        if node is None:
-            return plain(getattr(source.socket, "default_value", 0.0))
-        if node.type in ("RGB", "VALUE"):
-            return plain(source.socket.default_value)
-        if node.type in ("VERTEX_COLOR", "ATTRIBUTE"):
-            return self._attribute(source)
-        if node.type.startswith("TEX_"):
-            texture = self.read_texture(source)
-            if texture is not None:
-                if self._is_coarse and texture.texture is not None:
-                    texture = replace(texture, texture=texture.texture.coarse())
-                return texture
-        handler = HANDLERS.get(node.type)
-        found = None if handler is None else handler(self, source)
-        return self.guess(source) if found is None else found
-
     def _attribute(self, source: Source) -> NodeColor:
         node: Any = source.node
-        output = source.socket.name
+        output = source.socket.identifier
         if node.type == "VERTEX_COLOR":
             return NodeColor(vertex_colors=VertexColors(node.layer_name, output, is_painted=True))
         if node.attribute_type != "GEOMETRY":

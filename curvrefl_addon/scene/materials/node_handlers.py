@@ -96,7 +96,7 @@ def _map_range(reader: ColorReader, source: Source) -> NodeColor | None:
     node: Any = source.node
     if node.data_type != "FLOAT":
         return None
-    names = ("Value", "From Min", "From Max", "To Min", "To Max", "Steps")
+    names = ("Value", "From Min", "From Max", "To Min", "To Max")
     kind, clamps = node.interpolation_type, node.clamp
 
     def change(value: Any, low: Any, high: Any, to_low: Any, to_high: Any, steps: Any) -> Any:
@@ -105,8 +105,9 @@ def _map_range(reader: ColorReader, source: Source) -> NodeColor | None:
             return np.clip(result, np.minimum(to_low, to_high), np.maximum(to_low, to_high))
         return result
 
-    inputs = [source.input(name) for name in names if name in node.inputs]
-    return reader.made(change, *(reader.value(item) for item in inputs))
+    # (There is an input for them in that one kind only.)
+    steps = reader.value(source.input("Steps")) if kind == "STEPPED" else gray(1.0)
+    return reader.made(change, *(reader.value(source.input(name)) for name in names), steps)
 
 
 def _clamp(reader: ColorReader, source: Source) -> NodeColor:
@@ -145,7 +146,7 @@ def _ramp(reader: ColorReader, source: Source) -> NodeColor:
     node: Any = source.node
     places = np.linspace(0.0, 1.0, CURVE_STEPS)
     table = np.array([node.color_ramp.evaluate(place) for place in places])
-    table = table[:, [3, 3, 3]] if source.socket.name == "Alpha" else table[:, :3]
+    table = table[:, [3, 3, 3]] if source.socket.identifier == "Alpha" else table[:, :3]
     factor = source.input("Fac")
     if factor.node is not None and factor.node.type.startswith("TEX_") and reader.read_texture(factor) is None:
         reader.note("A Color Ramp {of} is drawn as its mean.")

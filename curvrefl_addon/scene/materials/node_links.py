@@ -23,8 +23,6 @@ class Source:
     socket: Any
     """An output of a node that makes the value, or an unlinked input whose `default_value` is it"""
     groups: Groups = ()
-    is_number: bool = False
-    """On its way it went through a group's socket that holds one number"""
 
     @property
     def node(self) -> Any | None:
@@ -49,8 +47,7 @@ def find_input(node: Any, name: str) -> Any:
 
 
 def source_of(socket: Any, groups: Groups = ()) -> Source:
-    """Follow the links of an input."""
-    is_number = False
+    """Follow the links of an input. (Sockets of groups change nothing, whatever their kind: Cycles has no groups.)"""
     # The input last gone through, and where: its own value counts if the chain leads nowhere.
     last, last_groups = socket, groups
     while not socket.is_output:
@@ -63,22 +60,20 @@ def source_of(socket: Any, groups: Groups = ()) -> Source:
         if node.type == "REROUTE":
             socket = node.inputs[0]
             if not socket.links:
-                return Source(last, last_groups, is_number)
+                return Source(last, last_groups)
         elif node.mute:
             passed = next((link.from_socket for link in node.internal_links if link.to_socket == socket), None)
             if passed is None:
-                return Source(last, last_groups, is_number)
+                return Source(last, last_groups)
             socket = passed
         elif node.type == "GROUP":
             inside = None if node.node_tree is None else _group_output(node.node_tree)
             if inside is None:
-                return Source(last, last_groups, is_number)
-            is_number = is_number or socket.type in NUMBERS
+                return Source(last, last_groups)
             socket, groups = find_input(inside, socket.identifier), (*groups, node)
         elif node.type == "GROUP_INPUT" and groups:
-            is_number = is_number or socket.type in NUMBERS
             socket, groups = find_input(groups[-1], socket.identifier), groups[:-1]
-    return Source(socket, groups, is_number)
+    return Source(socket, groups)
 
 
 def output_node(tree: bpy.types.NodeTree | None) -> Any | None:

@@ -85,7 +85,7 @@ class SurfaceTextureReader:
     def _image(self, source: Source, notes: list[str]) -> NodeColor:
         node = source.node
         assert node is not None
-        is_alpha = source.socket.name == "Alpha"
+        is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         # (Cycles looks at alpha by itself where anything uses it.)

@@ -38,7 +38,7 @@ class StoredMesh:
     """Index into `MeshStore.meshes`"""
     dropped: int
     """Triangles left out because a coordinate is not finite"""
-    remarks: tuple[Remark, ...]
+    remarks: tuple[Remark | str, ...]
     owners: frozenset[int]
     """`session_uid` of data-blocks whose change of geometry changes the mesh"""
 
@@ -93,13 +93,14 @@ class MeshStore:
             self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners)
         return self._stored[key]
 
-    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark, ...]]:
+    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
         reading = _read_surface(obj, needs)
         self.reads += 1
-        remarks = []
+        remarks: list[Remark | str] = []
         if reading.dropped:
-            cause = f"{reading.dropped} triangles {{of}} have a corner at no finite place and are left out."
-            remarks.append(Remark(cause, "object", obj.name))
+            remarks.append(
+                f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
+            )
         if reading.is_cut:
             remarks.append(Remark("Vertex colors {of} are cut off below 0 and above 1.", "object", obj.name))
         return reading.mesh, reading.dropped, tuple(remarks)

@@ -101,6 +101,35 @@ def _extended(tree: Tree) -> Any:
     return texture.outputs["Color"]
 
 
+def _beyond(extension: str) -> BuildColor:
+    def build(tree: Tree) -> Any:
+        uv = node(tree, "ShaderNodeTexCoord").outputs["UV"]
+        inputs = {"Vector": uv, "Scale": (2.5, 2.5, 1.0), "Location": (-0.8, -0.7, 0.0)}
+        mapping = node(tree, "ShaderNodeMapping", inputs)
+        image = smooth_image()
+        return node(
+            tree, "ShaderNodeTexImage", {"Vector": mapping.outputs[0]}, image=image, extension=extension
+        ).outputs[0]
+
+    return build
+
+
+def _twice_mapped(tree: Tree) -> Any:
+    """By nodes of two kinds, about all axes."""
+    vector = node(tree, "ShaderNodeTexCoord").outputs["UV"]
+    for kind, turn in (("POINT", (0.4, -0.3, 0.7)), ("TEXTURE", (0.2, 0.5, -1.1))):
+        inputs = {"Vector": vector, "Rotation": turn, "Scale": (1.5, 0.8, 2.0)}
+        vector = node(tree, "ShaderNodeMapping", inputs, vector_type=kind).outputs[0]
+    return node(tree, "ShaderNodeTexImage", {"Vector": vector}, image=smooth_image()).outputs["Color"]
+
+
+def _turned_checker(tree: Tree) -> Any:
+    uv = node(tree, "ShaderNodeUVMap").outputs["UV"]
+    mapping = node(tree, "ShaderNodeMapping", {"Vector": uv, "Rotation": (0.0, 0.0, 0.5)})
+    inputs = {"Vector": mapping.outputs[0], "Scale": 5.0, "Color1": COLOR, "Color2": OTHER}
+    return node(tree, "ShaderNodeTexChecker", inputs).outputs["Color"]
+
+
 def _generated(tree: Tree) -> Any:
     place = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
     return node(tree, "ShaderNodeTexImage", {"Vector": place}, image=smooth_image()).outputs["Color"]
@@ -120,6 +149,11 @@ TEXTURES: dict[str, BuildColor] = {
     ],
     "mapped as point": _mapped("POINT"),
     "turned by half": _mapped("POINT", math.pi),
+    **{f"turned as {kind}": _mapped(kind, 0.6) for kind in ("POINT", "TEXTURE", "VECTOR")},
+    "mapped twice": _twice_mapped,
+    "turned checker": _turned_checker,
+    "clipped": _beyond("CLIP"),
+    "mirrored": _beyond("MIRROR"),
     "mapped as texture": _mapped("TEXTURE"),
     "mapped as vector": _mapped("VECTOR"),
     "extended": _extended,
@@ -155,9 +189,9 @@ def test_textures_are_those_of_cycles() -> None:
         theirs = picture[:, index * pixels : (index + 1) * pixels]
         # The pixel filter blurs sharp edges, and the neighbor comes in at the border.
         error = np.abs(ours - theirs)[2:-2, 2:-2].max(axis=-1)
-        quantile = 0.4 if name in ("closest", "checker") else 0.9
+        quantile = 0.4 if name in ("closest", "checker", "turned checker") else 0.9
         # Between the texels of byte images Cycles interpolates before it decodes.
-        limit = 0.035 if name == "byte sRGB" else 0.02
+        limit = 0.035 if name in ("byte sRGB", "turned as TEXTURE", "clipped", "mirrored") else 0.02
         assert np.quantile(error, quantile) < limit, (name, np.quantile(error, [0.4, 0.9, 1.0]))
 
 
