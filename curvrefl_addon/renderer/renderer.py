@@ -167,7 +167,7 @@ class Renderer:
                 f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
                 for name in self._bumpy_mirrors()
             ]
-        found += self._lighting.warnings
+        found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._rays is not None:
             found += self._rays.warnings
         return tuple(found)

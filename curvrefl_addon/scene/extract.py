@@ -37,6 +37,7 @@ from .reads import (
     uid_of_block,
     with_kept,
 )
+from .remarks import Remark, sentences
 from .visibility import rays_of
 from .world import read_world
 
@@ -71,7 +72,7 @@ class SceneReader:
         self._instancers: set[int] = set()
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
-        self._world_warnings: list[str] = []
+        self._world_warnings: list[Remark] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
@@ -252,14 +253,14 @@ class SceneReader:
                 error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
             )
         slots = self._slots(obj, uid, view_layer.material_override)
-        warnings: list[str] = [slot.warning for slot in slots if slot.warning]
+        warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks]
         if uid not in self._mapped and any(slot.has_relief for slot in slots):
-            warnings.append(f'"{name}" is drawn without its bumps: only mirrors show theirs.')
-        needs = needs_of(name, slots, warnings)
+            warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
+        needs = needs_of(obj, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
-        warnings += stored.warnings
+        warnings += stored.remarks
         error = (
             f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
         )
@@ -269,6 +270,8 @@ class SceneReader:
                 error=error or f'"{name}" {problem}: clear its scale, or choose another.',
             )
         if len(self._meshes.meshes[stored.number].triangles) == 0:
+            if any(needs.hidden_slots):
+                error = f'"{name}" has no surface that could reflect: choose another reflector or give it a material.'
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
         if is_diced(obj):
             warnings.append(
@@ -321,7 +324,7 @@ class SceneReader:
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
-            warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
+            warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
 

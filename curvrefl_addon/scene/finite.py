@@ -55,13 +55,13 @@ def usable_material(material: MaterialArrays, notes: list[str]) -> MaterialArray
         is_color = item.name in ("base_color", "emission")
         changes[item.name] = (0.0, 0.0, 0.0) if is_color else getattr(plain, item.name)
         what = item.name.replace("_", " ")
-        notes.append(f"its {what} is not a usable number, {'black' if is_color else 'the default'} is drawn")
+        notes.append(f"The {what} {{of}} is not a usable number: {'black' if is_color else 'the default'} is drawn.")
     relief = material.relief
     if relief is not None and not is_usable(
         (relief.strength, relief.distance, *relief.uv_scale, *relief.uv_offset), LARGEST_PLACE
     ):
         changes["relief"] = None
-        notes.append("its bumps are left out: their strength is not a usable number")
+        notes.append("Bumps {of} are left out: their strength is not a usable number.")
     return replace(material, **changes) if changes else material
 
 
@@ -70,22 +70,22 @@ def usable_image(image: ImageArrays, notes: list[str]) -> ImageArrays:
     pixels, count = usable_pixels(image.pixels)
     if count == 0:
         return image
-    notes.append(f'image "{image.name}" has pixels that are not usable numbers ({count}), which are drawn black')
+    notes.append(f"Pixels of a texture {{of}} that are not usable numbers ({count}) are drawn black.")
     return replace(image, pixels=pixels)
 
 
 def usable_world(world: WorldArrays, notes: list[str]) -> WorldArrays:
     """The world with black for what is not usable."""
     if not is_usable(world.color):
-        notes.append("its color or strength is not a usable number, black is drawn")
+        notes.append("The color or strength {of} is not a usable number: black is drawn.")
         return WorldArrays()
     if world.image is None:
         return world
     pixels, count = usable_pixels(world.image, LARGEST_LIGHT / max(1.0, float(np.abs(world.color).max())))
     if count:
-        notes.append(f"its image has pixels that are not usable numbers ({count}), which are drawn black")
+        notes.append(f"Pixels {{of}} that are not usable numbers ({count}) are drawn black.")
     if not is_usable(world.rotation):
-        notes.append("the rotation of its image is not a usable number and left out")
+        notes.append("The rotation {of} is not a usable number and left out.")
         return replace(world, image=pixels, rotation=np.eye(3))
     return world if pixels is world.image else replace(world, image=pixels)
 

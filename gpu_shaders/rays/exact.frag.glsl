@@ -54,7 +54,7 @@ void main()
   surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, surface.mirror);
 #ifdef WITH_IMAGES
   vec4 transform = fetch_record(materials, MATERIAL_RECORDS * surface.material + 3);
-  float image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4).x;
-  uv_out = vec4(surface.uv * transform.xy + transform.zw, image, 0.0);
+  vec4 image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4);
+  uv_out = vec4(surface.uv * transform.xy + transform.zw + image.yz * surface.uv.yx, image.x, 0.0);
 #endif
 }

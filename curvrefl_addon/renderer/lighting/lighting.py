@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
@@ -83,6 +84,7 @@ class Lighting:
         self._bound: Any = None
         self.warnings: tuple[str, ...] = ()
         """What could not be represented, one sentence each"""
+        self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._read_geometry()
         self._read_world()
@@ -248,12 +250,18 @@ class Lighting:
         light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
+        self.world_warnings = ()
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
         else:
-            image = np.ones((*world.image.shape[:2], 4), np.float32)
-            image[..., :3] = world.image
-            self._world_image = texture_2d(image, linear=True, repeat=True)
+            pixels = averaged(world.image, largest_texture(), largest_texture())
+            if pixels.shape != world.image.shape:
+                self.world_warnings = (
+                    "The world's image is drawn with fewer pixels, as many as the graphics driver takes.",
+                )
+            image = np.ones((*pixels.shape[:2], 4), np.float32)
+            image[..., :3] = pixels
+            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
