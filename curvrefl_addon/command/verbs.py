@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 LAYERS = ("unit", "blender", "gui")
+AWKWARD = "awkward"
+"""A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = ("color", "position", "object", "iterations")
 
 
@@ -293,7 +295,9 @@ def _compare_and_print(
 
 
 def test(options: argparse.Namespace) -> int:
-    """Run the checks of the source; see tools/run_tests.py."""
+    """Run the checks and tests of the source, or try awkward scenes; see tools/run_tests.py."""
+    if options.layers[:1] == [AWKWARD]:
+        return int(repository_tool("run_tests", "test").try_awkward(options.layers[1:], options.keep))
     require_known(options.layers, LAYERS, "layer of tests")
     return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
