@@ -28,7 +28,7 @@ from .inputs import (
     require_known,
     resolution_of,
     start_gpu,
-    view_of_options,
+    view_layer_of,
     warn_of,
 )
 
@@ -54,8 +54,7 @@ def render(options: argparse.Namespace) -> int:
     output = checked_file(options.output, (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    view = view_of_options(options, scene)
-    arrays = read_scene(scene, reflectors)
+    arrays, view = read_scene(options, scene, reflectors)
 
     from ..renderer.renderer import Renderer
     from ..report.images import save_exr, save_png
@@ -231,20 +230,23 @@ def bake(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    arrays = read_scene(scene, reflectors)
 
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
+    from ..scene.render_depsgraph import read_rendered
 
+    if options.camera is None and scene.camera is None:
+        arrays, view = read_rendered(scene, view_layer_of(scene), reflectors), None
+    else:
+        arrays, view = read_scene(options, scene, reflectors)
     baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
     warn_of(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
     for sentence in baked.describe():
         print(sentence)
-    if scene.camera is not None:
-        view = view_of_options(options, scene)
+    if view is not None:
         error = pixel_error(baked, view)
         print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
