@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -111,6 +112,8 @@ def _git(*arguments: str) -> str:
 def _changed(texts: dict[str, str]) -> Iterator[None]:
     """The files with these texts, which they lose again where something fails."""
     before = {name: (ROOT / name).read_text(encoding="utf-8") for name in texts}
+    # Who stops us waits a moment for what follows.
+    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         for name, text in texts.items():
             write_whole(ROOT / name, text)
@@ -119,6 +122,8 @@ def _changed(texts: dict[str, str]) -> Iterator[None]:
         for name, text in before.items():
             write_whole(ROOT / name, text)
         raise
+    finally:
+        signal.signal(signal.SIGTERM, handler)
 
 
 def _checked_and_packed(folder: Path) -> str:

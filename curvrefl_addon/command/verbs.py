@@ -165,7 +165,6 @@ def benchmark(options: argparse.Namespace) -> int:
 
     from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
 
-    output.mkdir(parents=True, exist_ok=True)
     with dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
