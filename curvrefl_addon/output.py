@@ -80,11 +80,19 @@ def folder_to_publish(folder: Path) -> Iterator[Path]:
 def temporary_folder() -> Iterator[Path]:
     """A folder for what is read again at once, gone at the end. Raises InputError where it cannot be written to."""
     try:
-        folder = tempfile.TemporaryDirectory(prefix="curvrefl-", ignore_cleanup_errors=True)
-    except OSError as error:
-        raise unwritable(os.environ.get("TMPDIR") or "the temporary folder", error) from error
-    with folder as name, _said(Path(name), BROKEN_OFF):
-        yield Path(name)
+        base = tempfile.gettempdir()
+    except FileNotFoundError as error:
+        raise InputError("There is no temporary folder to write to: name one in TMPDIR.") from error
+    with removed_at_end(Path(base, f"curvrefl-{uuid.uuid4().hex}")) as folder:
+        try:
+            folder.mkdir(0o700)
+            yield folder
+        except OSError as error:
+            is_here = error.filename is not None and Path(os.fsdecode(error.filename)).is_relative_to(folder)
+            if error.errno not in BROKEN_OFF or not is_here:
+                raise
+            reason = error.strerror or str(error)
+            raise InputError(f"Cannot write temporary files ({reason}): make room, or name a folder in TMPDIR.") from error
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -19,6 +19,8 @@ _LEFTOVERS = "leftovers"
 """Paths to remove, each with a zero byte behind it"""
 _PUBLISHING = "publishing"
 """Is there while results are moved into place, for which the supervisor waits"""
+_SOFTLY = "softly"
+"""Is there where programs that are ended need a moment to clean up"""
 _STAGE = "stage"
 """What Blender is about, should it die of it"""
 
@@ -54,6 +56,13 @@ def remove_parts() -> None:
 def publishing() -> Iterator[None]:
     """Something that takes milliseconds and whose half would be a mix of old and new: it is let come to its end."""
     with _sign(_PUBLISHING, ""):
+        yield
+
+
+@contextlib.contextmanager
+def ended_softly() -> Iterator[None]:
+    """Who ends the run meanwhile sends SIGTERM to all its programs, and gives them a moment before they are killed."""
+    with _sign(_SOFTLY, ""):
         yield
 
 

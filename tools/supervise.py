@@ -20,7 +20,7 @@ import tempfile
 import time
 
 RUN_FOLDER = "CURVREFL_RUN"
-LEFTOVERS, PUBLISHING, STAGE = "leftovers", "publishing", "stage"
+LEFTOVERS, PUBLISHING, SOFTLY, STAGE = "leftovers", "publishing", "softly", "stage"
 """Files in the run's folder; see curvrefl_addon/supervised.py"""
 
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
@@ -56,7 +56,7 @@ def _supervise(command: list[str], run: str) -> int:
             if number == signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
                 continue  # (nohup)
             _wait_for(lambda: not os.path.exists(os.path.join(run, PUBLISHING)))
-            _end(child)
+            _end(child, softly=os.path.exists(os.path.join(run, SOFTLY)))
             return 128 + number
         else:
             ended, status = os.waitpid(child, os.WNOHANG)
@@ -78,6 +78,9 @@ def _start(command: list[str], run: str) -> int:
             signal.signal(number, signal.SIG_DFL)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, WAITED_FOR)
         _end_with_parent(signal.SIGKILL, parent)
+        # Where memory runs out it is not for others to be killed.
+        with contextlib.suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
+            file.write("500")
         temporary = os.path.join(run, "tmp")
         os.environ[RUN_FOLDER] = run
         # (Blender reads TEMP first)
@@ -117,14 +120,17 @@ def _stage(run: str) -> str:
         return ""
 
 
-def _end(child: int) -> None:
-    """End the command and all that it has started."""
+def _end(child: int, softly: bool) -> None:
+    """End the command and all that it has started: at once, or with time to end by itself."""
     everyone = _descendants(child)
+    if softly:
+        for number in everyone:
+            _signal(number, signal.SIGTERM)
+        _wait_for(lambda: _has_ended(child) and not any(map(_is_running, everyone)))
+        # What was started meanwhile, too.
+        everyone += _descendants(child)
+    # (those first that have started the others: shells would say of them that they are gone)
     for number in everyone:
-        _signal(number, signal.SIGTERM)
-    _wait_for(lambda: _has_ended(child) and not any(map(_is_running, everyone)))
-    # What was started meanwhile, too.
-    for number in {*everyone, *_descendants(child)}:
         _signal(number, signal.SIGKILL)
     _end_group(child)
     _wait_for(lambda: _has_ended(child))

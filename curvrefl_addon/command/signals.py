@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from types import FrameType
@@ -45,8 +47,8 @@ def answered_signals() -> Iterator[None]:
     if is_supervised() or threading.current_thread() is not threading.main_thread():
         yield
         return
-    # (those that are ignored are so for a reason, such as nohup)
-    before = {number: old for number in STOPS if (old := signal.getsignal(number)) not in (signal.SIG_IGN, None)}
+    # Those that are ignored are so for a reason, such as nohup. (None is a handler of Blender's own.)
+    before = {number: old for number in STOPS if (old := signal.getsignal(number)) is not signal.SIG_IGN}
     heard, told = os.pipe()
     os.set_blocking(told, False)
     has_ended = threading.Event()
@@ -59,7 +61,7 @@ def answered_signals() -> Iterator[None]:
         yield
     finally:
         for number, old in before.items():
-            signal.signal(number, old)
+            signal.signal(number, signal.SIG_DFL if old is None else old)
         signal.set_wakeup_fd(fd_before)
         has_ended.set()
         os.write(told, b"\0")
@@ -84,6 +86,9 @@ def _watch(heard: int, has_ended: threading.Event, numbers: set[int]) -> None:
             return
     if not has_ended.wait(GRACE):
         remove_parts()
+        blender = sys.modules.get("bpy")
+        if blender is not None and blender.app.binary_path:
+            shutil.rmtree(blender.app.tempdir, ignore_errors=True)
         stopped = StoppedError(number)
         say(str(stopped))
         os._exit(stopped.exit_code)

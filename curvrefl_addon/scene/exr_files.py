@@ -14,6 +14,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..streams import STDERR, dropped
 from ..written_files import error_in, require_whole
 from .arrays import Float32Array
 
@@ -72,7 +73,9 @@ def save_image(image: Any, file_format: str, path: Path) -> None:
     image.file_format = file_format
     image.filepath_raw = str(path.absolute())
     try:
-        image.save()
+        # (it says more on stderr than the error does)
+        with dropped(STDERR):
+            image.save()
     except RuntimeError as error:
         raise error_in(str(error), path) from error
     require_whole(path)
