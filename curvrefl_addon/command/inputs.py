@@ -5,17 +5,16 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import importlib.util
-import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..settings_table import Settings
+from ..streams import STDERR, STDOUT, dropped
 
 if TYPE_CHECKING:
     import bpy
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     from ..scene.view import View
 
 
-STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent.parent
 """Of the source tree"""
 SETTING = "setting_"
@@ -102,23 +100,6 @@ def require_known(names: Sequence[str], known: Sequence[str], what: str) -> None
 def warn_of(warnings: Sequence[str]) -> None:
     for warning in dict.fromkeys(warnings):
         say(f"Warning: {warning}")
-
-
-@contextlib.contextmanager
-def dropped(descriptor: int) -> Iterator[TextIO]:
-    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere; yields the way past that."""
-    stream = sys.stdout if descriptor == STDOUT else sys.stderr
-    stream.flush()
-    kept = os.dup(descriptor)
-    with open(kept, "w", encoding="utf-8") as past:
-        try:
-            nowhere = os.open(os.devnull, os.O_WRONLY)
-            os.dup2(nowhere, descriptor)
-            os.close(nowhere)
-            yield past
-        finally:
-            stream.flush()
-            os.dup2(kept, descriptor)
 
 
 def start_gpu() -> None:

@@ -212,7 +212,7 @@ def compare_steps(
             text = json.dumps(report, indent=1, allow_nan=False)
             (folder / "report.html").write_text(report_page(report, mismatch), encoding="utf-8")
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
-    yield Step(f"Wrote {output / 'report.html'}", 1.0)
+    yield Step("Wrote report.html", 1.0)
     return report
 
 

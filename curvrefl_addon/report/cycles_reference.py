@@ -12,18 +12,18 @@ The geometry is the file's, as F12 renders it.
 
 from __future__ import annotations
 
-import tempfile
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ..errors import InputError
+from ..output import temporary_folder
 from ..scene.arrays import Float32Array
 from ..scene.render_depsgraph import use_camera
 from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..written_files import require_whole
 from .images import load_exr
 from .repeats import Timing, repeated
 
@@ -217,8 +217,8 @@ def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: str) -
 def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Still:
     """Render with the settings as they are (see `use_still_output`), through a file in a temporary folder."""
     filepath = scene.render.filepath
-    with tempfile.TemporaryDirectory(prefix="curvrefl-") as folder:
-        path = Path(folder, "still.exr")
+    with temporary_folder() as folder:
+        path = folder / "still.exr"
         scene.render.filepath = str(path)
         try:
             start = time.perf_counter()
@@ -228,6 +228,8 @@ def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Sti
             scene.render.filepath = filepath
         if "CANCELLED" in result:
             raise RenderCanceledError(f"{scene.render.engine} was stopped at the picture of scene '{scene.name}'")
-        if "FINISHED" not in result or not path.is_file():
+        if "FINISHED" not in result:
             raise RuntimeError(f"{scene.render.engine} did not finish the picture of scene '{scene.name}'")
+        # On a full disk, too, the render has finished.
+        require_whole(path)
         return Still(load_exr(path), seconds)
