@@ -22,8 +22,8 @@ void main()
 #endif
   vec3 normal = mirror_facing.xyz;
   vec3 direction = reflect(incoming, normal);
-  // `enclosing`: number of the mirror that holds the eye, how far in rays start, 1 in the last pass. Inside of a mirror
-  // rays start a little off its surface, and do not get out.
+  // `enclosing`: number of the mirror that holds the eye, how far in rays start, 1 in the last pass. Inside of a
+  // mirror rays start a little off its surface, and do not get out.
   bool is_enclosed = abs(own - enclosing.x) < 0.5;
   vec3 origin = is_enclosed ? mirror_place.xyz + enclosing.y * normal : mirror_place.xyz;
   Hit hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, is_enclosed ? 0.0 : own, false);

@@ -64,8 +64,9 @@ int packed_child(float link, float count)
   return (int(link) << 4) + int(count) + 1;
 }
 
-// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray: a ray below the facet
-// that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With `any_hit` whatever is nearer than `farthest` ends the walk.
+// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, as a ray below the
+// facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With
+// `any_hit` whatever is nearer than `farthest` ends the walk.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
   Hit hit;
