@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float64Array, LightArrays
-from .finite import LARGEST_PLACE, is_usable, problem_of_place
+from .finite import LARGEST_PLACE, LARGEST_POWER, is_usable, problem_of_place
 from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
 
@@ -36,7 +36,7 @@ def read_light(
     if light.use_temperature:
         color *= np.array(light.temperature_color, np.float64)
     color *= _node_color(light, name, warnings)
-    if not is_usable(color):
+    if not is_usable(color, LARGEST_POWER):
         warnings.append(f'Lamp "{name}" is left out: its color or power is not a usable number.')
         return None
     if not color.any():
@@ -71,7 +71,9 @@ def read_light(
         # The energy is then that of a square meter; Cycles counts a point as four.
         color *= area
     if not (
-        is_usable((radius, *size), LARGEST_PLACE) and is_usable((angle, spot_angle, spot_blend)) and is_usable(color)
+        is_usable((radius, *size), LARGEST_PLACE)
+        and is_usable((angle, spot_angle, spot_blend))
+        and is_usable(color, LARGEST_POWER)
     ):
         warnings.append(f'Lamp "{name}" is left out: its size is not a usable number.')
         return None

@@ -69,6 +69,12 @@ class View:
         """(3,) where the view's own origin is in the world."""
         return np.asarray(np.linalg.inv(self.world_to_view)[:3, 3], np.float64)
 
+    @cached_property
+    def start(self) -> Float64Array:
+        """(4,) homogeneous, the point straight ahead where the lines of sight of a perspective view begin."""
+        ahead = -self.world_to_view[2, :3]
+        return np.append(self.place + self.clip_range[0] * ahead / np.linalg.norm(ahead), 1.0)
+
     def about(self, origin: Float64Array) -> View:
         """The same view of a world whose origin is at the point (3,) of this one."""
         if not origin.any():

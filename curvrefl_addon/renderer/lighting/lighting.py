@@ -46,6 +46,8 @@ type Features = frozenset[str]
 FEATURES: Features = frozenset(
     f"LIGHTING_{name}" for name in ("POINT", "SPOT", "SUN", "AREA", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
+LARGEST_RECORD = 1e30
+"""What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
 
@@ -177,6 +179,8 @@ class Lighting:
             lamp_layers, world_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers, self._casters)
             self._world_maps.draw(world_layers, self._casters)
+            # (A strong lamp of nearly no size would shine endlessly there.)
+            records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
