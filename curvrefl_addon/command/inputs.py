@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..settings_table import Settings
-from ..streams import STDERR, STDOUT, dropped
+from ..streams import STDERR, STDOUT, dropped, readable
+from ..supervised import stage
 
 if TYPE_CHECKING:
     import bpy
@@ -40,7 +41,7 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
 
     from ..scene.blend_file import open_blend
 
-    with dropped(STDOUT):
+    with dropped(STDOUT), stage(f'read "{file}"'):
         open_blend(file)
     scene = bpy.context.scene
     assert scene is not None, "an open file has a scene"
@@ -65,7 +66,8 @@ def read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays
     from ..scene.extract import extract_scene
 
     chosen = find_reflectors(scene, reflectors)
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
+    with stage(f'read "{bpy.data.filepath}"'):
+        return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
 
 
 def view_of_options(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
@@ -84,7 +86,7 @@ def chosen_settings(options: argparse.Namespace) -> Settings:
 
 def read_names(text: str, what: str) -> list[str]:
     """The parts of a list with commas, once each. Raises InputError when there are none."""
-    names = list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    names = list(dict.fromkeys(name.strip() for name in readable(text).split(",") if name.strip()))
     if not names:
         raise InputError(f"Name at least one {what}.")
     return names

@@ -30,6 +30,7 @@ from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of
 from ..scene.extract import extract_scene
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from ..streams import readable
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .display import inverse_display_transform
 from .geometry_reference import render_geometry
@@ -206,7 +207,7 @@ def compare_steps(
                 yield Step(label, done / count)
                 done += 1
             report = {
-                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "scene": scene_name or readable(Path(bpy.data.filepath).name) or scene.name,
                 "reflectors": list(reflector_names),
                 **report,
             }
