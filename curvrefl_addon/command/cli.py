@@ -112,8 +112,12 @@ def _parser() -> argparse.ArgumentParser:
 
     test = verb("test", verbs.test, "Check the source and run all tests, or one layer of tests.")
     test.add_argument(
-        "layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named"
+        "layers",
+        nargs="*",
+        metavar="LAYER",
+        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD}, and names of its scenes",
     )
+    test.add_argument("--keep", metavar="DIR", help=f"keep the pictures of {verbs.AWKWARD} scenes in this folder")
 
     render = verb(
         "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."

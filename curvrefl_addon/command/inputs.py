@@ -58,23 +58,26 @@ def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[
     return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
 
 
-def read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays:
-    """The open scene at its frame, with these mirrors."""
+def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
+    """The one that is in use in the open scene."""
     import bpy
 
-    from ..scene.blend_file import find_reflectors
-    from ..scene.extract import extract_scene
+    view_layer = bpy.context.view_layer
+    return scene.view_layers[0] if view_layer is None else view_layer
 
-    chosen = find_reflectors(scene, reflectors)
+
+def read_scene(
+    options: argparse.Namespace, scene: bpy.types.Scene, reflectors: Sequence[str]
+) -> tuple[SceneArrays, View]:
+    """The open scene at its frame as it renders, with these mirrors, and what the chosen camera sees of it in the
+    chosen resolution."""
+    import bpy
+
+    from ..scene.render_depsgraph import read_render_scene
+
+    size = resolution_of(options, scene)
     with stage(f'read "{bpy.data.filepath}"'):
-        return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
-
-
-def view_of_options(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
-    """What the chosen camera sees in the chosen resolution."""
-    from ..scene.blend_file import find_camera, view_of_camera
-
-    return view_of_camera(scene, find_camera(scene, options.camera), *resolution_of(options, scene))
+        return read_render_scene(scene, view_layer_of(scene), reflectors, *size, options.camera)
 
 
 def chosen_settings(options: argparse.Namespace) -> Settings:

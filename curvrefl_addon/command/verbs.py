@@ -28,7 +28,7 @@ from .inputs import (
     require_known,
     resolution_of,
     start_gpu,
-    view_of_options,
+    view_layer_of,
     warn_of,
 )
 
@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 LAYERS = ("unit", "blender", "gui")
+AWKWARD = "awkward"
+"""A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = ("color", "position", "object", "iterations")
 
 
@@ -52,8 +54,7 @@ def render(options: argparse.Namespace) -> int:
     output = checked_file(options.output, (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    view = view_of_options(options, scene)
-    arrays = read_scene(scene, reflectors)
+    arrays, view = read_scene(options, scene, reflectors)
 
     from ..renderer.renderer import Renderer
     from ..report.images import save_exr, save_png
@@ -228,20 +229,23 @@ def bake(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    arrays = read_scene(scene, reflectors)
 
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
+    from ..scene.render_depsgraph import read_rendered
 
+    if options.camera is None and scene.camera is None:
+        arrays, view = read_rendered(scene, view_layer_of(scene), reflectors), None
+    else:
+        arrays, view = read_scene(options, scene, reflectors)
     baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
     warn_of(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
     for sentence in baked.describe():
         print(sentence)
-    if scene.camera is not None:
-        view = view_of_options(options, scene)
+    if view is not None:
         error = pixel_error(baked, view)
         print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
@@ -297,7 +301,9 @@ def _print_report(report: dict[str, Any], output: Path) -> None:
 
 
 def test(options: argparse.Namespace) -> int:
-    """Run the checks of the source; see tools/run_tests.py."""
+    """Run the checks and tests of the source, or try awkward scenes; see tools/run_tests.py."""
+    if options.layers[:1] == [AWKWARD]:
+        return int(repository_tool("run_tests", "test").try_awkward(options.layers[1:], options.keep))
     require_known(options.layers, LAYERS, "layer of tests")
     with ended_softly():  # (virtual screens among others)
         return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
