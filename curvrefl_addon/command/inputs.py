@@ -13,7 +13,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..settings_table import Settings
+from ..memory import require_memory
+from ..settings_table import LARGEST_SIDE, Settings
 from ..streams import STDERR, STDOUT, dropped, readable
 from ..supervised import stage
 
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 """Of the source tree"""
+PICTURE_BYTES = 350
+"""For a pixel of a picture with all its passes, measured on a software renderer"""
 SETTING = "setting_"
 """Before the names of settings among the parsed options"""
 
@@ -51,11 +54,21 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
 
 
 def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:
-    """The chosen width and height, or those that the scene renders with."""
-    if options.resolution:
-        return options.resolution
+    """The chosen width and height, or those that the scene renders with.
+
+    Raises InputError for a picture that is too large, also for the memory that is free.
+    """
     scale = scene.render.resolution_percentage / 100.0
-    return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
+    width, height = options.resolution or (
+        max(int(scene.render.resolution_x * scale), 1),
+        max(int(scene.render.resolution_y * scale), 1),
+    )
+    if max(width, height) > LARGEST_SIDE:
+        raise InputError(
+            f"The scene renders with {width}x{height} pixels, more than {LARGEST_SIDE} a side: choose a --resolution."
+        )
+    require_memory(PICTURE_BYTES * width * height, f"A picture of {width}x{height}", "choose a smaller --resolution")
+    return width, height
 
 
 def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
