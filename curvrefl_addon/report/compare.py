@@ -31,6 +31,7 @@ from ..scene.blend_file import find_camera, open_blend
 from ..scene.render_depsgraph import read_render_scene
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from ..streams import readable
 from .as_shown import on_film, save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .direct_light import mirrors_met
@@ -205,7 +206,7 @@ def compare_steps(
                 yield Step(label, done / count)
                 done += 1
             report = {
-                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "scene": scene_name or readable(Path(bpy.data.filepath).name) or scene.name,
                 "reflectors": list(reflector_names),
                 **report,
             }
