@@ -104,7 +104,7 @@ def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: lis
     uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
     colors = [slot.colors for slot in slots if slot.colors is not None]
     if len({uv_map or default for uv_map in uv_maps}) > 1:
-        warnings.append(Remark("Textures {of} are all drawn on one of the UV maps they use.", "object", obj.name))
+        warnings.append(Remark("Textures {of} are drawn on one UV map, though they use several.", "object", obj.name))
     if len(set(colors)) > 1:
         warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
     hidden = tuple(slot.is_hidden for slot in slots)
