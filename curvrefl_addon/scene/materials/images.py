@@ -37,6 +37,11 @@ class ImageReader:
         """What of the images is not drawn as it is."""
         return [remark for remarks in self._remarks.values() for remark in remarks]
 
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) of which one frame is shown."""
+        return {uid for uid, frame, _ in self._pixels if frame}
+
     def read(self, image: bpy.types.Image, user: Any = None, splits_alpha: bool = False) -> Float32Array:
         """(height, width, 4) scene-linear, row 0 at the bottom.
 
