@@ -76,7 +76,10 @@ class ImageReader:
             return _missing()
         found = _frame_pixels(frame) if frame else _own_pixels(image)
         if found is None:
-            remarks.append(Remark("The pixels {of} are missing: drawn magenta, as in Cycles.", "image", image.name))
+            cause = "The pixels {of} are missing: drawn magenta, as in Cycles."
+            if image.type != "IMAGE":
+                cause = "Layers {of} are not read: drawn magenta."
+            remarks.append(Remark(cause, "image", image.name))
             return _missing()
         pixels, is_float = found
         # Blender makes float images linear as it loads them; bytes stay as they are in the file.
