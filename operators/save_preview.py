@@ -67,7 +67,8 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         return {"FINISHED"}
 
     def _save(self, context: bpy.types.Context) -> int:
-        from ..curvrefl_addon.report.preview import PreviewRenderer, save_displayed
+        from ..curvrefl_addon.report.as_shown import save_as_shown
+        from ..curvrefl_addon.report.preview import PreviewRenderer
 
         scene = context.scene
         assert scene is not None
@@ -80,7 +81,7 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
                 for number, frame in enumerate(frames):
                     if frame is not None:
                         scene.frame_set(frame)
-                    save_displayed(renderer.render(context), scene, self._path(frame))
+                    save_as_shown(self._path(frame), renderer.render(context), scene)
                     context.window_manager.progress_update(number + 1)
             finally:
                 context.window_manager.progress_end()

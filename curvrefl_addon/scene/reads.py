@@ -21,6 +21,8 @@ SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
 
 
+SMALLEST_SIZE = 1e-12
+"""Greatest stretch under which nothing is left of a mesh"""
 SURELY_REGULAR = 1e-4
 """Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
 
@@ -106,6 +108,12 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
     return materials or [None]
 
 
+def is_diced(obj: bpy.types.Object) -> bool:
+    """Whether Cycles subdivides an object as finely as its pixels ask for."""
+    modifier = obj.original.modifiers[-1] if obj.original.modifiers else None
+    return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
+
+
 def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: list[Remark | str]) -> MeshNeeds:
     """What the first slots that need a UV map or colors say: a mesh has one of each here."""
     mesh = obj.data
@@ -162,4 +170,4 @@ def is_singular(matrix: Float64Array) -> bool:
     if not np.isfinite(matrix).all():
         return True
     stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])
+    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0] or stretches[0] < SMALLEST_SIZE)

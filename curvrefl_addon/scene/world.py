@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
+from .finite import usable_world
 from .materials.images import MISSING_COLOR, ImageReader
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
@@ -68,6 +69,7 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
         # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
         has_output = output_node(world.node_tree) is not None
         result = WorldArrays() if has_output else WorldArrays(_triple(world.color))
+    result = usable_world(result, notes)
     warnings += [Remark(cause, "world", world.name) for cause in dict.fromkeys(notes)]
     return result
 

@@ -35,7 +35,8 @@ void main()
 #ifdef ON_PATH
   tint *= texelFetch(path_throughput, pixel, 0).rgb;
 #endif
-  throughput_out = vec4(tint, 1.0);
+  // (Half precision ends a little above.)
+  throughput_out = vec4(min(tint, vec3(6e4)), 1.0);
 #endif
   if (hit.instance < 0) {
     surface_position = vec4(direction, 0.0);

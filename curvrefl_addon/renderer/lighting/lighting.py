@@ -21,6 +21,7 @@ from ..geometry.scene_geometry import Difference, SceneGeometry
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .shadow_reach import shadow_pieces
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
@@ -113,13 +114,8 @@ class Lighting:
         self._blocks.clear()
 
     def _read_geometry(self) -> None:
-        facts = self._geometry.facts
-        self._extent = SceneExtent(
-            [
-                (facts.of(item.mesh).pieces, item.instance.matrix, item.instance.visible_shadow)
-                for item in self._geometry.placed
-            ]
-        )
+        pieces, self._standing_apart = shadow_pieces(self._geometry)
+        self._extent = SceneExtent(pieces)
         self._casters = ShadowCasters(self._geometry, self._extent)
         self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
 
@@ -202,13 +198,13 @@ class Lighting:
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if max(light.color) > 0.0]
         if len(shining) > MAX_LAMPS:
-            self.warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            self.warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
             shining.sort(key=lambda light: -sum(light.color))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self.warnings = ()
+        self.warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]

@@ -28,6 +28,8 @@ _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "path_direction", "path_throughput")
 RAY_SHADOWS = "RAY_SHADOWS"
 """Beside the features of lighting: lamps' shadows by rays"""
+FILM_TRANSPARENT = "FILM_TRANSPARENT"
+"""Of the background: lamps alone are seen there, and they cover nothing"""
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
@@ -67,6 +69,7 @@ class ShadePass:
         shadows: RayScene | None = None,
         chosen: Any = None,
         with_others: bool = True,
+        film_transparent: bool = False,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -74,7 +77,7 @@ class ShadePass:
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
         rays shadow what mirrors show. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
-        all; `with_others`: what is no mirror is, too.
+        all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -86,7 +89,7 @@ class ShadePass:
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             set_viewport(0, 0, seen.width, seen.height)
-            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows)
+            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent)
             self._add_front(seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
             self._add_path(canvas, bounce, view_uniforms, weight, shadows)
@@ -99,13 +102,17 @@ class ShadePass:
         weight: float,
         mirrors_only: bool,
         shadows: RayScene | None,
+        film_transparent: bool,
     ) -> None:
         """Background and surfaces, seen directly or in mirrors."""
         kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
         if not mirrors_only:
             kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
         for kind in kinds:
-            self._draw(_shade_shader(kind, self._lighting.features), kind, seen, view_uniforms, weight)
+            features = self._lighting.features
+            if kind is PixelClass.BACKGROUND and film_transparent:
+                features |= {FILM_TRANSPARENT}
+            self._draw(_shade_shader(kind, features), kind, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 shader = _shade_shader(kind, self._features(shadows))

@@ -118,5 +118,5 @@ def _texture(image: ImageArrays) -> Any:
     largest = largest_texture()
     if max(pixels.shape[:2]) > largest:
         pixels = np.asarray(averaged(pixels, largest, largest), np.float32)
-    fmt = "RGBA16F" if pixels.max(initial=0.0) < 6e4 else "RGBA32F"
+    fmt = "RGBA16F" if pixels.max(initial=0.0) < 6e4 and pixels.min(initial=0.0) > -6e4 else "RGBA32F"
     return texture_2d(pixels, fmt, not image.nearest, image.extension)

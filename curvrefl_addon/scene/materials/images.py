@@ -11,6 +11,7 @@ import imbuf
 import numpy as np
 
 from ..arrays import Float32Array
+from ..finite import usable_pixels
 from ..remarks import Remark
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
@@ -82,6 +83,12 @@ class ImageReader:
             remarks.append(Remark(cause, "image", image.name))
             return _missing()
         pixels, is_float = found
+        if is_float:
+            pixels, count = usable_pixels(pixels)
+            if count:
+                remarks.append(
+                    Remark(f"Pixels {{of}} that are not usable numbers ({count}) are drawn black.", "image", image.name)
+                )
         # Blender makes float images linear as it loads them; bytes stay as they are in the file.
         space = image.colorspace_settings.name
         if space not in _DATA and image.alpha_mode in ("STRAIGHT", "PREMUL") and pixels[..., 3].min() < 1.0:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import bpy
 
 from ..arrays import ImageArrays, MaterialArrays, ReliefArrays
+from ..finite import usable_image, usable_material
 from ..meshes.attributes import VertexColors
 from ..meshes.meshes import GENERATED, OBJECT
 from ..remarks import Remark
@@ -97,7 +98,7 @@ class MaterialReader:
             plain = MaterialArrays(
                 material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
             )
-            return ReadMaterial(0), plain
+            return ReadMaterial(0), usable_material(plain, notes)
         if output_source(tree, "Displacement") is not None:
             notes.append("Displacement {of} is not shown.")
         source, volume = output_source(tree, "Surface"), output_source(tree, "Volume")
@@ -115,7 +116,7 @@ class MaterialReader:
             space = texture.space
             arrays = replace(
                 arrays,
-                image=self._image_index(texture.image),
+                image=self._image_index(usable_image(texture.image, notes)),
                 uv_scale=space.scale,
                 uv_turn=space.turn,
                 uv_offset=space.offset,
@@ -123,6 +124,7 @@ class MaterialReader:
             found = replace(found, uv_maps=(space.uv_map,))
         if surface.relief is not None:
             found, arrays = self._with_relief(found, arrays, surface.relief, notes)
+        arrays = usable_material(arrays, notes)
         return found, replace(arrays, uses_vertex_color=found.colors is not None)
 
     def _with_relief(
@@ -136,7 +138,7 @@ class MaterialReader:
             notes.append("Bumps {of} are left out: they are on another UV map than its color.")
             return found, arrays
         read = ReliefArrays(
-            self._image_index(relief.texture.image, arrays.image),
+            self._image_index(usable_image(relief.texture.image, notes), arrays.image),
             relief.is_bump,
             relief.strength,
             relief.distance,

@@ -41,6 +41,8 @@ class StoredMesh:
     remarks: tuple[Remark | str, ...]
     owners: frozenset[int]
     """`session_uid` of data-blocks whose change of geometry changes the mesh"""
+    reach: float
+    """Largest distance of a vertex from the object's origin, or more"""
 
 
 class MeshStore:
@@ -90,7 +92,8 @@ class MeshStore:
                 arrays, dropped, remarks = mirrored(self.meshes[plain.number]), plain.dropped, plain.remarks
             else:
                 arrays, dropped, remarks = self._read(obj, needs)
-            self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners)
+            reach = 2.0 * float(np.abs(arrays.positions).max(initial=0.0))
+            self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach)
         return self._stored[key]
 
     def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
@@ -101,6 +104,7 @@ class MeshStore:
             remarks.append(
                 f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
             )
+        remarks += [Remark(cause, "object", obj.name) for cause in reading.repaired]
         if reading.is_cut:
             remarks.append(Remark("Vertex colors {of} are cut off below 0 and above 1.", "object", obj.name))
         return reading.mesh, reading.dropped, tuple(remarks)

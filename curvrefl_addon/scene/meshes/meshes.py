@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
+from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..signature import array_signature
 from .attributes import VertexColors, attribute_data, corner_colors, corner_coordinates
 from .corners import merge_corners
@@ -43,6 +44,8 @@ class MeshReading:
     """Triangles left out because a coordinate is not finite"""
     is_cut: bool = False
     """Its vertex colors have values beyond 0..1"""
+    repaired: tuple[str, ...] = ()
+    """Causes of remarks: what of it was no number and has been replaced"""
 
 
 def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
@@ -62,16 +65,18 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         shown = ~np.array(needs.hidden_slots)[np.minimum(slots, len(needs.hidden_slots) - 1)]
         triangle_corners, slots = triangle_corners[shown], slots[shown]
 
-    finite = np.isfinite(positions)
     dropped = 0
-    if not finite.all():
-        good_vertex = finite.all(axis=1)
+    if not is_usable(positions, LARGEST_PLACE):
+        # (Comparisons with what is not a number are not true.)
+        good_vertex = (np.abs(positions) <= LARGEST_PLACE).all(axis=1)
         good = good_vertex[corner_vertex[triangle_corners]].all(axis=1)
         dropped = int(len(good) - np.count_nonzero(good))
         triangle_corners, slots = triangle_corners[good], slots[good]
 
-    uv = _uv(mesh, needs.uv_map, positions, corner_vertex)
+    repaired: list[str] = []
+    uv = _usable(_uv(mesh, needs.uv_map, positions, corner_vertex), "Texture coordinates", repaired)
     colors = None if needs.colors is None else corner_colors(mesh, needs.colors, corner_vertex)
+    colors = _usable(colors, "Vertex colors", repaired)
     is_cut = colors is not None and bool((colors < -1e-6).any() or (colors > 1.0 + 1e-6).any())
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
@@ -117,7 +122,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         triangle_slot=slots,
         signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots),
     )
-    return MeshReading(arrays, dropped, is_cut)
+    return MeshReading(arrays, dropped, is_cut, tuple(repaired))
 
 
 def mirrored(mesh: MeshArrays) -> MeshArrays:
@@ -191,6 +196,14 @@ def _uv(
     if len(uv):
         layer.uv.foreach_get("vector", uv.reshape(-1))
     return uv
+
+
+def _usable(layer: Float32Array | None, what: str, repaired: list[str]) -> Float32Array | None:
+    """A layer (n, k) with 0 in place of what is no number."""
+    if layer is None or is_usable(layer):
+        return layer
+    repaired.append(f"{what} {{of}} that are not usable numbers are taken for 0.")
+    return np.where(np.abs(layer) <= LARGEST_LIGHT, layer, np.float32(0.0))
 
 
 def _compact(indices: Int32Array, count: int, complete: bool) -> tuple[Int32Array | None, Int32Array]:

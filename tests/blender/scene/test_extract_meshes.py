@@ -147,7 +147,7 @@ def test_modifiers_and_polygons_of_many_sides() -> None:
     assert len(mesh.positions) == 24
     assert mesh.triangles.shape == (18, 3)
     np.testing.assert_allclose(face_normals(mesh), np.tile([0.0, 0.0, 1.0], (18, 1)), atol=1e-6)
-    array.show_viewport = False
+    array.show_render = False
     assert len(mesh_of(extracted(disk), "disk").positions) == 8
 
 
