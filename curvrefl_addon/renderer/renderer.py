@@ -13,6 +13,7 @@ from time import perf_counter
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
+from ..scene.remarks import Remark, sentences
 from ..scene.view import View
 from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
@@ -163,10 +164,8 @@ class Renderer:
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         if self.settings.entry.solves_vertices:
-            found += [
-                f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
-                for name in self._bumpy_mirrors()
-            ]
+            cause = "Bumps {of} are left out: choose Automatic, Exact or an environment method to see them."
+            found += sentences(Remark(cause, "mirror", name) for name in self._bumpy_mirrors())
         found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._rays is not None:
             found += self._rays.warnings

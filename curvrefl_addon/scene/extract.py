@@ -82,6 +82,11 @@ class SceneReader:
         self._last: SceneArrays | None = None
 
     @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) that another frame may change."""
+        return self._images.sequences
+
+    @property
     def reads(self) -> dict[str, int]:
         """How often what was read."""
         return {

@@ -261,7 +261,7 @@ class Lighting:
             pixels = averaged(world.image, largest_texture(), largest_texture())
             if pixels.shape != world.image.shape:
                 self.world_warnings = (
-                    "The world's image is drawn with fewer pixels, as many as the graphics driver takes.",
+                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
                 )
             image = np.ones((*pixels.shape[:2], 4), np.float32)
             image[..., :3] = pixels

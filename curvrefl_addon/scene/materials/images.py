@@ -41,6 +41,11 @@ class ImageReader:
         """What of the images is not drawn as it is."""
         return [remark for remarks in self._remarks.values() for remark in remarks]
 
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) of which one frame is shown."""
+        return {uid for uid, frame, _ in self._pixels if frame}
+
     def read(self, image: bpy.types.Image, user: Any = None, splits_alpha: bool = False) -> Float32Array:
         """(height, width, 4) scene-linear, row 0 at the bottom.
 
@@ -81,7 +86,10 @@ class ImageReader:
             return _missing()
         found = _frame_pixels(frame) if frame else _own_pixels(image)
         if found is None:
-            remarks.append(Remark("The pixels {of} are missing: drawn magenta, as in Cycles.", "image", image.name))
+            cause = "The pixels {of} are missing: drawn magenta, as in Cycles."
+            if image.type != "IMAGE":
+                cause = "Layers {of} are not read: drawn magenta."
+            remarks.append(Remark(cause, "image", image.name))
             return _missing()
         pixels, is_float = found
         if is_float:
