@@ -223,7 +223,7 @@ class SceneReader:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj.data, obj.name, matrix, visibility.rays(instance).glossy, warnings)
+        light = read_light(obj, matrix, visibility.rays(instance), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
         return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
@@ -278,6 +278,7 @@ class SceneReader:
                 matrix=matrix,
                 materials=materials,
                 visible_camera=rays.camera,
+                visible_diffuse=rays.diffuse,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,

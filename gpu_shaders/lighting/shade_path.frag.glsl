@@ -15,7 +15,7 @@ void main()
   vec3 radiance = vec3(0.0);
   if (position.w == 0.0) {
     range = 2e30;
-    radiance = world_radiance(direction);
+    radiance = world_seen(direction, false);
   }
   else {
     vec4 base = texelFetch(reflected_color, pixel, 0);
@@ -31,7 +31,7 @@ void main()
     radiance = shade_surface(surface, -direction);
 #endif
   }
-  radiance += lamps_seen(origin.xyz, direction, range).rgb;
+  radiance += lamps_seen(origin.xyz, direction, range, false).rgb;
   vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
   // (The picture's alpha has come with the first mirror.)
   color = vec4(throughput * radiance * weight, 0.0);
