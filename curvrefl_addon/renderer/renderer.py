@@ -16,6 +16,7 @@ from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
+from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror
 from .preparation import Preparation
@@ -199,6 +200,9 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
+        if is_lit_indirectly(self.scene):
+            # (Of a picture that is kept: a viewport would say so all the time.)
+            reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
         return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
 
     def reflect(

@@ -19,6 +19,8 @@ type Float32Array = NDArray[np.float32]
 type Float64Array = NDArray[np.float64]
 type Int32Array = NDArray[np.int32]
 
+UNLIMITED_BOUNCES = 1 << 30
+"""More than any ray is followed"""
 LARGEST_COORDINATE = 1e18
 """Squares of larger ones overflow in single precision"""
 
@@ -195,3 +197,7 @@ class SceneArrays:
     """object_id of the chosen reflectors"""
     warnings: tuple[str, ...] = ()
     """What could not be represented, one sentence each"""
+    mirror_bounces: int = UNLIMITED_BOUNCES
+    """Mirrors one after the other that the file's own renders follow; the last shows only what shines by itself"""
+    diffuse_bounces: int = 0
+    """Surfaces one after the other from which they follow scattered light"""

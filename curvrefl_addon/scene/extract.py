@@ -26,6 +26,7 @@ from .reads import (
     SURELY_REGULAR,
     PlainObject,
     ShownInstance,
+    bounces_of,
     is_same_light,
     is_singular,
     listing_of,
@@ -143,7 +144,7 @@ class SceneReader:
         world = view_layer.world_override or scene.world
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
-        self._last = self._arrays(reflectors)
+        self._last = self._arrays(reflectors, *bounces_of(scene))
         return self._last
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
@@ -296,7 +297,7 @@ class SceneReader:
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
-    def _arrays(self, reflectors: Sequence[bpy.types.Object]) -> SceneArrays:
+    def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         self._check(chosen)
         instances = [
@@ -314,6 +315,8 @@ class SceneReader:
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
             warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
+            mirror_bounces=mirror_bounces,
+            diffuse_bounces=diffuse_bounces,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
 

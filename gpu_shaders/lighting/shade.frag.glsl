@@ -3,7 +3,8 @@
 // Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror
 // shows. A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND,
 // SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined. With
-// SEEN_BY_MIRROR what sees all this is no camera but a mirror.
+// MIRRORS_END surfaces that mirrors show have their own light alone. With SEEN_BY_MIRROR what sees all this is no
+// camera but a mirror.
 #if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
 #define QUADS
 #endif
@@ -61,7 +62,9 @@ void main()
   // What is shown stands where it is, not where this pixel's own ray would have met it.
   direction = normalize(position.xyz - origin);
   Surface shown = surface_of(position, normal, base.rgb);
-#ifdef SHADES_MIRROR_OF_MIRROR
+#if defined(MIRRORS_END)
+  vec3 radiance = shown.emission;
+#elif defined(SHADES_MIRROR_OF_MIRROR)
   // What is seen in that one comes in passes of its own.
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light of what a ray off a mirror seen in a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its
 // way. With GOES_ON a mirror that was hit adds only its own light, as the ray goes on from it in the next pass.
+// With MIRRORS_END all that was hit does.
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 
@@ -20,7 +21,9 @@ void main()
   else {
     vec4 base = texelFetch(reflected_color, pixel, 0);
     Surface surface = surface_of(position, texelFetch(reflected_normal, pixel, 0), base.rgb);
-#ifdef GOES_ON
+#if defined(MIRRORS_END)
+    radiance = surface.emission;
+#elif defined(GOES_ON)
     if (base.w > 0.5) {
       radiance = shade_under_mirror(surface, -direction);
     }

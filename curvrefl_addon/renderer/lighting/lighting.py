@@ -20,6 +20,7 @@ from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
+from .left_out import left_out
 from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
@@ -85,6 +86,7 @@ class Lighting:
         self._bound: Any = None
         self._lamp_warnings: tuple[str, ...] = ()
         self._scene = scene
+        self._left_out = left_out(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -95,6 +97,8 @@ class Lighting:
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene = self._scene, scene
+        if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
+            self._left_out = left_out(scene)
         moved = difference.moved
         planned = difference.structure or (bool(moved) and not self._holds(moved))
         if planned:
@@ -209,11 +213,12 @@ class Lighting:
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
         # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
+        found = (*self._lamp_warnings, *self._left_out)
         odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
         if not odd or not self._world_is_lit:
-            return self._lamp_warnings
+            return found
         what = "shade the world's light as that of lamps: their visibility to diffuse rays is left out."
-        return (*self._lamp_warnings, f"{listed(odd)} {what}")
+        return (*found, f"{listed(odd)} {what}")
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]

@@ -26,6 +26,8 @@ from .lookup import Environment, lookup_piece
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "path_direction", "path_throughput")
+MIRRORS_END = "MIRRORS_END"
+"""Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
 RAY_SHADOWS = "RAY_SHADOWS"
 """Beside the features of lighting: lamps' shadows by rays"""
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
@@ -44,6 +46,8 @@ class ShadePass:
 
     def follow(self, scene: SceneArrays) -> None:
         """Know another state of the scene."""
+        self.mirror_bounces = scene.mirror_bounces
+        """See `SceneArrays`"""
         bodies = [light for light in scene.lights if light.radius > 0.0 or light.kind == "AREA"]
         self._has_bodies = {
             True: any(light.visible_camera for light in bodies),
@@ -114,7 +118,8 @@ class ShadePass:
             self._draw(_shade_shader(kind, self._lighting.features, as_camera), kind, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                shader = _shade_shader(kind, self._features(shadows))
+                features = self._features(shadows) | ({MIRRORS_END} if self.mirror_bounces == 0 else frozenset())
+                shader = _shade_shader(kind, features)
                 shader.bind()
                 if shadows is not None and RAY_SHADOWS in self._features(shadows):
                     shadows.bind(shader)
@@ -161,7 +166,7 @@ class ShadePass:
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = self._features(shadows)
-        shader = _path_shader(bounce.goes_on, features)
+        shader = _path_shader(bounce.goes_on, features | ({MIRRORS_END} if bounce.ends else frozenset()))
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):

@@ -54,7 +54,8 @@ def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
     """Mirrors that a ray can meet one after the other."""
     mirrors = sub_frame.stage.mirrors
     may_meet_another = len(mirrors) > 1 or any(not mirror.facts.never_sees_itself for mirror in mirrors)
-    return members[0].settings.bounces if may_meet_another else 1
+    # (One more than the file follows shows what shines by itself.)
+    return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces + 1) if may_meet_another else 1
 
 
 def _bounces(
@@ -82,5 +83,5 @@ def _bounces(
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
         )
-        yield Bounce(seen, path, window, goes_on)
+        yield Bounce(seen, path, window, goes_on, number >= stage.shade.mirror_bounces)
         seen = path

@@ -27,7 +27,7 @@ OFF = 0.08
 
 
 def build_room(with_lamp: bool = True) -> bpy.types.Scene:
-    """Replaces the open file. Objects: floor, mirror, cube, gloss; a lamp "area"; a gray world."""
+    """Replaces the open file. Objects: floor, mirror, cube, gloss; a lamp "area"; a gray world; no indirect light."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene: Any = bpy.context.scene
     matte = principled("floor", (0.5, 0.5, 0.5), roughness=0.6)
@@ -42,6 +42,7 @@ def build_room(with_lamp: bool = True) -> bpy.types.Scene:
         add_lamp("AREA", (1.5, -2.0, 3.5), 150.0, size=1.0)
     add_camera((0.0, -7.0, 2.6), (0.0, 0.0, 0.9), 45.0)
     scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
+    scene.cycles.diffuse_bounces = 0
     return scene
 
 
@@ -73,16 +74,14 @@ class Judged:
         return float((np.abs(_blocks(self.ours) - _blocks(self.cycles)).max(axis=-1) > OFF).mean())
 
 
-def judge_room(samples: int = 48, indirect: bool = False, mirrors: tuple[str, ...] = ("mirror",)) -> Judged:
-    """The open scene by both; Cycles without `indirect` diffuse light."""
-    ours, warnings = our_room(mirrors)
+def judge_room(samples: int = 48, mirrors: tuple[str, ...] = ("mirror",), method: str = "exact") -> Judged:
+    """The open scene by both."""
+    ours, warnings = our_room(mirrors, method)
     scene: Any = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
     cycles.samples = samples
     cycles.use_adaptive_sampling = cycles.use_denoising = cycles.use_light_tree = False
-    if not indirect:
-        cycles.diffuse_bounces = 0
     # Light that gets from a lamp over the mirror to the floor is the next issue's.
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0.0
