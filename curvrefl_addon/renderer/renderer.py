@@ -19,6 +19,7 @@ from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
+from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -198,6 +199,9 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
+        if is_lit_indirectly(self.scene):
+            # (Of a picture that is kept: a viewport would say so all the time.)
+            reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
         return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
 
     def reflect(

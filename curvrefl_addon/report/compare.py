@@ -26,7 +26,7 @@ from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
-from ..scene.arrays import SceneArrays
+from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..scene.blend_file import find_camera, open_blend
 from ..scene.render_depsgraph import read_render_scene
 from ..scene.view import View
@@ -185,6 +185,9 @@ def compare_steps(
             scene, view_layer, reflector_names, comparison.width, comparison.height, camera
         )
         extract_ms = 1e3 * (time.perf_counter() - start)
+        if comparison.light == "direct":
+            # Mirrors follow each other as often as asked on both sides, whatever the file says.
+            arrays = replace(arrays, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,

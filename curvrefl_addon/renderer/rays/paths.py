@@ -146,6 +146,8 @@ class Bounce:
     """Holds the mirrors' pixels"""
     goes_on: bool
     """Another step follows the rays off mirrors that were hit"""
+    ends: bool
+    """The file follows no more mirrors: what was hit shows its own light alone"""
 
 
 ON_PATHS = Piece(

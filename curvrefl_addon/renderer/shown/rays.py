@@ -60,7 +60,8 @@ def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
         or any(not mirror.facts.never_sees_itself for mirror in mirrors)
         or _enclosing(members, sub_frame) != IN_THE_OPEN
     )
-    return members[0].settings.bounces if may_meet_another else 1
+    # (One more than the file follows shows what shines by itself.)
+    return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces + 1) if may_meet_another else 1
 
 
 def _enclosing(members: Sequence[ShownRays], sub_frame: SubFrame) -> Enclosing:
@@ -98,5 +99,5 @@ def _bounces(
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
         )
-        yield Bounce(seen, path, window, goes_on)
+        yield Bounce(seen, path, window, goes_on, number >= stage.shade.mirror_bounces)
         seen = path
