@@ -115,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         "layers",
         nargs="*",
         metavar="LAYER",
-        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD}, and names of its scenes",
+        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD} with names of scenes",
     )
     test.add_argument("--keep", metavar="DIR", help=f"keep the pictures of {verbs.AWKWARD} scenes in this folder")
 

@@ -349,6 +349,7 @@ class Renderer:
             lambda chunk: self.geometry.hidden_faces(chunk, view),
             with_reliefs=lambda chunk: id(chunk) not in smooth,
             depths=depths_of(view),
+            mirrored=view.is_mirrored,
         )
         return sub_frame
 

@@ -56,6 +56,11 @@ class View:
         return bool(self.view_to_clip[3, 3] != 0.0)
 
     @cached_property
+    def is_mirrored(self) -> bool:
+        """Whether left and right are swapped, as by a camera with a negative scale."""
+        return bool(np.linalg.det(self.world_to_view[:3, :3]) < 0.0)
+
+    @cached_property
     def eye(self) -> Float64Array:
         """(4,) homogeneous eye: a point with w = 1, or the unit direction towards an infinite eye with w = 0."""
         view_to_world = np.linalg.inv(self.world_to_view)

@@ -51,6 +51,7 @@ def _try_batch(number: int, names: list[str], folder: Path) -> list[dict[str, An
     place = folder / f"batch{number}"
     place.mkdir(parents=True, exist_ok=True)
     lines = place / "attempts.jsonl"
+    lines.unlink(missing_ok=True)
     results: dict[str, dict[str, Any]] = {}
     left = list(names)
     while left:
