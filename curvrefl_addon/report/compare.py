@@ -28,6 +28,7 @@ from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+from ..scene.color_spaces import scene_to_rec709
 from ..scene.extract import extract_scene
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
@@ -262,7 +263,8 @@ def _run(
         warnings.append(missing)
     for method, frame in frames.items():
         save_as_shown(folder / f"{method}.png", on_film(frame.color, scene), scene)
-        difference = inverse_display_transform(error_map(frame.color, reference.pixels))
+        found, right = scene_to_rec709(frame.color), scene_to_rec709(reference.pixels)
+        difference = inverse_display_transform(error_map(found, right))
         save_png(folder / f"{method}_error.png", difference)
         methods[method] = {
             "image": image_error(frame.color, reference.pixels, mask),

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..scene.arrays import Float32Array, Int32Array
+from ..scene.color_spaces import scene_to_rec709
 from ..scene.view import View
 from .geometry_reference import GeometryReference
 from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask
@@ -97,7 +98,11 @@ def _timed_frames(renderer: RendererLike, view: View, repeats: int) -> tuple[Fra
 
 
 def image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
-    """FLIP and PSNR over `mask` (h, w); None where there is no number: no pixels, no FLIP package, equal pictures."""
+    """FLIP and PSNR of scene-linear pictures over `mask` (h, w).
+
+    None where there is no number: no pixels, no FLIP package, equal pictures.
+    """
+    test, reference = scene_to_rec709(test), scene_to_rec709(reference)
     psnr = psnr_in_mask(test, reference, mask)
     # JSON has no infinity.
     flip = None if missing_flip() else flip_in_mask(test, reference, mask)

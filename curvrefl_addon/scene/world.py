@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
+from .color_spaces import rec709_to_scene
 from .materials.images import ImageReader
 from .materials.node_colors import Change, ColorReader, NodeColor
 from .materials.node_links import Source, find_input, source_of, surface_source
@@ -21,7 +22,7 @@ SKY_COLORS = {
     "PREETHAM": (0.60, 0.64, 0.88),
     "HOSEK_WILKIE": (0.11, 0.15, 0.17),
 }
-"""Mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, without its disc"""
+"""Linear Rec.709, mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, no disc"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,8 @@ class _WorldReader:
         assert node is not None
         if node.type == "TEX_SKY":
             self._notes.append("its sky is drawn as an even color without a sun; an image of it would be drawn in full")
-            return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
+            sky = SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"])
+            return NodeColor(_triple(rec709_to_scene(np.array(sky, np.float32))))
         if node.type != "TEX_ENVIRONMENT":
             return None
         if node.image is None:

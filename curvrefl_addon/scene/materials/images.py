@@ -10,10 +10,12 @@ import bpy
 import numpy as np
 
 from ..arrays import Float32Array
+from ..color_spaces import rec709_to_scene
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
 # Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
+_DATA = ("Non-Color", "Raw", "scene_linear")
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
 
 
@@ -72,6 +74,9 @@ class ImageReader:
             if space != "sRGB":
                 warnings.append(f'Color space "{space}" of image "{image.name}" is taken for sRGB.')
             _decode_srgb(pixels)
+        if not image.is_float and space not in _DATA:
+            # Blender's own bytes hold linear Rec.709 then, whatever the file's working space.
+            pixels = rec709_to_scene(pixels)
         return pixels
 
 

@@ -15,14 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Float32Array
+from ..color_spaces import luminance_weights
 from .node_links import Source
 
 type Pixels = NDArray[np.float32] | NDArray[np.float64]
 type Change = Callable[[Pixels], Pixels]
 """From colors (..., 3) to colors of the same shape"""
-
-LUMA = np.array([0.2126, 0.7152, 0.0722])
-"""Luminance of scene-linear Rec.709"""
 
 
 class Texture(Protocol):
@@ -182,7 +180,7 @@ class ColorReader:
             factor = value("Fac")
             return lambda c: (1.0 - factor) * c + factor * _hue_saturation_value(c, hue, saturation, brightness)
         if node.type == "RGBTOBW":
-            return lambda c: np.repeat((c @ LUMA)[..., None], 3, axis=-1)
+            return lambda c: np.repeat((c @ luminance_weights())[..., None], 3, axis=-1)
         return None
 
     def _changed(self, color: NodeColor, change: Change, node: Any) -> NodeColor:
@@ -210,7 +208,7 @@ class ColorReader:
         table = np.array([node.color_ramp.evaluate(i / (steps - 1))[:3] for i in range(steps)])
 
         def ramp(colors: Pixels) -> Pixels:
-            place = np.clip(colors @ LUMA, 0.0, 1.0) * (steps - 1)
+            place = np.clip(colors @ luminance_weights(), 0.0, 1.0) * (steps - 1)
             return np.stack([np.interp(place, np.arange(steps), table[:, k]) for k in range(3)], axis=-1)
 
         factor = source.input("Fac")
@@ -247,7 +245,7 @@ def _triple(values: Any) -> tuple[float, float, float]:
 
 def _luminance(color: tuple[float, float, float]) -> float:
     """Exact for a gray."""
-    return color[0] if color[0] == color[1] == color[2] else float(np.dot(color, LUMA))
+    return color[0] if color[0] == color[1] == color[2] else float(np.dot(color, luminance_weights()))
 
 
 def _apply(color: NodeColor, change: Change) -> NodeColor:

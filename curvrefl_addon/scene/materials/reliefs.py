@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Float32Array, ImageArrays
+from ..color_spaces import luminance_weights
 from ..meshes.meshes import GENERATED, OBJECT
-from .node_colors import LUMA, ColorReader, NodeColor, Pixels
+from .node_colors import ColorReader, NodeColor, Pixels
 from .node_links import Source
 from .surface_textures import SurfaceTexture, TextureSpace
 
@@ -80,7 +81,7 @@ def _bump(source: Source, colors: ColorReader, notes: list[str]) -> Relief | Non
 def _gray(pixels: Pixels) -> Pixels:
     """The luminance in all channels."""
     gray: Float32Array = np.empty(pixels.shape, np.float32)
-    gray[...] = (pixels @ LUMA)[..., None]
+    gray[...] = (pixels @ luminance_weights())[..., None]
     return gray
 
 
