@@ -11,9 +11,11 @@ from functools import partial
 from time import perf_counter
 
 from ..scene.arrays import Float32Array, SceneArrays
+from ..scene.shutter import Moment
 from ..scene.view import View
 from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
+from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.lighting import Lighting
@@ -25,7 +27,6 @@ from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
 from .shown.nothing import ShownNothing
-from .shown.rays import ShownRays
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import Targets
 from .surfaces.canvas import Canvas
@@ -182,15 +183,17 @@ class Renderer:
             if any(self.scene.materials[index].relief is not None for index in instance.materials)
         ]
 
-    def render(self, view: View, last: Reflection | None = None) -> Frame:
-        """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`."""
+    def render(self, view: View, last: Reflection | None = None, moments: Sequence[Moment] = ()) -> Frame:
+        """Draw the picture; its times have the GPU's work in them.
+
+        `last`: as for `reflect`. `moments`: what each sub-frame shows, where these are not all the same.
+        """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
-        reflection = self.reflect(view, last=last, is_still=view.lens is None, at_rest=True)
+        reflection = self.reflect(view, last=last, is_still=not (view.lens or moments), at_rest=True)
         reflection.wait()
         solved = perf_counter()
-        for index in range(self.settings.samples):
-            self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
+        reflection = expose(self, canvas, reflection, moments)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -240,8 +243,7 @@ class Renderer:
         with a `diagnostic` view.
         """
         dx, dy = self._jitter[index]
-        if reflection.view.lens is not None:
-            reflection = self._through_lens(reflection, index)
+        reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
@@ -257,15 +259,6 @@ class Renderer:
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
             kind.add_light(members, sub_frame, light)
-
-    def _through_lens(self, reflection: Reflection, index: int) -> Reflection:
-        """What the mirrors show from a place on the lens: solved again where it depends on the eye."""
-        lens = reflection.view.lens
-        assert lens is not None
-        view = reflection.view.through(*lens.points(self.settings.samples)[index])
-        if all(kind is ShownRays for kind, _ in reflection.groups):
-            return replace(reflection, view=view)
-        return self.reflect(view, last=reflection, at_rest=True)
 
     def _add_diagnostic(
         self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from types import TracebackType
 from typing import Self
 
@@ -13,10 +14,12 @@ import bpy
 
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
-from ..scene.arrays import Float32Array
+from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
+from ..scene.shutter import Moment, read_moments
+from ..scene.view import View
 from .as_shown import on_film
 
 
@@ -29,6 +32,8 @@ class PreviewRenderer:
         self._samples = samples
         self._reader = SceneReader(for_render=True)
         self._renderer: Renderer | None = None
+        self.warnings: tuple[str, ...] = ()
+        """What the last picture does not show, one sentence each"""
 
     def render(self, context: bpy.types.Context) -> Float32Array:
         """(h, w, 4) scene-linear picture at the size of the scene's renders.
@@ -40,17 +45,25 @@ class PreviewRenderer:
         scale = scene.render.resolution_percentage / 100.0
         width = max(int(scene.render.resolution_x * scale), 1)
         height = max(int(scene.render.resolution_y * scale), 1)
-        depsgraph = context.evaluated_depsgraph_get()
-        view = view_of_camera(scene, find_camera(scene), width, height, depsgraph)
+        mirrors, camera = find_reflectors(scene, self._mirrors), find_camera(scene)
+
+        def read(changes: Changes) -> tuple[SceneArrays, View]:
+            depsgraph = context.evaluated_depsgraph_get()
+            arrays = self._reader.read(depsgraph, scene, mirrors, changes, overrides_of(mirrors))
+            return arrays, view_of_camera(scene, camera, width, height, depsgraph)
+
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
-        mirrors = find_reflectors(scene, self._mirrors)
-        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True), overrides_of(mirrors))
+        arrays, view = read(Changes(everything=True))
         settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
         if self._renderer is None:
             self._renderer = Renderer(arrays, settings)
         else:
             self._renderer.update(arrays)
-        return on_film(self._renderer.render(view).color(), scene)
+        go_to = partial(_set_frame, scene)
+        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, go_to, read)
+        frame = self._renderer.render(view, moments=moments)
+        self.warnings = (*frame.warnings, *untold)
+        return on_film(frame.color(), scene)
 
     def __enter__(self) -> Self:
         return self
@@ -61,3 +74,7 @@ class PreviewRenderer:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
+
+
+def _set_frame(scene: bpy.types.Scene, frame: int, subframe: float) -> None:
+    scene.frame_set(frame, subframe=subframe)
