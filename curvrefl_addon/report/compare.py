@@ -28,8 +28,10 @@ from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import SceneArrays
 from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+from ..scene.changes import Changes
 from ..scene.color_spaces import scene_to_rec709
-from ..scene.extract import extract_scene
+from ..scene.extract import SceneReader
+from ..scene.shutter import Moment, read_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .as_shown import on_film, save_as_shown
@@ -180,18 +182,26 @@ def compare_steps(
     count = 4 + len(comparison.methods) + len(comparison.peers)
     with _camera_in_use(scene, camera) as camera_object:
         yield Step("Reading the scene", 0.0)
-        view = view_of_camera(scene, camera_object, comparison.width, comparison.height)
-        with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-            depsgraph = bpy.context.evaluated_depsgraph_get()
+        reader, reflectors = SceneReader(for_render=True), find_reflectors(scene, reflector_names)
+
+        def read(changes: Changes) -> tuple[SceneArrays, View]:
+            with bpy.context.temp_override(scene=scene, view_layer=view_layer):
+                depsgraph = bpy.context.evaluated_depsgraph_get()
+            view = view_of_camera(scene, camera_object, comparison.width, comparison.height, depsgraph)
+            return reader.read(depsgraph, scene, reflectors, changes), view
+
         start = time.perf_counter()
-        arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
+        arrays, view = read(Changes(everything=True))
         extract_ms = 1e3 * (time.perf_counter() - start)
+        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, read)
+        arrays = replace(arrays, warnings=(*arrays.warnings, *untold))
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
                 view_layer,
                 arrays,
                 view,
+                moments,
                 comparison,
                 extract_ms,
                 folder,
@@ -223,6 +233,7 @@ def _run(
     view_layer: bpy.types.ViewLayer,
     arrays: SceneArrays,
     view: View,
+    moments: Sequence[Moment],
     comparison: Comparison,
     extract_ms: float,
     folder: Path,
@@ -239,7 +250,7 @@ def _run(
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
         try:
-            frames[method] = measure_frame(make_renderer(arrays, method), view)
+            frames[method] = measure_frame(make_renderer(arrays, method), view, moments=moments)
         except InputError as error:
             refused[method] = str(error)
     if not frames:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from types import TracebackType
 from typing import Self
 
@@ -59,8 +58,7 @@ class PreviewRenderer:
             self._renderer = Renderer(arrays, settings)
         else:
             self._renderer.update(arrays)
-        go_to = partial(_set_frame, scene)
-        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, go_to, read)
+        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, read)
         frame = self._renderer.render(view, moments=moments)
         self.warnings = (*frame.warnings, *untold)
         return on_film(frame.color(), scene)
@@ -74,7 +72,3 @@ class PreviewRenderer:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
-
-
-def _set_frame(scene: bpy.types.Scene, frame: int, subframe: float) -> None:
-    scene.frame_set(frame, subframe=subframe)

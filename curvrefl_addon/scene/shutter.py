@@ -51,19 +51,21 @@ def read_moments(
     scene: bpy.types.Scene,
     still: Moment,
     samples: int,
-    go_to: Callable[[int, float], None],
     read: ReadMoment,
+    go_to: Callable[[int, float], None] | None = None,
 ) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
     """What each of `samples` sub-frames shows of the scene, and what of it is not as in Cycles, one sentence each.
 
     No moments where the file has no motion blur or nothing moves. `still`: at the present frame. `go_to(frame,
-    subframe)` shows the scene at another time; the present one is shown again at the end. As in Cycles lamps, world and
+    subframe)` shows the scene at another time, by `Scene.frame_set` if not given; the
+    present one is shown again at the end. As in Cycles lamps, world and
     materials stay as at the frame.
     """
     if not scene.render.use_motion_blur or samples == 1:
         return (), ()
     times = shutter_times(scene, samples)
     now = scene.frame_current + scene.frame_subframe
+    go_to = go_to or (lambda frame, subframe: scene.frame_set(frame, subframe=subframe))
     moments: dict[int, Moment] = {}
     try:
         for index in np.argsort(times).tolist():
