@@ -9,12 +9,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..scene.shutter import Moment
+from ..scene.view import View
 from .reflection import Reflection
+from .settings import Settings
 from .shown.rays import ShownRays
 from .surfaces.canvas import Canvas
 
 if TYPE_CHECKING:
     from .renderer import Renderer
+
+
+def lens_warnings(view: View, settings: Settings) -> tuple[str, ...]:
+    """What a lens does not show."""
+    if view.lens is None or settings.samples > 1:
+        return ()
+    return ("Depth of field is left out: it takes more than one sample.",)
 
 
 def through_lens(renderer: Renderer, reflection: Reflection, index: int) -> Reflection:

@@ -15,7 +15,7 @@ from ..scene.shutter import Moment
 from ..scene.view import View
 from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
-from .exposure import expose, through_lens
+from .exposure import expose, lens_warnings, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.lighting import Lighting
@@ -226,7 +226,7 @@ class Renderer:
             return Reflection(view, self.settings, (), self.warnings)
         bumpy = self._bumpy_mirrors()
         found = self._preparation.reflect(self._stage, view, self.settings, bumpy, last, is_still, at_rest)
-        return replace(found, warnings=(*self.warnings, *found.warnings))
+        return replace(found, warnings=(*self.warnings, *found.warnings, *lens_warnings(view, self.settings)))
 
     def add_sub_frame(
         self,

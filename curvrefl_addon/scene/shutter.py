@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import floor
 from operator import is_
@@ -61,8 +61,10 @@ def read_moments(
     present one is shown again at the end. As in Cycles lamps, world and
     materials stay as at the frame.
     """
-    if not scene.render.use_motion_blur or samples == 1:
+    if not scene.render.use_motion_blur:
         return (), ()
+    if samples == 1:
+        return (), ("Motion blur is left out: it takes more than one sample.",)
     times = shutter_times(scene, samples)
     now = scene.frame_current + scene.frame_subframe
     go_to = go_to or (lambda frame, subframe: scene.frame_set(frame, subframe=subframe))
@@ -91,16 +93,12 @@ def _all_that_moves() -> Changes:
 
 def _is_same(one: Moment, other: Moment) -> bool:
     return (
-        _are(one.scene.instances, other.scene.instances)
-        and _are(one.scene.meshes, other.scene.meshes)
+        len(one.scene.instances) == len(other.scene.instances)
+        and all(map(is_, one.scene.instances, other.scene.instances))
+        and [mesh.signature for mesh in one.scene.meshes] == [mesh.signature for mesh in other.scene.meshes]
         and np.array_equal(one.view.world_to_clip, other.view.world_to_clip)
         and one.view.lens == other.view.lens
     )
-
-
-def _are(some: Sequence[object], others: Sequence[object]) -> bool:
-    """The same objects."""
-    return len(some) == len(others) and all(map(is_, some, others))
 
 
 def _untold(scene: bpy.types.Scene, still: Moment, found: tuple[Moment, ...]) -> list[str]:
