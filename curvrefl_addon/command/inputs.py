@@ -5,17 +5,16 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import importlib.util
-import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..settings_table import Settings
+from ..streams import STDERR, STDOUT, dropped
 
 if TYPE_CHECKING:
     import bpy
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     from ..scene.view import View
 
 
-STDOUT, STDERR = 1, 2
 ROOT = Path(__file__).resolve().parent.parent.parent
 """Of the source tree"""
 SETTING = "setting_"
@@ -59,22 +57,23 @@ def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[
     return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
 
 
-def read_scene(scene: bpy.types.Scene, reflectors: Sequence[str]) -> SceneArrays:
-    """The open scene at its frame, with these mirrors."""
+def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
+    """The one that is in use in the open scene."""
     import bpy
 
-    from ..scene.blend_file import find_reflectors
-    from ..scene.extract import extract_scene
-
-    chosen = find_reflectors(scene, reflectors)
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, chosen, for_render=True)
+    view_layer = bpy.context.view_layer
+    return scene.view_layers[0] if view_layer is None else view_layer
 
 
-def view_of_options(options: argparse.Namespace, scene: bpy.types.Scene) -> View:
-    """What the chosen camera sees in the chosen resolution."""
-    from ..scene.blend_file import find_camera, view_of_camera
+def read_scene(
+    options: argparse.Namespace, scene: bpy.types.Scene, reflectors: Sequence[str]
+) -> tuple[SceneArrays, View]:
+    """The open scene at its frame as it renders, with these mirrors, and what the chosen camera sees of it in the
+    chosen resolution."""
+    from ..scene.render_depsgraph import read_render_scene
 
-    return view_of_camera(scene, find_camera(scene, options.camera), *resolution_of(options, scene))
+    size = resolution_of(options, scene)
+    return read_render_scene(scene, view_layer_of(scene), reflectors, *size, options.camera)
 
 
 def chosen_settings(options: argparse.Namespace) -> Settings:
@@ -101,23 +100,6 @@ def require_known(names: Sequence[str], known: Sequence[str], what: str) -> None
 def warn_of(warnings: Sequence[str]) -> None:
     for warning in dict.fromkeys(warnings):
         say(f"Warning: {warning}")
-
-
-@contextlib.contextmanager
-def dropped(descriptor: int) -> Iterator[TextIO]:
-    """What Blender and C libraries write to STDOUT or STDERR meanwhile goes nowhere; yields the way past that."""
-    stream = sys.stdout if descriptor == STDOUT else sys.stderr
-    stream.flush()
-    kept = os.dup(descriptor)
-    with open(kept, "w", encoding="utf-8") as past:
-        try:
-            nowhere = os.open(os.devnull, os.O_WRONLY)
-            os.dup2(nowhere, descriptor)
-            os.close(nowhere)
-            yield past
-        finally:
-            stream.flush()
-            os.dup2(kept, descriptor)
 
 
 def start_gpu() -> None:

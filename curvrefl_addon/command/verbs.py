@@ -12,15 +12,15 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
+from ..streams import STDOUT, dropped
+from ..supervised import ended_softly
 from .inputs import (
-    STDOUT,
     chosen_settings,
-    dropped,
     open_scene,
     read_names,
     read_scene,
@@ -28,7 +28,7 @@ from .inputs import (
     require_known,
     resolution_of,
     start_gpu,
-    view_of_options,
+    view_layer_of,
     warn_of,
 )
 
@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 LAYERS = ("unit", "blender", "gui")
+AWKWARD = "awkward"
+"""A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = ("color", "position", "object", "iterations")
 
 
@@ -52,8 +54,7 @@ def render(options: argparse.Namespace) -> int:
     output = checked_file(options.output, (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    view = view_of_options(options, scene)
-    arrays = read_scene(scene, reflectors)
+    arrays, view = read_scene(options, scene, reflectors)
 
     from ..renderer.renderer import Renderer
     from ..report.images import save_exr, save_png
@@ -105,7 +106,7 @@ def compare(options: argparse.Namespace) -> int:
     scene = open_scene(options.file, options.frame)
     width, height = resolution_of(options, scene)
     comparison = replace(comparison, width=width, height=height)
-    _compare_and_print(scene, reflectors, comparison, output, options.camera)
+    _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
     return 0
 
 
@@ -165,7 +166,6 @@ def benchmark(options: argparse.Namespace) -> int:
 
     from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
 
-    output.mkdir(parents=True, exist_ok=True)
     with dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
@@ -229,20 +229,23 @@ def bake(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    arrays = read_scene(scene, reflectors)
 
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
+    from ..scene.render_depsgraph import read_rendered
 
+    if options.camera is None and scene.camera is None:
+        arrays, view = read_rendered(scene, view_layer_of(scene), reflectors), None
+    else:
+        arrays, view = read_scene(options, scene, reflectors)
     baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
     warn_of(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
     for sentence in baked.describe():
         print(sentence)
-    if scene.camera is not None:
-        view = view_of_options(options, scene)
+    if view is not None:
         error = pixel_error(baked, view)
         print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
@@ -258,25 +261,27 @@ def demo(options: argparse.Namespace) -> int:
 
     print("Building the demo scene", flush=True)
     file = output / "demo.blend"
-    with folder_to_publish(output) as folder, dropped(STDOUT):
-        build_demo(folder / file.name)
-    _compare_and_print(open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
+    # (both or none)
+    with folder_to_publish(output) as folder:
+        with dropped(STDOUT):
+            build_demo(folder / file.name)
+        report = _compare(open_scene(folder / file.name), [KETTLE], Comparison(samples=DEMO_SAMPLES), folder)
+    _print_report(report, output)
     print(f"Scene: {file}")
     return 0
 
 
-def _compare_and_print(
+def _compare(
     scene: bpy.types.Scene,
     reflectors: Sequence[str],
     comparison: Comparison,
     output: Path,
     camera: str | None = None,
-) -> None:
-    """Compare the open scene, write the report into `output`, print its table."""
+) -> dict[str, Any]:
+    """Compare the open scene and write the report into `output`; returns it."""
     import bpy
 
     from ..report.compare import compare_open_scene
-    from ..report.table import format_table
 
     view_layer = bpy.context.view_layer
     assert view_layer is not None, "an open scene has a view layer"
@@ -285,15 +290,23 @@ def _compare_and_print(
         def progress(text: str) -> None:
             print(text, file=stdout, flush=True)
 
-        report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+        return compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+
+
+def _print_report(report: dict[str, Any], output: Path) -> None:
+    from ..report.table import format_table
+
     print(format_table(report))
     print(f"Report: {output / 'report.html'}")
 
 
 def test(options: argparse.Namespace) -> int:
-    """Run the checks of the source; see tools/run_tests.py."""
+    """Run the checks and tests of the source, or try awkward scenes; see tools/run_tests.py."""
+    if options.layers[:1] == [AWKWARD]:
+        return int(repository_tool("run_tests", "test").try_awkward(options.layers[1:], options.keep))
     require_known(options.layers, LAYERS, "layer of tests")
-    return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
+    with ended_softly():  # (virtual screens among others)
+        return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
 
 def check(options: argparse.Namespace) -> int:
@@ -306,7 +319,8 @@ def check(options: argparse.Namespace) -> int:
 def images(options: argparse.Namespace) -> int:
     """Make the pictures of the documents; see tools/make_images.py."""
     tool = repository_tool("make_images", "images")
-    tool.make(options.images or list(tool.IMAGES))
+    with ended_softly():
+        tool.make(options.images or list(tool.IMAGES))
     return 0
 
 

@@ -8,22 +8,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..scene.shutter import Moment
-from ..scene.view import View
+from ..scene.camera.shutter import Moment
 from .reflection import Reflection
-from .settings import Settings
 from .shown.rays import ShownRays
 from .surfaces.canvas import Canvas
 
 if TYPE_CHECKING:
     from .renderer import Renderer
-
-
-def lens_warnings(view: View, settings: Settings) -> tuple[str, ...]:
-    """What a lens does not show."""
-    if view.lens is None or settings.samples > 1:
-        return ()
-    return ("Depth of field is left out: it takes more than one sample.",)
 
 
 def through_lens(renderer: Renderer, reflection: Reflection, index: int) -> Reflection:
@@ -34,20 +25,25 @@ def through_lens(renderer: Renderer, reflection: Reflection, index: int) -> Refl
     view = reflection.view.through(*lens.points(renderer.settings.samples)[index])
     if all(kind is ShownRays for kind, _ in reflection.groups):
         return replace(reflection, view=view)
-    return renderer.reflect(view, last=reflection, at_rest=True)
+    return renderer.reflect(view.about(-reflection.origin), last=reflection, at_rest=True)
 
 
-def expose(renderer: Renderer, canvas: Canvas, reflection: Reflection, moments: Sequence[Moment] = ()) -> Reflection:
-    """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself."""
+def expose(
+    renderer: Renderer, canvas: Canvas, reflection: Reflection, still: Moment, moments: Sequence[Moment] = ()
+) -> Reflection:
+    """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`.
+
+    The renderer shows that scene before and after.
+    """
     samples = renderer.settings.samples
     if not moments:
         for index in range(samples):
             renderer.add_sub_frame(canvas, reflection, index, 1.0 / samples)
         return reflection
-    still, shown = renderer.scene, reflection
+    shown = reflection
     for index, moment in enumerate(moments):
         renderer.update(moment.scene)
         shown = renderer.reflect(moment.view, last=shown, at_rest=True)
         renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
-    renderer.update(still)
-    return renderer.reflect(reflection.view, last=shown, at_rest=True)
+    renderer.update(still.scene)
+    return renderer.reflect(still.view, last=shown, at_rest=True)

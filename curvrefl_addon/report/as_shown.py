@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 
 from ..scene.arrays import Float32Array
+from ..scene.temporary_settings import temporary_settings
 from .images import to_image_datablock
-from .temporary_settings import temporary_settings
 
 
 def on_film(pixels: Float32Array, scene: bpy.types.Scene) -> Float32Array:

@@ -27,11 +27,10 @@ from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import SceneArrays
-from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
-from ..scene.changes import Changes
-from ..scene.color_spaces import scene_to_rec709
-from ..scene.extract import SceneReader
-from ..scene.shutter import Moment, read_moments
+from ..scene.blend_file import find_camera, open_blend
+from ..scene.camera.shutter import Moment
+from ..scene.materials.color_spaces import scene_to_rec709
+from ..scene.render_depsgraph import read_render_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from .as_shown import on_film, save_as_shown
@@ -180,27 +179,26 @@ def compare_steps(
     settings = replace(comparison.settings, film_transparent=scene.render.film_transparent)
     comparison = replace(comparison, settings=settings)
     count = 4 + len(comparison.methods) + len(comparison.peers)
-    with _camera_in_use(scene, camera) as camera_object:
+    with _camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
-        reader, reflectors = SceneReader(for_render=True), find_reflectors(scene, reflector_names)
-
-        def read(changes: Changes) -> tuple[SceneArrays, View]:
-            with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-                depsgraph = bpy.context.evaluated_depsgraph_get()
-            view = view_of_camera(scene, camera_object, comparison.width, comparison.height, depsgraph)
-            return reader.read(depsgraph, scene, reflectors, changes), view
-
         start = time.perf_counter()
-        arrays, view = read(Changes(everything=True))
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            reflector_names,
+            comparison.width,
+            comparison.height,
+            settings.samples,
+            camera,
+        )
         extract_ms = 1e3 * (time.perf_counter() - start)
-        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, read)
-        arrays = replace(arrays, warnings=(*arrays.warnings, *untold))
+        arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
                 view_layer,
                 arrays,
-                view,
+                still.view,
                 moments,
                 comparison,
                 extract_ms,
@@ -224,7 +222,7 @@ def compare_steps(
             text = json.dumps(report, indent=1, allow_nan=False)
             (folder / "report.html").write_text(report_page(report, mismatch), encoding="utf-8")
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
-    yield Step(f"Wrote {output / 'report.html'}", 1.0)
+    yield Step("Wrote report.html", 1.0)
     return report
 
 
@@ -322,12 +320,11 @@ def _silent(_message: str) -> None:
 
 
 @contextmanager
-def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[bpy.types.Object]:
-    """`scene.camera` is the camera object called `name` (or stays) for the time being."""
+def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+    """`scene.camera` is for the time being the camera object called `name`, or the one that Blender renders by."""
     before = scene.camera
-    camera = find_camera(scene, name)
-    scene.camera = camera
+    scene.camera = find_camera(scene, name)
     try:
-        yield camera
+        yield
     finally:
         scene.camera = before

@@ -7,25 +7,25 @@ Everything that is changed for a still is set back after it. All stills are scen
 (height, width, 4), row 0 at the BOTTOM, of the scene's camera at its current frame, without denoising,
 compositing, sequencer, stereo or crop. Film exposure is 1: pictures get theirs as they are shown.
 
-The geometry is the *viewport's* (its subdivision levels, its hidden objects), since that is what the
-renderer under test is given.
+The geometry is the file's, as F12 renders it.
 """
 
 from __future__ import annotations
 
-import tempfile
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ..errors import InputError
+from ..output import temporary_folder
 from ..scene.arrays import Float32Array
+from ..scene.render_depsgraph import use_camera
+from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..written_files import require_whole
 from .images import load_exr
 from .repeats import Timing, repeated
-from .temporary_settings import TemporarySettings, temporary_settings
 
 LIGHTS = ("direct", "full")
 PEERS = ("eevee", "cycles1", "cycles8", "cycles64")
@@ -75,7 +75,6 @@ def render_reference(
         use_still_output(changes, scene, width, height)
         if sharp:
             use_pinhole(changes, scene)
-        use_viewport_geometry(changes, scene, view_layer)
         use_cycles(changes, scene, view_layer, samples, light, bounces)
         return render_still(scene, view_layer)
 
@@ -103,7 +102,6 @@ def render_peer(
         use_still_output(changes, scene, width, height)
         if sharp:
             use_pinhole(changes, scene)
-        use_viewport_geometry(changes, scene, view_layer)
         # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
         if peer == "eevee":
             _use_eevee(changes, scene, light)
@@ -153,11 +151,7 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         color_depth="32",
         exr_codec="NONE",
     )
-    for marker in scene.timeline_markers:
-        # A marker with a camera would replace the chosen one as the render starts.
-        changes.set(marker, camera=None)
-    # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
-    changes.set(scene, camera=scene.camera)
+    use_camera(changes, scene, scene.camera)
 
 
 def use_pinhole(changes: TemporarySettings, scene: bpy.types.Scene) -> None:
@@ -166,30 +160,6 @@ def use_pinhole(changes: TemporarySettings, scene: bpy.types.Scene) -> None:
     camera = scene.camera.data if scene.camera is not None else None
     if isinstance(camera, bpy.types.Camera):
         changes.set(camera.dof, use_dof=False)
-
-
-def use_viewport_geometry(changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
-    """Render what the viewport's dependency graph shows: its detail and its hidden objects."""
-    changes.set(scene.render, simplify_subdivision_render=scene.render.simplify_subdivision)
-    in_view_layer = set(view_layer.objects)
-    for obj in bpy.data.objects:
-        hidden = obj.hide_viewport or (obj in in_view_layer and not obj.visible_get(view_layer=view_layer))
-        if hidden:
-            changes.set(obj, hide_render=True)
-        changes.set(obj, show_instancer_for_render=obj.show_instancer_for_viewport)
-        modifier: Any
-        for modifier in obj.modifiers:
-            changes.set(modifier, show_render=modifier.show_viewport)
-            if modifier.type in ("SUBSURF", "MULTIRES"):
-                changes.set(modifier, render_levels=modifier.levels)
-            if modifier.type == "SUBSURF":
-                changes.set(modifier, use_adaptive_subdivision=False)
-            elif modifier.type == "SCREW":
-                changes.set(modifier, render_steps=modifier.steps)
-    for curve in bpy.data.curves:
-        changes.set(curve, render_resolution_u=0, render_resolution_v=0)
-    for metaball in bpy.data.metaballs:
-        changes.set(metaball, render_resolution=metaball.resolution)
 
 
 def use_cycles(
@@ -254,8 +224,8 @@ def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: str) -
 def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Still:
     """Render with the settings as they are (see `use_still_output`), through a file in a temporary folder."""
     filepath = scene.render.filepath
-    with tempfile.TemporaryDirectory(prefix="curvrefl-") as folder:
-        path = Path(folder, "still.exr")
+    with temporary_folder() as folder:
+        path = folder / "still.exr"
         scene.render.filepath = str(path)
         try:
             start = time.perf_counter()
@@ -265,6 +235,8 @@ def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Sti
             scene.render.filepath = filepath
         if "CANCELLED" in result:
             raise RenderCanceledError(f"{scene.render.engine} was stopped at the picture of scene '{scene.name}'")
-        if "FINISHED" not in result or not path.is_file():
+        if "FINISHED" not in result:
             raise RuntimeError(f"{scene.render.engine} did not finish the picture of scene '{scene.name}'")
+        # On a full disk, too, the render has finished.
+        require_whole(path)
         return Still(load_exr(path), seconds)

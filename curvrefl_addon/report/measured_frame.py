@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..scene.arrays import Float32Array, Int32Array
-from ..scene.color_spaces import scene_to_rec709
-from ..scene.shutter import Moment
+from ..scene.camera.shutter import Moment
+from ..scene.materials.color_spaces import scene_to_rec709
 from ..scene.view import View
 from .geometry_reference import GeometryReference
 from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask

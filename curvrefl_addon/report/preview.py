@@ -13,12 +13,10 @@ import bpy
 
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
-from ..scene.arrays import Float32Array, SceneArrays
-from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
-from ..scene.changes import Changes
+from ..scene.arrays import Float32Array
+from ..scene.blend_file import find_reflectors
 from ..scene.extract import SceneReader
-from ..scene.shutter import Moment, read_moments
-from ..scene.view import View
+from ..scene.render_depsgraph import read_render_moments
 from .as_shown import on_film
 
 
@@ -29,7 +27,7 @@ class PreviewRenderer:
         """`mirrors`: names of objects."""
         self._mirrors = tuple(mirrors)
         self._samples = samples
-        self._reader = SceneReader(for_render=True)
+        self._reader = SceneReader()
         self._renderer: Renderer | None = None
         self.warnings: tuple[str, ...] = ()
         """What the last picture does not show, one sentence each"""
@@ -39,27 +37,29 @@ class PreviewRenderer:
 
         Raises InputError for what the user can change: camera, mirrors.
         """
-        scene = context.scene
-        assert scene is not None
+        scene, view_layer = context.scene, context.view_layer
+        assert scene is not None and view_layer is not None
         scale = scene.render.resolution_percentage / 100.0
         width = max(int(scene.render.resolution_x * scale), 1)
         height = max(int(scene.render.resolution_y * scale), 1)
-        mirrors, camera = find_reflectors(scene, self._mirrors), find_camera(scene)
-
-        def read(changes: Changes) -> tuple[SceneArrays, View]:
-            depsgraph = context.evaluated_depsgraph_get()
-            arrays = self._reader.read(depsgraph, scene, mirrors, changes, overrides_of(mirrors))
-            return arrays, view_of_camera(scene, camera, width, height, depsgraph)
-
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
-        arrays, view = read(Changes(everything=True))
+        overrides = overrides_of(find_reflectors(scene, self._mirrors))
         settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            self._mirrors,
+            width,
+            height,
+            settings.samples,
+            reader=self._reader,
+            overrides=overrides,
+        )
         if self._renderer is None:
-            self._renderer = Renderer(arrays, settings)
+            self._renderer = Renderer(still.scene, settings)
         else:
-            self._renderer.update(arrays)
-        moments, untold = read_moments(scene, Moment(arrays, view), settings.samples, read)
-        frame = self._renderer.render(view, moments=moments)
+            self._renderer.update(still.scene)
+        frame = self._renderer.render(still.view, moments=moments)
         self.warnings = (*frame.warnings, *untold)
         return on_film(frame.color(), scene)
 

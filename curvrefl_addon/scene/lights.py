@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float64Array, LightArrays
+from .finite import LARGEST_PLACE, is_usable, problem_of_place
 from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
 
@@ -22,8 +23,11 @@ def read_light(
     As in Cycles, sizes of area lamps follow the object's scale but their power does not, and balls keep their radius.
     An area lamp without area gives no light.
     """
+    if problem := problem_of_place(matrix, 0.0):
+        warnings.append(f'Lamp "{name}" {problem} and is left out.')
+        return None
     lengths = np.linalg.norm(matrix[:3, :3], axis=0)
-    if not np.isfinite(matrix).all() or lengths.min() == 0.0:
+    if lengths.min() == 0.0 or not is_usable(lengths):
         warnings.append(f'Lamp "{name}" has a zero or endless scale and is left out.')
         return None
     placed = matrix.copy()
@@ -32,6 +36,9 @@ def read_light(
     if light.use_temperature:
         color *= np.array(light.temperature_color, np.float64)
     color *= _node_color(light, name, warnings)
+    if not is_usable(color):
+        warnings.append(f'Lamp "{name}" is left out: its color or power is not a usable number.')
+        return None
     if not color.any():
         return None
 
@@ -63,6 +70,11 @@ def read_light(
     if not light.normalize:
         # The energy is then that of a square meter; Cycles counts a point as four.
         color *= area
+    if not (
+        is_usable((radius, *size), LARGEST_PLACE) and is_usable((angle, spot_angle, spot_blend)) and is_usable(color)
+    ):
+        warnings.append(f'Lamp "{name}" is left out: its size is not a usable number.')
+        return None
     r, g, b = color.tolist()
     return LightArrays(
         name=name,

@@ -15,11 +15,14 @@ import numpy as np
 from .arrays import Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .materials.materials import ReadMaterial
 from .meshes.meshes import MeshNeeds
+from .remarks import Remark
 
 SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
 
 
+SMALLEST_SIZE = 1e-12
+"""Greatest stretch under which nothing is left of a mesh"""
 SURELY_REGULAR = 1e-4
 """Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
 
@@ -41,7 +44,7 @@ class ShownInstance:
 
     instance: InstanceArrays | None = None
     light: LightArrays | None = None
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark | str, ...] = ()
     has_faces: bool = True
     made_of: tuple[Any, ...] = ()
     """All that `instance` is made of"""
@@ -95,14 +98,25 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
     return materials or [None]
 
 
-def needs_of(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
+def is_diced(obj: bpy.types.Object) -> bool:
+    """Whether Cycles subdivides an object as finely as its pixels ask for."""
+    modifier = obj.original.modifiers[-1] if obj.original.modifiers else None
+    return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
+
+
+def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: list[Remark | str]) -> MeshNeeds:
     """What the first slots that need a UV map or colors say: a mesh has one of each here."""
-    uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
-    colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
-    for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):
-        if len(set(wanted)) > 1:
-            warnings.append(f'"{name}" has several materials; the {what} of the first serve all.')
-    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+    mesh = obj.data
+    assert isinstance(mesh, bpy.types.Mesh)
+    default = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
+    colors = [slot.colors for slot in slots if slot.colors is not None]
+    if len({uv_map or default for uv_map in uv_maps}) > 1:
+        warnings.append(Remark("Textures {of} are all drawn on one of the UV maps they use.", "object", obj.name))
+    if len(set(colors)) > 1:
+        warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
+    hidden = tuple(slot.is_hidden for slot in slots)
+    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None, hidden if any(hidden) else ())
 
 
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:
@@ -142,4 +156,4 @@ def is_singular(matrix: Float64Array) -> bool:
     if not np.isfinite(matrix).all():
         return True
     stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])
+    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0] or stretches[0] < SMALLEST_SIZE)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays, WorldArrays
-from ..scene.color_spaces import rec709_to_scene
+from ..scene.materials.color_spaces import rec709_to_scene
 from ..scene.materials.images import ImageReader
 
 

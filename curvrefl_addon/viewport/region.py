@@ -23,7 +23,7 @@ from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
-from ..scene.lens import Lens, lens_of
+from ..scene.camera.lens import Lens, lens_of
 from ..scene.view import View
 
 if TYPE_CHECKING:

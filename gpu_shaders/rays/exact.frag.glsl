@@ -35,7 +35,8 @@ void main()
 #ifdef ON_PATH
   tint *= texelFetch(path_throughput, pixel, 0).rgb;
 #endif
-  throughput_out = vec4(tint, 1.0);
+  // (Half precision ends a little above.)
+  throughput_out = vec4(min(tint, vec3(6e4)), 1.0);
 #endif
   if (hit.instance < 0) {
     surface_position = vec4(direction, 0.0);
@@ -53,7 +54,7 @@ void main()
   surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, surface.mirror);
 #ifdef WITH_IMAGES
   vec4 transform = fetch_record(materials, MATERIAL_RECORDS * surface.material + 3);
-  float image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4).x;
-  uv_out = vec4(surface.uv * transform.xy + transform.zw, image, 0.0);
+  vec4 image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4);
+  uv_out = vec4(surface.uv * transform.xy + transform.zw + image.yz * surface.uv.yx, image.x, 0.0);
 #endif
 }

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "gpu_shaders"),
+    ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
     ("output", "optics", "setting"),
     ("settings_table",),
     ("scene", "renderer.settings"),

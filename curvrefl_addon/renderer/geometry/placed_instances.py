@@ -35,6 +35,11 @@ def corners_of_boxes(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Fl
     return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
 
 
+def box_around(points: Float64Array) -> Float64Array:
+    """(8, 4) homogeneous corners of the box around points (n, 3)."""
+    return np.column_stack([np.where(CORNERS, points.max(axis=0), points.min(axis=0)), np.ones(8)])
+
+
 def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
     """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
     sizes = [

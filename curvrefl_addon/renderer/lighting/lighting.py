@@ -14,12 +14,14 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
 from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .shadow_reach import shadow_pieces
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
@@ -82,6 +84,7 @@ class Lighting:
         self._bound: Any = None
         self.warnings: tuple[str, ...] = ()
         """What could not be represented, one sentence each"""
+        self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._read_geometry()
         self._read_world()
@@ -111,13 +114,8 @@ class Lighting:
         self._blocks.clear()
 
     def _read_geometry(self) -> None:
-        facts = self._geometry.facts
-        self._extent = SceneExtent(
-            [
-                (facts.of(item.mesh).pieces, item.instance.matrix, item.instance.visible_shadow)
-                for item in self._geometry.placed
-            ]
-        )
+        pieces, self._standing_apart = shadow_pieces(self._geometry)
+        self._extent = SceneExtent(pieces)
         self._casters = ShadowCasters(self._geometry, self._extent)
         self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
 
@@ -200,13 +198,13 @@ class Lighting:
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if max(light.color) > 0.0]
         if len(shining) > MAX_LAMPS:
-            self.warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            self.warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
             shining.sort(key=lambda light: -sum(light.color))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self.warnings = ()
+        self.warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
@@ -252,12 +250,18 @@ class Lighting:
         light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
+        self.world_warnings = ()
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
         else:
-            image = np.ones((*world.image.shape[:2], 4), np.float32)
-            image[..., :3] = world.image
-            self._world_image = texture_2d(image, linear=True, repeat=True)
+            pixels = averaged(world.image, largest_texture(), largest_texture())
+            if pixels.shape != world.image.shape:
+                self.world_warnings = (
+                    "The world's image is drawn with fewer pixels, as many as the graphics driver takes.",
+                )
+            image = np.ones((*pixels.shape[:2], 4), np.float32)
+            image[..., :3] = pixels
+            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""

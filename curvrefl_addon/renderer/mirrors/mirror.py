@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.view import View
-from ..geometry.mesh_facts import MeshFacts
+from ..geometry.mesh_facts import MeshFacts, MeshFactsCache
 from ..geometry.mesh_inside import holds_point
 from ..geometry.placed_instances import CORNERS, Sight
 from ..geometry.split import split_angle
@@ -197,6 +198,26 @@ class Mirror:
         to_eye = eye[:3] - middle * eye[3]
         seen = np.einsum("ij,ij->i", normals, to_eye) / np.maximum(np.linalg.norm(to_eye, axis=1), 1e-30) ** 3
         return 1.0 if np.maximum(seen, 0.0).sum() >= np.maximum(-seen, 0.0).sum() else -1.0
+
+
+def mirrors_of(
+    scene: SceneArrays, before: Sequence[Mirror], facts: MeshFactsCache, counters: Counter[str]
+) -> list[Mirror]:
+    """The reflectors of a scene, numbered 1, 2, ...: those of the state before where they only moved."""
+    known: dict[int, list[Mirror]] = {}
+    for old in before:
+        known.setdefault(old.object_id, []).append(old)
+    mirrors: list[Mirror] = []
+    for index, instance in enumerate(scene.instances):
+        if instance.object_id not in scene.reflectors:
+            continue
+        number = len(mirrors) + 1
+        same = known.get(instance.object_id)
+        mirror = same.pop(0) if same else None
+        if mirror is None or not mirror.follow(scene, index, number):
+            mirror = Mirror(scene, index, number, facts.of(scene.meshes[instance.mesh]), counters)
+        mirrors.append(mirror)
+    return mirrors
 
 
 def _moved_map(world_to_map: Float64Array, before: InstanceArrays, after: InstanceArrays) -> Float64Array | None:

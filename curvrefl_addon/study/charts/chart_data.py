@@ -24,8 +24,7 @@ from ...report.geometry_reference import GeometryReference, render_geometry
 from ...report.measured_frame import frame_geometry_error, image_error, measure_frame, measure_times
 from ...report.metrics import missing_flip
 from ...scene.arrays import SceneArrays
-from ...scene.blend_file import find_camera, find_reflectors, view_of_camera
-from ...scene.extract import extract_scene
+from ...scene.render_depsgraph import read_render_scene
 from ...scene.view import View
 from ..solvers.solver_table import settings_of
 from ..solvers.vertex_accuracy import VertexTruth
@@ -69,10 +68,9 @@ def scene_steps(
     Raises InputError for what is wrong with the scene itself; RenderCanceledError where the user stops a render.
     """
     yield "Reading the scene"
-    view = view_of_camera(scene, find_camera(scene), comparison.width, comparison.height)
+    arrays, view = read_render_scene(scene, view_layer, reflector_names, comparison.width, comparison.height)
     is_blurred = scene.render.use_motion_blur or view.lens is not None
     view = replace(view, lens=None)
-    arrays = read_scene(scene, view_layer, reflector_names)
     vertex_truth = VertexTruth(arrays, view)
     warnings = [*vertex_truth.warnings, *filter(None, [missing_flip(), BLURRED if is_blurred else ""])]
 
@@ -146,13 +144,6 @@ def _marks(
             )
         )
     return marks
-
-
-def read_scene(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reflector_names: Sequence[str]) -> SceneArrays:
-    """The open scene at its frame. Raises InputError for what is wrong with it."""
-    with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-    return extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
 
 
 def _measured(

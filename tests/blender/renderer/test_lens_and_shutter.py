@@ -11,15 +11,12 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
-from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.blend_file import find_reflectors, view_of_camera
-from curvrefl.curvrefl_addon.scene.changes import Changes
+from curvrefl.curvrefl_addon.scene.camera.lens import Lens
+from curvrefl.curvrefl_addon.scene.camera.shutter import Moment, shutter_times
 from curvrefl.curvrefl_addon.scene.extract import SceneReader
-from curvrefl.curvrefl_addon.scene.lens import Lens
-from curvrefl.curvrefl_addon.scene.shutter import Moment, read_moments, shutter_times
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_moments
 from curvrefl.curvrefl_addon.settings_table import Settings
-from scenes.blurred_stage import build_blurred_stage, slide
+from scenes.file_settings.blurred_stage import build_blurred_stage, slide
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
@@ -31,17 +28,15 @@ class Stage:
 
     def __init__(self, scene: bpy.types.Scene) -> None:
         self.scene = scene
-        self._reader = SceneReader(for_render=True)
-        self.still = Moment(*self.read(Changes(everything=True)))
-
-    def read(self, changes: Changes) -> tuple[SceneArrays, View]:
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        mirrors = find_reflectors(self.scene, ["ball"])
-        arrays = self._reader.read(depsgraph, self.scene, mirrors, changes)
-        return arrays, view_of_camera(self.scene, self.scene.camera, WIDTH, HEIGHT, depsgraph)
+        self._reader = SceneReader()
+        self.still = self._read(1)[0]
 
     def moments(self, samples: int) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
-        return read_moments(self.scene, self.still, samples, self.read)
+        return self._read(samples)[1:]
+
+    def _read(self, samples: int) -> tuple[Moment, tuple[Moment, ...], tuple[str, ...]]:
+        layer = bpy.context.view_layer
+        return read_render_moments(self.scene, layer, ["ball"], WIDTH, HEIGHT, samples, reader=self._reader)
 
 
 def cycles_picture(scene: bpy.types.Scene) -> np.ndarray:
@@ -103,7 +98,7 @@ def test_what_is_off_or_does_not_move_costs_nothing() -> None:
     assert stage.moments(4) == ((), ())
     scene.camera.data.dof.use_dof, scene.render.use_motion_blur = True, False
     bpy.context.view_layer.update()
-    lens = stage.read(Changes())[1].lens
+    lens = Stage(scene).still.view.lens
     assert lens == Lens(pytest.approx(0.5), pytest.approx(5.2))
     assert np.array_equal(drawn(stage, "exact", 4), plain)
 

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.report.compare import compare_blend
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.shutter import Moment
+from curvrefl.curvrefl_addon.scene.camera.shutter import Moment
 from curvrefl.curvrefl_addon.scene.view import View
 
 WIDTH, HEIGHT, SAMPLES = 64, 48, 4

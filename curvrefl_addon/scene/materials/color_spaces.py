@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Color
 
-from .arrays import Float32Array, Float64Array
+from ..arrays import Float32Array, Float64Array
 
 REC709 = "Linear Rec.709"
 REC709_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
