@@ -26,6 +26,7 @@ from .shown.vertices import ShownVertices
 from .vertices.mirror_solver import MirrorSolver
 
 EYE_INSIDE = 'The eye is inside of "{}", which shows itself there: choose Automatic or Exact, else it is black.'
+SHARP = "Depth of field is left out: it takes more than one sample."
 
 
 class Preparation:
@@ -63,7 +64,7 @@ class Preparation:
         used = [settings if item is None else item.settings for item in chosen]
         self._split_scenery(stage, view, used)
         shown: list[Shown] = []
-        warnings: list[str] = []
+        warnings = [SHARP] if view.lens is not None and settings.samples == 1 else []
         for mirror, mine, item, old in zip(stage.mirrors, used, chosen, before, strict=True):
             if item is not None and item.shows_nothing:
                 shown.append(ShownNothing(mirror, mine))

@@ -12,8 +12,8 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from .camera.lens import lens_of
 from .finite import problem_of_place
-from .lens import lens_of
 from .view import View
 
 EXACT_DEPTHS = 1.001e4

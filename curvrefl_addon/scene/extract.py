@@ -20,6 +20,7 @@ from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
 from .lights import read_light
+from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
@@ -80,6 +81,8 @@ class SceneReader:
         self._overrides: dict[int, MaterialArrays] = {}
         self._mapped: frozenset[int] = frozenset()
         """Reflectors: their UV map is read also where no material needs it, for methods that search in it"""
+        self._space = working_space()
+        """Of the colors in the last scene"""
         self._last: SceneArrays | None = None
 
     @property
@@ -118,6 +121,9 @@ class SceneReader:
         if mapped != self._mapped:
             self._mapped = mapped
             changes.instances = True
+        if working_space() != self._space:
+            self._space = working_space()
+            changes.everything = True
         if changes.everything:
             self._images.forget_all()
             self._materials.forget_all()

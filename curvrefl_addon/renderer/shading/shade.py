@@ -32,6 +32,7 @@ RAY_SHADOWS = "RAY_SHADOWS"
 """Beside the features of lighting: lamps' shadows by rays"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
+_LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
@@ -121,6 +122,8 @@ class ShadePass:
         for kind in kinds:
             features = self._lighting.features
             if kind is PixelClass.BACKGROUND and film_transparent:
+                if not features & _LAMPS:
+                    continue
                 features |= {FILM_TRANSPARENT}
             as_camera = by_camera or kind != PixelClass.BACKGROUND
             self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight)

@@ -14,6 +14,7 @@ from ...memory import exceeds_memory
 from ..arrays import Float32Array
 from ..finite import usable_pixels
 from ..remarks import Remark
+from .color_spaces import rec709_to_scene
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
@@ -21,7 +22,7 @@ IMAGE_BYTES = 40
 """For a pixel: Blender's own, and ours while they are converted"""
 # Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
-_DATA = ("Non-Color", "Raw")
+_DATA = ("Non-Color", "Raw", "scene_linear")
 
 type _Key = tuple[int, str, bool]
 """Image (session_uid), file of the frame shown, whether alpha is used by itself"""
@@ -109,6 +110,9 @@ class ImageReader:
             if space != "sRGB":
                 remarks.append(Remark(f'Color space "{space}" {{of}} is taken for sRGB.', "image", image.name))
             _decode_srgb(pixels)
+        if not is_float and space not in _DATA:
+            # Bytes hold linear Rec.709 then, whatever the file's working space.
+            pixels = rec709_to_scene(pixels)
         return pixels
 
 
