@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
@@ -13,6 +13,7 @@ from time import perf_counter
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.view import View
 from .device.context import require_gpu
+from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
@@ -24,7 +25,6 @@ from .reflection import Diagnostic, Reflection
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
-from .shown.nothing import ShownNothing
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import Targets
 from .surfaces.canvas import Canvas
@@ -181,15 +181,31 @@ class Renderer:
             if any(self.scene.materials[index].relief is not None for index in instance.materials)
         ]
 
-    def render(self, view: View, last: Reflection | None = None) -> Frame:
-        """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`."""
+    def render(
+        self,
+        view: View,
+        last: Reflection | None = None,
+        film_transparent: bool = False,
+        mirrors_alone: Canvas | None = None,
+        before_sub_frame: Callable[[int], None] | None = None,
+    ) -> Frame:
+        """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`.
+
+        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
+        `before_sub_frame` is called with the number of each sub-frame; what it raises ends the picture.
+        """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
         reflection = self.reflect(view, last=last, is_still=True, at_rest=True)
         reflection.wait()
         solved = perf_counter()
+        weight = 1.0 / self.settings.samples
         for index in range(self.settings.samples):
-            self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
+            if before_sub_frame is not None:
+                before_sub_frame(index)
+            self.add_sub_frame(canvas, reflection, index, weight, film_transparent=film_transparent)
+            if mirrors_alone is not None:
+                self.add_sub_frame(mirrors_alone, reflection, index, weight, mirrors_only=True)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -232,11 +248,12 @@ class Renderer:
         weight: float,
         mirrors_only: bool = False,
         diagnostic: Diagnostic | None = None,
+        film_transparent: bool = False,
     ) -> None:
         """Add sub-frame `index` of `settings.samples` to a picture of the view's size.
 
         With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage; so it is
-        with a `diagnostic` view.
+        with a `diagnostic` view. With `film_transparent` it becomes that of all objects.
         """
         dx, dy = self._jitter[index]
         view = reflection.view.jittered(-dx, -dy)
@@ -244,39 +261,25 @@ class Renderer:
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
         groups = reflection.groups
         if diagnostic is not None:
-            self._add_diagnostic(canvas, reflection, sub_frame, weight, diagnostic)
+            if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
+                self._diagnostics = DiagnosticPass(diagnostic.colors)
+            methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
+            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic, methods)
             return
         self._lighting.prepare(index)
         if not groups:
-            self._shade.add(canvas, sub_frame.targets.seen, None, sub_frame.uniforms, weight, window)
-        for number, (kind, members) in enumerate(groups):
-            chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            kind.add_light(members, sub_frame, Light(canvas, weight, chosen, with_others=number == 0))
-
-    def _add_diagnostic(
-        self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic
-    ) -> None:
-        if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
-            self._diagnostics = DiagnosticPass(diagnostic.colors)
-        groups = reflection.groups
-        methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
-        for kind, members in groups or [(ShownNothing, [])]:
-            shown = kind.draw(members, sub_frame, of_positions=diagnostic.needs_solve)
-            if shown is None:
-                sub_frame.targets.reflected.clear()
-                shown = sub_frame.targets.reflected
-            self._diagnostics.add(
-                canvas.frame_buffer,
+            self._shade.add(
+                canvas,
                 sub_frame.targets.seen,
-                shown,
+                None,
                 sub_frame.uniforms,
                 weight,
-                diagnostic.mode,
-                diagnostic.options,
-                methods,
-                [one.parts if one in members else () for one in reflection.shown],
-                chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None,
+                window,
+                with_background=not film_transparent,
             )
+        for number, (kind, members) in enumerate(groups):
+            chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
+            kind.add_light(members, sub_frame, Light(canvas, weight, chosen, number == 0, not film_transparent))
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ..device.batches import bare_batch
 from ..device.frame_buffers import frame_buffer
+from ..device.gpu_cache import gpu_cache
 from ..device.records import record_texture
 from ..device.shaders import Piece, build_shader, flags
 from ..device.state import drawing_state, set_viewport
@@ -92,7 +92,7 @@ class VertexLookups:
         return known[1:]
 
 
-@cache
+@gpu_cache
 def _vertex_shader(nearest_corner: bool) -> Any:
     corner = Piece(
         samplers={"triangles": "FLOAT_2D"},

@@ -8,7 +8,7 @@ and then made perpendicular to the shading normal: so the path is stationary exa
 
 from __future__ import annotations
 
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from ..device.batches import vertex_batch
 from ..device.context import require_gpu
 from ..device.cubes import cube_texture
 from ..device.frame_buffers import frame_buffer, read_colors
+from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture, texture_2d
@@ -297,7 +298,7 @@ def _directions(
     return result
 
 
-@cache
+@gpu_cache
 def _shader() -> Any:
     return build_shader(
         "parametric bake",

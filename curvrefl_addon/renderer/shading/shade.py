@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
+from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
@@ -67,6 +67,7 @@ class ShadePass:
         shadows: RayScene | None = None,
         chosen: Any = None,
         with_others: bool = True,
+        with_background: bool = True,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -74,7 +75,7 @@ class ShadePass:
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
         rays shadow what mirrors show. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
-        all; `with_others`: what is no mirror is, too.
+        all; `with_others`: what is no mirror is, too; `with_background`: where nothing is, the world is seen.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -86,7 +87,7 @@ class ShadePass:
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             set_viewport(0, 0, seen.width, seen.height)
-            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows)
+            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, with_background)
             self._add_front(seen, view_uniforms, weight, mirrors_only)
         for bounce in later or ():
             self._add_path(canvas, bounce, view_uniforms, weight, shadows)
@@ -99,11 +100,12 @@ class ShadePass:
         weight: float,
         mirrors_only: bool,
         shadows: RayScene | None,
+        with_background: bool,
     ) -> None:
         """Background and surfaces, seen directly or in mirrors."""
         kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
         if not mirrors_only:
-            kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
+            kinds += [*([PixelClass.BACKGROUND] if with_background else []), PixelClass.SURFACE]
         for kind in kinds:
             self._draw(_shade_shader(kind, self._lighting.features), kind, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
@@ -202,7 +204,7 @@ def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
     return (lighting_piece(features), *((RAYS,) if RAY_SHADOWS in features else ()))
 
 
-@cache
+@gpu_cache
 def _shade_shader(kind: PixelClass, features: Features) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
@@ -215,7 +217,7 @@ def _shade_shader(kind: PixelClass, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _environment_shader(lookup: str, features: Features) -> Any:
     """For mirrors that show an environment, with the name of its lookup."""
     return build_shader(
@@ -227,7 +229,7 @@ def _environment_shader(lookup: str, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
     return build_shader(
         "shade path",
@@ -242,7 +244,7 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _front_shader(has_base: bool, features: Features) -> Any:
     return build_shader(
         "shade front",

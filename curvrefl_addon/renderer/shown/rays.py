@@ -40,6 +40,7 @@ class ShownRays(Shown):
             shadows=stage.rays() if members[0].settings.shadow_rays else None,
             chosen=light.chosen,
             with_others=light.with_others,
+            with_background=light.with_background,
         )
 
     @classmethod

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from typing import Any
 
+from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
@@ -69,7 +69,7 @@ def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: 
             batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _primary_shader(kind: str) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
     return build_shader(

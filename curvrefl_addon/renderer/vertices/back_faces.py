@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 from ..device.frame_buffers import frame_buffer
+from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, hide_faces, set_viewport
 from ..device.textures import depth_texture, empty_texture
@@ -40,7 +40,7 @@ class BackFaces:
                 batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _back_faces_shader() -> Any:
     return build_shader(
         "back faces",
