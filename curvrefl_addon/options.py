@@ -91,9 +91,9 @@ def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 def mirrors_in(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
     """Objects marked as mirrors that a depsgraph shows, themselves or by instances, once each."""
-    found = {}
+    found: dict[int, bpy.types.Object] = {}
     for instance in depsgraph.object_instances:
-        obj = instance.object.original
+        obj: Any = instance.object.original
         if instance.show_self and obj.curvrefl.is_mirror and obj.type in SURFACE_TYPES:
             found[obj.session_uid] = obj
     return list(found.values())

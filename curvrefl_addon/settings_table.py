@@ -77,7 +77,7 @@ class Settings:
         choices=METHOD_CHOICES,
         panel="Quality",
         preference=True,
-        flags=(Flag("render", "--method", "how to reflect", default="auto", metavar="M"),),
+        flags=(Flag("render", "--method", "how to reflect", metavar="M"),),
     )
     pixel_tolerance: float = setting(
         0.5,
@@ -102,7 +102,7 @@ class Settings:
         panel="Quality",
         preference=True,
         flags=(
-            Flag("render", "--samples", "for anti-aliasing", default=STILL_SAMPLES),
+            Flag("render", "--samples", "for anti-aliasing"),
             Flag("compare", "--sub-frames", "of our pictures"),
         ),
         said="{} samples are",

@@ -83,13 +83,13 @@ def chosen_settings(options: argparse.Namespace) -> Settings:
     return Settings(**_given(options))
 
 
-def settings_of_file(options: argparse.Namespace, scene: bpy.types.Scene) -> Settings:
+def settings_of_file(options: argparse.Namespace, scene: Any) -> Settings:
     """Those that the verb's arguments set; the others are the scene's, as for F12. The extension is registered."""
     from dataclasses import replace
 
     from ..options import settings_of
 
-    chosen = scene.curvrefl
+    chosen: Any = scene.curvrefl
     return replace(settings_of(chosen, chosen.render_samples), **_given(options))
 
 

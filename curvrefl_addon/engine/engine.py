@@ -60,7 +60,7 @@ class CurvreflEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True
     bl_use_gpu_context = True
 
-    def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
+    def update(self, data: Any = None, depsgraph: Any = None) -> None:
         """Read the scene, while nobody else changes it."""
         self._trouble = ""
         with _state.lock:
@@ -74,7 +74,7 @@ class CurvreflEngine(bpy.types.RenderEngine):
         for item in passes_of(renderlayer):
             self.register_pass(scene, renderlayer, item.name, len(item.channels), item.channels, item.kind)
 
-    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+    def render(self, depsgraph: Any) -> None:  # type: ignore[override]
         """Draw a view layer at a frame."""
         if self._trouble:
             self._refuse(self._trouble)
@@ -84,7 +84,7 @@ class CurvreflEngine(bpy.types.RenderEngine):
         if self._trouble:
             self._refuse(self._trouble)
 
-    def _session(self, depsgraph: bpy.types.Depsgraph) -> RenderSession:
+    def _session(self, depsgraph: Any) -> RenderSession:
         from .session import RenderSession
 
         key = (depsgraph.scene.session_uid, depsgraph.view_layer.name)
@@ -92,18 +92,18 @@ class CurvreflEngine(bpy.types.RenderEngine):
             _state.sessions[key] = RenderSession()
         return _state.sessions[key]
 
-    def _draw(self, depsgraph: bpy.types.Depsgraph) -> None:
+    def _draw(self, depsgraph: Any) -> None:
         if depsgraph.scene.render.use_multiview:
             raise InputError("Stereoscopy is not rendered: switch it off in the output properties.")
         session, layer, job = self._session(depsgraph), depsgraph.view_layer, current_job()
-        camera = self.camera_override or depsgraph.scene.camera
+        camera: Any = self.camera_override or depsgraph.scene.camera
         if camera is None:
             raise InputError(f'Scene "{depsgraph.scene.name}" has no camera: add one or make one active.')
         passes = passes_of(layer)
         area, pixels = session.draw(depsgraph, camera.original, passes, job, self._before_sub_frame)
         for item in passes:
             self.add_pass(item.name, len(item.channels), item.channels, layer=layer.name)
-        result = self.begin_result(0, 0, area.width, area.height, layer=layer.name)
+        result: Any = self.begin_result(0, 0, area.width, area.height, layer=layer.name)
         for name, values in pixels.items():
             fill(result.layers[0], name, values)
         self.end_result(result)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -26,7 +26,7 @@ class Pass:
     name: str
     channels: str
     """A letter each"""
-    kind: str
+    kind: Literal["VALUE", "VECTOR", "COLOR"]
     """Blender's word for what the numbers are"""
     setting: str
     read: Callable[[Frame], Float32Array] | None = None

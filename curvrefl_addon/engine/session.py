@@ -38,7 +38,7 @@ class RenderSession:
         self._settings = Settings()
         self._refused: list[str] = []
 
-    def read(self, depsgraph: bpy.types.Depsgraph, job: Job | None) -> None:
+    def read(self, depsgraph: Any, job: Job | None) -> None:
         """The scene at the depsgraph's frame. Raises InputError for what a job names and cannot be a mirror."""
         scene, shown = depsgraph.scene, depsgraph.scene_eval
         self._refused = []
@@ -66,7 +66,7 @@ class RenderSession:
 
     def draw(
         self,
-        depsgraph: bpy.types.Depsgraph,
+        depsgraph: Any,
         camera: bpy.types.Object,
         passes: list[Pass],
         job: Job | None,

@@ -73,7 +73,7 @@ def _use_engine(changes: TemporarySettings, scene: bpy.types.Scene, width: int, 
 def _file_outputs(tree: bpy.types.NodeTree | None) -> Iterator[Any]:
     """Nodes of a compositor that write files, those in groups too."""
     seen: set[int] = set()
-    trees = [] if tree is None else [tree]
+    trees: list[Any] = [] if tree is None else [tree]
     while trees:
         here = trees.pop()
         if here.session_uid in seen:

@@ -11,7 +11,7 @@ import bpy
 from ..diagnostic_colors import SOLVED_MODES
 from ..options import marked_mirrors, newer_settings
 from ..scene.blend_file import SURFACE_TYPES
-from ..settings_table import OF_SCENES, OF_VIEW_LAYERS
+from ..settings_table import OF_SCENES
 from .choices import PRESETS, active_preset
 from .messages import draw_message, draw_rows
 
@@ -124,27 +124,6 @@ class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
                 layout.prop(settings, item.name)
 
 
-class CURVREFL_PT_passes(bpy.types.Panel):
-    """What renders by the engine Curvrefl have beside the picture"""
-
-    bl_label = "Passes"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "view_layer"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return context.engine == "CURVREFL" and context.view_layer is not None
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        column = layout.column(heading="Mirrors")
-        for item in OF_VIEW_LAYERS:
-            column.prop(context.view_layer.curvrefl, item.name)
-
-
 class CURVREFL_PT_environment(_SubPanel, bpy.types.Panel):
     """What lights the reflected scene"""
 
@@ -236,5 +215,4 @@ CLASSES = (
     CURVREFL_PT_diagnostics,
     CURVREFL_PT_tools,
     CURVREFL_PT_statistics,
-    CURVREFL_PT_passes,
 )

@@ -10,7 +10,7 @@ from typing import Any
 import gpu
 import numpy as np
 
-from .gpu_cache import gpu_cache
+from .context import gpu_cache
 
 
 @gpu_cache

@@ -15,8 +15,8 @@ import numpy as np
 
 from ...scene.arrays import Float32Array
 from .batches import full_screen_triangle
+from .context import gpu_cache
 from .frame_buffers import frame_buffer, layer_of, read_colors
-from .gpu_cache import gpu_cache
 from .shaders import FULL_SCREEN, Piece, build_shader
 from .state import drawing_state, set_viewport
 from .textures import texture_layers

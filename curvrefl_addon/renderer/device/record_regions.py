@@ -10,8 +10,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...scene.arrays import Float32Array
-from .context import most_texels
-from .gpu_cache import gpu_cache
+from .context import gpu_cache, most_texels
 from .records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
 from .shaders import Image, Piece, build_shader, dispatch
 

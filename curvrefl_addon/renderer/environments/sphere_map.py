@@ -14,8 +14,8 @@ from typing import Any
 from ...optics.environment import axis_frame
 from ...scene.arrays import Float64Array
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from ..device.batches import bare_batch
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.gpu_cache import gpu_cache
 from ..device.records import record_texture
 from ..device.shaders import Piece, build_shader, flags
 from ..device.state import drawing_state, set_viewport

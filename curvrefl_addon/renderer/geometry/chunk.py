@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import indexed_batch
-from ..device.gpu_cache import gpu_cache
+from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
 from ..device.shaders import Image, Piece, build_shader, dispatch, named
 from .mesh_pieces import is_count

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers

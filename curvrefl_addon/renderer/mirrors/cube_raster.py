@@ -11,8 +11,8 @@ import numpy as np
 from ...optics.surfaces.cube_map import FACE_AXES
 from ...scene.arrays import Float32Array, Int32Array
 from ..device.batches import vertex_batch
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, read_colors
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_texture, empty_texture

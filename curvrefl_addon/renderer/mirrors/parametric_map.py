@@ -21,10 +21,9 @@ from ...optics.surfaces.radial_surfaces import unit
 from ...optics.surfaces.star_center import solid_angles
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import vertex_batch
-from ..device.context import require_gpu
+from ..device.context import gpu_cache, require_gpu
 from ..device.cubes import cube_texture
 from ..device.frame_buffers import frame_buffer, read_colors
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture, texture_2d

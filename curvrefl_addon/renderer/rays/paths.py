@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import empty_texture

@@ -23,8 +23,8 @@ from ...diagnostic_colors import (
 )
 from ...scene.arrays import Float32Array
 from ..device.batches import bare_batch, full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.gpu_cache import gpu_cache
 from ..device.records import record_texture
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, points_sized_by_shader, set_viewport

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
-from ..device.gpu_cache import gpu_cache
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..device.gpu_cache import gpu_cache
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk

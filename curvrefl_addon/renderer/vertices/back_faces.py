@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.gpu_cache import gpu_cache
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, hide_faces, set_viewport
 from ..device.textures import depth_texture, empty_texture

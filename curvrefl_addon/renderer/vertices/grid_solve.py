@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float32Array
-from ..device.gpu_cache import gpu_cache
+from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, record_texture
 from ..device.shaders import Piece, dispatch, named, uniform_block
 from ..geometry.chunk import Chunk

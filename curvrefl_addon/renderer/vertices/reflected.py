@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..device.gpu_cache import gpu_cache
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK

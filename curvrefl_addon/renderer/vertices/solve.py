@@ -21,8 +21,8 @@ from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
 from ...scene.arrays import LARGEST_COORDINATE, Float64Array
 from ...scene.view import View
+from ..device.context import gpu_cache
 from ..device.cubes import cube_texture
-from ..device.gpu_cache import gpu_cache
 from ..device.records import empty_index_texture, empty_record_texture, record_texture
 from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
 from ..device.uniform_struct import glsl_struct

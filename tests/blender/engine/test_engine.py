@@ -48,6 +48,10 @@ def test_the_verb_renders_what_f12_does(scene: bpy.types.Scene, tmp_path: Path) 
     assert linear[..., :3].std() > 0.01
     other = pixels(verb(tmp_path, ".exr", "--samples", "1"))
     assert not np.array_equal(other, linear), "the argument is followed"
+    bpy.context.scene.curvrefl.method = "environment_cube"
+    of_file = pixels(verb(tmp_path, ".exr"))
+    assert not np.array_equal(of_file, linear), "the file's own settings are"
+    np.testing.assert_array_equal(pixels(verb(tmp_path, ".exr", "--method", "auto")), linear)
 
 
 def test_colors_are_as_blender_shows_them(scene: bpy.types.Scene, tmp_path: Path) -> None:
