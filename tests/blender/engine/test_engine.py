@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.engine import engine as engine_module
 from curvrefl.curvrefl_addon.engine.area import area_of
 from curvrefl.curvrefl_addon.engine.session import RenderSession
-from engine.rendered import HEIGHT, WIDTH, channels, mark, pixels, render
+from rendered import HEIGHT, WIDTH, channels, mark, pixels, render
 from small_scene import build_scene
 
 pytestmark = pytest.mark.usefixtures("extension")
