@@ -247,19 +247,20 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
-    """The verb's arguments that the table of settings knows."""
+    """The verb's arguments that the table of settings knows. What `render` is not told is as the file has it."""
     for item in RENDERER:
         for flag in item.flags:
             if flag.verb == verb:
-                _add_setting(parser, item, flag)
+                _add_setting(parser, item, flag, is_of_file=verb == "render")
 
 
-def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> None:
-    default = item.flag_value(flag)
+def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag, is_of_file: bool) -> None:
+    value = item.flag_value(flag)
     dest = f"{SETTING}{item.name}"
-    if isinstance(default, bool):
-        action = "store_false" if default else "store_true"
-        parser.add_argument(flag.spelling, dest=dest, action=action, help=flag.text)
+    default = argparse.SUPPRESS if is_of_file else value
+    if isinstance(value, bool):
+        action = "store_false" if value else "store_true"
+        parser.add_argument(flag.spelling, dest=dest, action=action, default=default, help=flag.text)
         return
     parser.add_argument(
         flag.spelling,
@@ -267,7 +268,7 @@ def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> 
         type=_value_of(item),
         default=default,
         metavar=flag.metavar,
-        help=f"{flag.text} (%(default)s)",
+        help=f"{flag.text} ({"the scene's" if is_of_file else value})",
     )
 
 

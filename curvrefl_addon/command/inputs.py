@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib.util
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..memory import require_memory
@@ -95,9 +96,42 @@ def read_scene(
 
 def chosen_settings(options: argparse.Namespace) -> Settings:
     """Those that the verb's arguments set; the others are as by default."""
-    return Settings(
-        **{name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
-    )
+    return Settings(**_given(options))
+
+
+def settings_of_file(options: argparse.Namespace, scene: Any) -> Settings:
+    """Those that the verb's arguments set; the others are the scene's, as for F12. The extension is registered."""
+    from dataclasses import replace
+
+    from ..options import settings_of
+
+    chosen: Any = scene.curvrefl
+    return replace(settings_of(chosen, chosen.render_samples), **_given(options))
+
+
+def _given(options: argparse.Namespace) -> dict[str, Any]:
+    """By the settings' names, what arguments set."""
+    return {name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
+
+
+@contextlib.contextmanager
+def registered() -> Iterator[None]:
+    """The extension's properties and its engine are Blender's for the time being.
+
+    Where it is installed they are so already; a plain Python's Blender does not know them yet.
+    """
+    import bpy
+
+    from .. import registration
+
+    if hasattr(bpy.types.Object, "curvrefl"):
+        yield
+        return
+    registration.register()
+    try:
+        yield
+    finally:
+        registration.unregister()
 
 
 def read_names(text: str, what: str) -> list[str]:

@@ -5,24 +5,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import bpy
-import numpy as np
 
 from ..scene.arrays import Float32Array
 from ..scene.temporary_settings import temporary_settings
 from ..streams import STDERR, dropped
 from ..written_files import error_in, require_whole
 from .images import to_image_datablock
-
-
-def on_film(pixels: Float32Array, scene: bpy.types.Scene) -> Float32Array:
-    """A scene-linear picture (h, w, 4) times the film exposure of Cycles, which alpha does not follow."""
-    cycles: Any = getattr(scene, "cycles", None)
-    if cycles is None or cycles.film_exposure == 1.0:
-        return pixels
-    return pixels * np.array([*[cycles.film_exposure] * 3, 1.0], np.float32)
 
 
 def save_as_shown(path: Path, pixels: Float32Array, scene: bpy.types.Scene) -> None:

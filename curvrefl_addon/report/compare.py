@@ -28,13 +28,14 @@ from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..scene.blend_file import find_camera, open_blend
+from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
 from ..scene.materials.color_spaces import scene_to_rec709
 from ..scene.render_depsgraph import read_render_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
 from ..streams import readable
-from .as_shown import on_film, save_as_shown
+from .as_shown import save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .direct_light import mirrors_met
 from .display import inverse_display_transform

@@ -126,9 +126,10 @@ class SceneReader:
             changes.everything = True
         if changes.everything:
             self._images.forget_all()
+        if changes.everything or changes.frame:
             self._materials.forget_all()
             self._meshes.forget_all()
-        if self._last is None or changes.everything:
+        if self._last is None or changes.everything or changes.frame:
             changes.world = changes.instances = True
         if changes.images:
             self._images.forget(changes.images)

@@ -85,7 +85,7 @@ def bounces_of(scene: bpy.types.Scene) -> tuple[int, int]:
 
 def uid_of_block(block: bpy.types.ID | None) -> int:
     """Its `session_uid`; 0 for none."""
-    return 0 if block is None else block.session_uid
+    return 0 if block is None else block.original.session_uid
 
 
 def listing_of(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:

@@ -30,6 +30,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("report", "demo"),
     ("study",),
     ("viewport",),
+    ("engine",),
     ("ui",),
     ("operators",),
     ("gpu_caches",),

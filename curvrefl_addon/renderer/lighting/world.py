@@ -67,7 +67,8 @@ _last: list[tuple[WorldArrays, int, WorldLight]] = []
 
 
 def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """`count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
+    """`count` draws from the sky, and its maps. The last two worlds' are kept: scenes change more often, and a render
+    may run beside the viewports."""
     for known, known_count, light in _last:
         if known_count == count and is_same_world(known, world):
             return light
@@ -92,7 +93,7 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     maps[LOBE_LAYER:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
-    _last[:] = [(world, count, light)]
+    _last[:] = [(world, count, light), *_last[:1]]
     return light
 
 

@@ -9,10 +9,10 @@ next pass goes on from them.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
@@ -156,7 +156,7 @@ ON_PATHS = Piece(
 """A full-screen triangle where PathBuffers have followed rays; test depth for equality"""
 
 
-@cache
+@gpu_cache
 def _mask_shader(on_path: bool, with_choice: bool) -> Any:
     path = Piece(samplers={"surface_depth": "DEPTH_2D"}, defines=flags("ON_PATH"))
     return build_shader(
@@ -173,7 +173,7 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts: bool) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
     images = Piece(outputs={"uv_out": "VEC4"}, defines=flags("WITH_IMAGES"))
@@ -196,7 +196,7 @@ def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts
     )
 
 
-@cache
+@gpu_cache
 def _images_shader() -> Any:
     names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
     cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))

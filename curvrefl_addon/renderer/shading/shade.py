@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
@@ -229,7 +229,7 @@ def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
     return (lighting_piece(features), *((RAYS,) if RAY_SHADOWS in features else ()))
 
 
-@cache
+@gpu_cache
 def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
@@ -243,7 +243,7 @@ def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) 
     )
 
 
-@cache
+@gpu_cache
 def _environment_shader(lookup: str, features: Features) -> Any:
     """For mirrors that show an environment, with the name of its lookup."""
     return build_shader(
@@ -255,7 +255,7 @@ def _environment_shader(lookup: str, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
     return build_shader(
         "shade path",
@@ -270,7 +270,7 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
     return build_shader(
         "shade front",
