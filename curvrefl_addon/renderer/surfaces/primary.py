@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.view import View
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
@@ -88,7 +88,7 @@ def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: 
             batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _primary_shader(kind: str, has_linear_depth: bool) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
     return build_shader(

@@ -4,9 +4,9 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, hide_faces, set_viewport
@@ -40,7 +40,7 @@ class BackFaces:
                 batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _back_faces_shader() -> Any:
     return build_shader(
         "back faces",
