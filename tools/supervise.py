@@ -18,6 +18,7 @@ import signal
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 
 RUN_FOLDER = "CURVREFL_RUN"
 LEFTOVERS, PUBLISHING, SOFTLY, STAGE = "leftovers", "publishing", "softly", "stage"
@@ -189,7 +190,7 @@ def _signal(process: int, number: int) -> None:
         os.kill(process, number)
 
 
-def _wait_for(is_done) -> None:
+def _wait_for(is_done: Callable[[], bool]) -> None:
     """At most for the grace."""
     end = time.monotonic() + GRACE
     while not is_done() and time.monotonic() < end:
