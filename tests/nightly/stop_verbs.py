@@ -47,6 +47,9 @@ def stop(arguments: list[str], number: signal.Signals, moment: float, folder: Pa
     """
     temporary = folder / "tmp"
     temporary.mkdir(exist_ok=True)
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # Shells start so what goes on in the background, and no shell below could change that.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
         [str(ROOT / "curvrefl"), *arguments, "--output", str(folder / "out" / "x.png")],
         env={name: value for name, value in os.environ.items() if name != "CURVREFL_RUN"} | {"TMPDIR": str(temporary)},
