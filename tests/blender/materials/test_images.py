@@ -96,6 +96,10 @@ def test_alpha_does_to_colors_what_it_does_in_cycles(tmp_path: Path) -> None:
         folder = tmp_path / f"data {fmt} {uses_alpha}"
         folder.mkdir()
         cases[f"data {fmt} {uses_alpha}"] = from_file(folder, fmt, "STRAIGHT", False, "Non-Color"), uses_alpha
+    for mode, uses_alpha in itertools.product(("STRAIGHT", "PREMUL"), (False, True)):
+        folder = tmp_path / f"encoded {mode} {uses_alpha}"
+        folder.mkdir()
+        cases[folder.name] = from_file(folder, "OPEN_EXR", mode, False, "sRGB"), uses_alpha
     cases["clear"] = even("PNG", (0.8, 0.4, 0.2, 0.0)), False
     for column, (name, (image, uses_alpha)) in enumerate(cases.items()):
         show(name, column, image, uses_alpha)
