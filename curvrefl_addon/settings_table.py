@@ -111,7 +111,7 @@ class Settings:
     bounces: int = setting(
         4,
         label="Bounces",
-        text="Mirrors seen in mirrors, and in themselves, one after the other",
+        text="Mirrors seen in mirrors, and in themselves, one after the other; no more than the scene's glossy bounces",
         hard=(1, 64),
         soft=(1, 32),
         panel="Quality",

@@ -75,6 +75,7 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step) if self.animation else [None]
         for frame in frames:
             self._path(frame)  # (before minutes of work)
+        warnings: dict[str, None] = {}
         with _frame_kept(scene), PreviewRenderer(self._mirrors(context), self.samples) as renderer:
             context.window_manager.progress_begin(0, len(frames))
             try:
@@ -82,9 +83,12 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
                     if frame is not None:
                         scene.frame_set(frame)
                     save_as_shown(self._path(frame), renderer.render(context), scene)
+                    warnings |= dict.fromkeys(renderer.warnings)
                     context.window_manager.progress_update(number + 1)
             finally:
                 context.window_manager.progress_end()
+        for warning in warnings:
+            self.report({"WARNING"}, warning)
         return len(frames)
 
     def _mirrors(self, context: bpy.types.Context) -> list[str]:

@@ -22,6 +22,7 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
+from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
 from . import verbs
@@ -114,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         "layers",
         nargs="*",
         metavar="LAYER",
-        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD}, with names of its scenes",
+        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD} with names of scenes",
     )
     test.add_argument("--keep", metavar="DIR", help=f"keep the pictures of {verbs.AWKWARD} scenes in this folder")
 
@@ -238,7 +239,7 @@ def _parser() -> argparse.ArgumentParser:
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE.blend")
     parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
-    parser.add_argument("--camera", metavar="C", help="name of a camera object (the scene's)")
+    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument(
         "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )

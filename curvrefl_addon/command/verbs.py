@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
-from ..streams import STDOUT, dropped
+from ..streams import STDOUT, dropped, readable
 from ..supervised import ended_softly
 from .inputs import (
     chosen_settings,
@@ -200,7 +200,7 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
             f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
         )
     find_reflectors(scene, chosen)
-    return ChartFile(name, Path(file), tuple(chosen), *resolution_of(options, scene))
+    return ChartFile(readable(name), Path(file), tuple(chosen), *resolution_of(options, scene))
 
 
 def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:

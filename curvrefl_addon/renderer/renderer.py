@@ -13,12 +13,15 @@ from time import perf_counter
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
+from ..scene.camera.shutter import Moment
 from ..scene.remarks import Remark, sentences
 from ..scene.view import View
 from .device.context import require_gpu
 from .environments.cube import EnvironmentCube
+from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
+from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -29,7 +32,6 @@ from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
 from .shown.nothing import ShownNothing
-from .shown.rays import ShownRays
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
@@ -180,15 +182,14 @@ class Renderer:
             if any(self.scene.materials[index].relief is not None for index in instance.materials)
         ]
 
-    def render(self, view: View, last: Reflection | None = None) -> Frame:
-        """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`."""
+    def render(self, view: View, last: Reflection | None = None, moments: Sequence[Moment] = ()) -> Frame:
+        """Draw the picture; times have the GPU's work in them. `last`: see `reflect`; `moments`: one per sub-frame."""
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
-        reflection = self.reflect(view, last=last, is_still=view.lens is None, at_rest=True)
+        reflection = self.reflect(view, last=last, is_still=not (view.lens or moments), at_rest=True)
         reflection.wait()
         solved = perf_counter()
-        for index in range(self.settings.samples):
-            self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
+        reflection = expose(self, canvas, reflection, Moment(self._given, view), moments)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -198,6 +199,9 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
+        if is_lit_indirectly(self.scene):
+            # (Of a picture that is kept: a viewport would say so all the time.)
+            reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
         return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
 
     def reflect(
@@ -247,8 +251,7 @@ class Renderer:
         """
         self._move_to(reflection.origin)
         dx, dy = self._jitter[index]
-        if reflection.view.lens is not None:
-            reflection = self._through_lens(reflection, index)
+        reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
@@ -264,15 +267,6 @@ class Renderer:
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
             kind.add_light(members, sub_frame, light)
-
-    def _through_lens(self, reflection: Reflection, index: int) -> Reflection:
-        """What the mirrors show from a place on the lens: solved again where it depends on the eye."""
-        lens = reflection.view.lens
-        assert lens is not None
-        view = reflection.view.through(*lens.points(self.settings.samples)[index])
-        if all(kind is ShownRays for kind, _ in reflection.groups):
-            return replace(reflection, view=view)
-        return self.reflect(view, last=reflection, at_rest=True)
 
     def _add_diagnostic(
         self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic
@@ -345,6 +339,7 @@ class Renderer:
             lambda chunk: self.geometry.hidden_faces(chunk, view),
             with_reliefs=lambda chunk: id(chunk) not in smooth,
             depths=depths_of(view),
+            mirrored=view.is_mirrored,
         )
         return sub_frame
 

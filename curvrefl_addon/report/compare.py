@@ -26,11 +26,14 @@ from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
-from ..scene.arrays import SceneArrays
+from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..scene.blend_file import find_camera, open_blend
-from ..scene.render_depsgraph import read_render_scene
+from ..scene.camera.shutter import Moment
+from ..scene.materials.color_spaces import scene_to_rec709
+from ..scene.render_depsgraph import read_render_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from ..streams import readable
 from .as_shown import on_film, save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .direct_light import mirrors_met
@@ -180,16 +183,27 @@ def compare_steps(
     with _camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
         start = time.perf_counter()
-        arrays, view = read_render_scene(
-            scene, view_layer, reflector_names, comparison.width, comparison.height, camera
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            reflector_names,
+            comparison.width,
+            comparison.height,
+            settings.samples,
+            camera,
         )
         extract_ms = 1e3 * (time.perf_counter() - start)
+        arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
+        if comparison.light == "direct":
+            arrays = _in_direct_light(arrays)
+            moments = tuple(replace(moment, scene=_in_direct_light(moment.scene)) for moment in moments)
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
                 view_layer,
                 arrays,
-                view,
+                still.view,
+                moments,
                 comparison,
                 extract_ms,
                 folder,
@@ -205,7 +219,7 @@ def compare_steps(
                 yield Step(label, done / count)
                 done += 1
             report = {
-                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "scene": scene_name or readable(Path(bpy.data.filepath).name) or scene.name,
                 "reflectors": list(reflector_names),
                 **report,
             }
@@ -216,11 +230,17 @@ def compare_steps(
     return report
 
 
+def _in_direct_light(scene: SceneArrays) -> SceneArrays:
+    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
+    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
+
+
 def _run(
     scene: bpy.types.Scene,
     view_layer: bpy.types.ViewLayer,
     arrays: SceneArrays,
     view: View,
+    moments: Sequence[Moment],
     comparison: Comparison,
     extract_ms: float,
     folder: Path,
@@ -237,7 +257,7 @@ def _run(
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
         try:
-            frames[method] = measure_frame(make_renderer(arrays, method), view)
+            frames[method] = measure_frame(make_renderer(arrays, method), view, moments=moments)
         except InputError as error:
             refused[method] = str(error)
     if not frames:
@@ -261,7 +281,8 @@ def _run(
         warnings.append(missing)
     for method, frame in frames.items():
         save_as_shown(folder / f"{method}.png", on_film(frame.color, scene), scene)
-        difference = inverse_display_transform(error_map(frame.color, reference.pixels))
+        found, right = scene_to_rec709(frame.color), scene_to_rec709(reference.pixels)
+        difference = inverse_display_transform(error_map(found, right))
         save_png(folder / f"{method}_error.png", difference)
         methods[method] = {
             "image": image_error(frame.color, reference.pixels, mask),

@@ -63,15 +63,18 @@ def render_reference(
     samples: int,
     light: str = "direct",
     bounces: int = 1,
+    sharp: bool = False,
 ) -> Still:
     """The scene in Cycles on the CPU.
 
     `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that way, up to
     `bounces` mirrors one after the other; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter
-    that the user has set.
+    that the user has set. `sharp` leaves out depth of field and motion blur.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
+        if sharp:
+            use_pinhole(changes, scene)
         use_cycles(changes, scene, view_layer, samples, light, bounces)
         return render_still(scene, view_layer)
 
@@ -86,15 +89,19 @@ def render_peer(
     repeats: int = 1,
     seconds: float = 0.0,
     bounces: int = 1,
+    sharp: bool = False,
 ) -> PeerStill:
-    """The scene in one of `PEERS`. A first render compiles and loads; then come up to `repeats` timed ones, as long as
-    `seconds` have not passed.
+    """The scene in one of `PEERS`, lit and sharp as the reference.
+
+    A first render compiles and loads; then come up to `repeats` timed ones, as long as `seconds` have not passed.
 
     'eevee' has ray tracing on and 16 samples; with `light` 'direct' its fast global illumination only occludes.
     Cycles has another seed than the reference: with the same its samples would be among those of the reference.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
+        if sharp:
+            use_pinhole(changes, scene)
         # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
         if peer == "eevee":
             _use_eevee(changes, scene, light)

@@ -16,7 +16,7 @@ from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
 from ..scene.blend_file import find_reflectors
 from ..scene.extract import SceneReader
-from ..scene.render_depsgraph import read_render_scene
+from ..scene.render_depsgraph import read_render_moments
 from .as_shown import on_film
 
 
@@ -29,6 +29,8 @@ class PreviewRenderer:
         self._samples = samples
         self._reader = SceneReader()
         self._renderer: Renderer | None = None
+        self.warnings: tuple[str, ...] = ()
+        """What the last picture does not show, one sentence each"""
 
     def render(self, context: bpy.types.Context) -> Float32Array:
         """(h, w, 4) scene-linear picture at the size of the scene's renders.
@@ -42,15 +44,24 @@ class PreviewRenderer:
         height = max(int(scene.render.resolution_y * scale), 1)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
         overrides = overrides_of(find_reflectors(scene, self._mirrors))
-        arrays, view = read_render_scene(
-            scene, view_layer, self._mirrors, width, height, reader=self._reader, overrides=overrides
-        )
         settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            self._mirrors,
+            width,
+            height,
+            settings.samples,
+            reader=self._reader,
+            overrides=overrides,
+        )
         if self._renderer is None:
-            self._renderer = Renderer(arrays, settings)
+            self._renderer = Renderer(still.scene, settings)
         else:
-            self._renderer.update(arrays)
-        return on_film(self._renderer.render(view).color(), scene)
+            self._renderer.update(still.scene)
+        frame = self._renderer.render(still.view, moments=moments)
+        self.warnings = (*frame.warnings, *untold)
+        return on_film(frame.color(), scene)
 
     def __enter__(self) -> Self:
         return self

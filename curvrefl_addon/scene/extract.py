@@ -20,6 +20,7 @@ from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
 from .lights import read_light
+from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
@@ -27,6 +28,7 @@ from .reads import (
     SURELY_REGULAR,
     PlainObject,
     ShownInstance,
+    bounces_of,
     is_diced,
     is_same_light,
     is_singular,
@@ -79,6 +81,8 @@ class SceneReader:
         self._overrides: dict[int, MaterialArrays] = {}
         self._mapped: frozenset[int] = frozenset()
         """Reflectors: their UV map is read also where no material needs it, for methods that search in it"""
+        self._space = working_space()
+        """Of the colors in the last scene"""
         self._last: SceneArrays | None = None
 
     @property
@@ -117,6 +121,9 @@ class SceneReader:
         if mapped != self._mapped:
             self._mapped = mapped
             changes.instances = True
+        if working_space() != self._space:
+            self._space = working_space()
+            changes.everything = True
         if changes.everything:
             self._images.forget_all()
             self._materials.forget_all()
@@ -146,7 +153,7 @@ class SceneReader:
         world = view_layer.world_override or scene.world
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
-        self._last = self._arrays(reflectors)
+        self._last = self._arrays(reflectors, *bounces_of(scene))
         return self._last
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
@@ -225,7 +232,7 @@ class SceneReader:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj.data, obj.name, matrix, rays_of(instance, view_layer).glossy, warnings)
+        light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
         return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
@@ -295,6 +302,7 @@ class SceneReader:
                 matrix=matrix,
                 materials=materials,
                 visible_camera=rays.camera,
+                visible_diffuse=rays.diffuse,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,
@@ -312,7 +320,7 @@ class SceneReader:
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
-    def _arrays(self, reflectors: Sequence[bpy.types.Object]) -> SceneArrays:
+    def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         self._check(chosen)
         instances = [
@@ -330,6 +338,8 @@ class SceneReader:
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
             warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
+            mirror_bounces=mirror_bounces,
+            diffuse_bounces=diffuse_bounces,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
 

@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .arrays import Float64Array, InstanceArrays, LightArrays, SceneArrays
+from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .materials.materials import ReadMaterial
 from .meshes.meshes import GENERATED, MeshNeeds
 from .remarks import Remark
@@ -72,6 +72,15 @@ def object_of(uid: int, name: str) -> bpy.types.Object | None:
     if obj is not None and obj.session_uid == uid:
         return obj
     return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
+
+
+def bounces_of(scene: bpy.types.Scene) -> tuple[int, int]:
+    """`SceneArrays.mirror_bounces` and `diffuse_bounces`."""
+    # Cycles is an add-on, and may be off.
+    cycles = getattr(scene, "cycles", None)
+    if cycles is None:
+        return UNLIMITED_BOUNCES, 0
+    return min(cycles.max_bounces, cycles.glossy_bounces), min(cycles.max_bounces, cycles.diffuse_bounces)
 
 
 def uid_of_block(block: bpy.types.ID | None) -> int:
@@ -160,6 +169,8 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.lights is last.lights
         and result.world is last.world
         and result.reflectors == last.reflectors
+        and result.mirror_bounces == last.mirror_bounces
+        and result.diffuse_bounces == last.diffuse_bounces
         and result.warnings == last.warnings
     )
     return last if same else result

@@ -12,6 +12,7 @@ import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
 from .finite import usable_world
+from .materials.color_spaces import rec709_to_scene
 from .materials.images import MISSING_COLOR, ImageReader
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
@@ -26,7 +27,7 @@ SKY_COLORS = {
     "PREETHAM": (0.60, 0.64, 0.88),
     "HOSEK_WILKIE": (0.11, 0.15, 0.17),
 }
-"""Mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, without its disc"""
+"""Linear Rec.709, mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, no disc"""
 FEWEST_ROWS = 32
 """Of an environment image"""
 
@@ -59,6 +60,15 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
     """Background color or environment texture with its mapping; the nearest color and a remark for the rest."""
     if world is None:
         return WorldArrays()
+    found = _background(world, images, warnings)
+    # Cycles is an add-on, and may be off.
+    rays = getattr(world, "cycles_visibility", None)
+    if rays is None:
+        return found
+    return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
+
+
+def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
     notes: list[str] = []
     if output_source(world.node_tree, "Volume") is not None:
         notes.append("The volume {of} is not shown.")
@@ -114,7 +124,8 @@ class _WorldReader:
             self._notes.append(
                 "The sky {of} is drawn as an even color without a sun; an image of it would be drawn in full."
             )
-            return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
+            sky = SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"])
+            return NodeColor(_triple(rec709_to_scene(np.array(sky, np.float32))))
         if node.type != "TEX_ENVIRONMENT":
             return None
         is_alpha = source.socket.identifier == "Alpha"

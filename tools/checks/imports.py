@@ -13,7 +13,7 @@ from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
     ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
-    ("output", "optics", "setting"),
+    ("memory", "output", "optics", "setting"),
     ("settings_table",),
     ("scene", "renderer.settings"),
     ("diagnostic_colors",),

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...scene.arrays import Float64Array
-from ...scene.sampling import hammersley
+from ...scene.camera.sampling import hammersley
 
 WIDTH = 3.0
 """Pixels from end to end: Cycles' default filter width of 1.5 is half of a Blackman-Harris window's"""

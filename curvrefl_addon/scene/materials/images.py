@@ -10,16 +10,20 @@ import bpy
 import imbuf
 import numpy as np
 
+from ...memory import exceeds_memory
 from ..arrays import Float32Array
 from ..finite import usable_pixels
 from ..remarks import Remark
+from .color_spaces import rec709_to_scene
 from .pixels import stretched
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
+IMAGE_BYTES = 40
+"""For a pixel: Blender's own, and ours while they are converted"""
 # Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
-_DATA = ("Non-Color", "Raw")
+_DATA = ("Non-Color", "Raw", "scene_linear")
 MAGNIFIED = 1024
 """Images of bytes are interpolated up to this size, pixels along a side"""
 MOST_MAGNIFIED = 7
@@ -79,6 +83,12 @@ class ImageReader:
         if image.source == "MOVIE":
             remarks.append(Remark("Movies are not shown: the pixels {of} are drawn magenta.", "image", image.name))
             return _missing()
+        # (asked for its size, Blender would generate it)
+        is_generated = image.source == "GENERATED"
+        width, height = (image.generated_width, image.generated_height) if is_generated else image.size
+        if exceeds_memory(IMAGE_BYTES * width * height):
+            remarks.append(Remark("Memory does not do for the pixels {of}: drawn magenta.", "image", image.name))
+            return _missing()
         found = _frame_pixels(frame) if frame else _own_pixels(image)
         if found is None:
             cause = "The pixels {of} are missing: drawn magenta, as in Cycles."
@@ -104,6 +114,9 @@ class ImageReader:
             if space != "sRGB":
                 remarks.append(Remark(f'Color space "{space}" {{of}} is taken for sRGB.', "image", image.name))
             _decode_srgb(pixels)
+        if not is_float and space not in _DATA:
+            # Bytes hold linear Rec.709 then, whatever the file's working space.
+            pixels = rec709_to_scene(pixels)
         return pixels
 
 

@@ -15,8 +15,6 @@ from .pixels import Pixels
 
 type Change = Callable[..., Any]
 """From colors (..., 3) to colors of the same shape"""
-LUMA = np.array([0.2126, 0.7152, 0.0722])
-"""Luminance of scene-linear Rec.709"""
 
 
 class Texture(Protocol):

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..meshes.attributes import VertexColors
-from .node_color import LUMA, Change, NodeColor, gray, plain, spread, triple
+from .color_spaces import luminance_weights
+from .node_color import Change, NodeColor, gray, plain, spread, triple
 from .node_handlers import HANDLERS
 from .node_links import NUMBERS, Source
 
@@ -77,7 +78,7 @@ class ColorReader:
     def _gray(self, color: NodeColor, source: Source) -> NodeColor:
         if source.socket.type in NUMBERS or (color.is_constant and len(set(color.factor)) == 1):
             return color
-        weights = LUMA if source.socket.type == "RGBA" else np.full(3, 1.0 / 3.0)
+        weights = luminance_weights() if source.socket.type == "RGBA" else np.full(3, 1.0 / 3.0)
         if color.vertex_colors is not None:
             color = self._without_paint(color)
         return self.made(lambda c: spread(c @ weights.astype(c.dtype)), color)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .node_color import LUMA, NodeColor, gray, product, spread, triple
+from .color_spaces import luminance_weights
+from .node_color import NodeColor, gray, product, spread, triple
 from .node_formulas import (
     BLENDS,
     FROM_RGB,
@@ -204,7 +205,9 @@ HANDLERS: dict[str, _Handler] = {
     "HUE_SAT": lambda reader, source: reader.changed(
         source, _hue_saturation, "Color", "Hue", "Saturation", "Value", "Fac"
     ),
-    "RGBTOBW": lambda reader, source: reader.changed(source, lambda c: spread(c @ LUMA.astype(c.dtype)), "Color"),
+    "RGBTOBW": lambda reader, source: reader.changed(
+        source, lambda c: spread(c @ luminance_weights().astype(c.dtype)), "Color"
+    ),
     "MIX": _mix,
     "MIX_RGB": _mix,
     "MATH": _math,

@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...errors import InputError
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
 from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..signature import array_signature
@@ -60,6 +61,8 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
     positions = np.empty((len(mesh.vertices), 3), np.float32)
     if len(mesh.vertices):
         attribute_data(mesh.attributes["position"]).foreach_get("vector", positions.reshape(-1))
+    if len(corner_vertex) and not 0 <= corner_vertex.min() <= corner_vertex.max() < len(positions):
+        raise InputError(f'Mesh "{mesh.name}" is damaged, it has faces without vertices: make it anew.')
     slots = _triangle_slots(mesh, len(triangle_corners))
     if any(needs.hidden_slots):
         shown = ~np.array(needs.hidden_slots)[np.minimum(slots, len(needs.hidden_slots) - 1)]

@@ -32,6 +32,7 @@ from .chart_marks import Mark
 
 FRAMES = 2
 """Timed in each of two rounds through all methods"""
+BLURRED = "Depth of field and motion blur are left out, on all sides: methods are charted by sharp pictures."
 PEER_REPEATS, PEER_SECONDS = 3, 2.0
 """A peer is timed again while it has taken less: one that needs half a minute once is timed once"""
 
@@ -68,8 +69,10 @@ def scene_steps(
     """
     yield "Reading the scene"
     arrays, view = read_render_scene(scene, view_layer, reflector_names, comparison.width, comparison.height)
+    is_blurred = scene.render.use_motion_blur or view.lens is not None
+    view = replace(view, lens=None)
     vertex_truth = VertexTruth(arrays, view)
-    warnings = [*vertex_truth.warnings, *filter(None, [missing_flip()])]
+    warnings = [*vertex_truth.warnings, *filter(None, [missing_flip(), BLURRED if is_blurred else ""])]
 
     try:
         marks = yield from _marks(scene, view_layer, arrays, view, comparison, scene_name, vertex_truth)
@@ -95,7 +98,9 @@ def _marks(
         raise InputError(f"No reflector is in view of the camera of {scene_name}: turn the camera, or name others.")
     yield f"Rendering the reference in Cycles with {comparison.samples} samples"
     bounces = mirrors_met(arrays, comparison.settings.bounces)
-    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light, bounces)
+    reference = render_reference(
+        scene, view_layer, width, height, comparison.samples, comparison.light, bounces, sharp=True
+    )
     yield "Looking for all reflection points of the vertices"
     vertex_truth.prepare()
 
@@ -123,7 +128,7 @@ def _marks(
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
         still = render_peer(
-            scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS, bounces
+            scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS, bounces, True
         )
         error = image_error(still.pixels, reference.pixels, mask)
         samples = peer.removeprefix("cycles")

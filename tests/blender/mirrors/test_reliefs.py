@@ -180,6 +180,7 @@ def turned(bend: Callable[[Any], None]) -> Callable[[Any], None]:
 def test_picture_is_that_of_cycles(bend: Callable[[Any], None]) -> None:
     """A rippled ball among bright blocks: far nearer to Cycles than the smooth ball is."""
     scene = empty_scene()
+    scene.cycles.diffuse_bounces = 0
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 0.4, 1.0)
     bpy.ops.mesh.primitive_uv_sphere_add(segments=96, ring_count=48)
     mirror = bpy.context.object

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import Float64Array
+from ..arrays import Float64Array
 
 _ORDERS = (20260, 52026)
 """Seeds of the orders in which lenses and shutters are gone through"""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .arrays import Float64Array
+from ..arrays import Float64Array
 from .sampling import scattered_points
 
 if TYPE_CHECKING:

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sub-frames that look from elsewhere than the frame does: through a place on the lens, at a moment of the shutter."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..scene.camera.shutter import Moment
+from .reflection import Reflection
+from .shown.rays import ShownRays
+from .surfaces.canvas import Canvas
+
+if TYPE_CHECKING:
+    from .renderer import Renderer
+
+
+def through_lens(renderer: Renderer, reflection: Reflection, index: int) -> Reflection:
+    """What the mirrors show from where sub-frame `index` looks: found again where it depends on the eye."""
+    lens = reflection.view.lens
+    if lens is None:
+        return reflection
+    view = reflection.view.through(*lens.points(renderer.settings.samples)[index])
+    if all(kind is ShownRays for kind, _ in reflection.groups):
+        return replace(reflection, view=view)
+    return renderer.reflect(view.about(-reflection.origin), last=reflection, at_rest=True)
+
+
+def expose(
+    renderer: Renderer, canvas: Canvas, reflection: Reflection, still: Moment, moments: Sequence[Moment] = ()
+) -> Reflection:
+    """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`.
+
+    The renderer shows that scene before and after.
+    """
+    samples = renderer.settings.samples
+    if not moments:
+        for index in range(samples):
+            renderer.add_sub_frame(canvas, reflection, index, 1.0 / samples)
+        return reflection
+    shown = reflection
+    for index, moment in enumerate(moments):
+        renderer.update(moment.scene)
+        shown = renderer.reflect(moment.view, last=shown, at_rest=True)
+        renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
+    renderer.update(still.scene)
+    return renderer.reflect(still.view, last=shown, at_rest=True)
