@@ -45,4 +45,5 @@ def stretched(pixels: Pixels, height: int, width: int, wraps: bool = True) -> ND
         return np.asarray(pixels, np.float32)
     row = (np.arange(height) + 0.5) / height * pixels.shape[0] - 0.5
     column = (np.arange(width) + 0.5) / width * pixels.shape[1] - 0.5
-    return bilinear(pixels, *np.meshgrid(column, row), wraps)
+    columns, rows = np.meshgrid(column, row)
+    return bilinear(pixels, columns, rows, wraps)

@@ -87,6 +87,7 @@ class SurfaceTextureReader:
         assert node is not None
         is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
+            notes.append("Image nodes {of} without an image are drawn magenta, as in Cycles.")
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         # (Cycles looks at alpha by itself where anything uses it.)
         splits_alpha = any(not link.is_muted for link in node.outputs["Alpha"].links)

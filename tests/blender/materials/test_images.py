@@ -150,6 +150,7 @@ def test_an_image_node_without_an_image_is_magenta() -> None:
     tree.links.new(node(tree, "ShaderNodeTexImage").outputs["Color"], shader.inputs["Color"])
     scene = extracted()
     assert material_of(scene, "square").base_color == (1.0, 0.0, 1.0)
+    assert scene.warnings == ('Image nodes of material "square" without an image are drawn magenta, as in Cycles.',)
     np.testing.assert_allclose(shown_by_cycles(1)[0], (1.0, 0.0, 1.0))
 
 
