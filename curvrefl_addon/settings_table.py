@@ -111,11 +111,15 @@ class Settings:
     bounces: int = setting(
         4,
         label="Bounces",
-        text="Mirrors seen in mirrors, and in themselves, one after the other",
+        text="Mirrors seen in mirrors, and in themselves, one after the other; no more than the scene's glossy bounces",
         hard=(1, 64),
         soft=(1, 32),
         panel="Quality",
         preference=True,
+        flags=(
+            Flag("render", "--bounces", "from mirror to mirror"),
+            Flag("compare", "--bounces", "from mirror to mirror, of Cycles' direct light too"),
+        ),
         said="{} bounces are",
     )
     """Mirrors on the way of a ray (`exact`); what the last one shows of a mirror is its own light alone"""
@@ -176,6 +180,13 @@ class Settings:
         "time of another walk for each lamp",
         flags=(Flag("render", "--shadow-rays", _SHADOW_RAYS), Flag("compare", "--shadow-rays", _SHADOW_RAYS)),
     )
+
+    film_transparent: bool = setting(
+        False,
+        label="Transparent Film",
+        text="The background is left out where the eye sees it itself; mirrors show it",
+    )
+    """Of renders it is the scene's own"""
 
     @property
     def entry(self) -> Method:

@@ -12,15 +12,15 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
+from ..streams import STDOUT, dropped, readable
+from ..supervised import ended_softly
 from .inputs import (
-    STDOUT,
     chosen_settings,
-    dropped,
     open_scene,
     read_names,
     read_scene,
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 LAYERS = ("unit", "blender", "gui")
+AWKWARD = "awkward"
+"""A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = ("color", "position", "object", "iterations")
 
 
@@ -100,7 +102,7 @@ def compare(options: argparse.Namespace) -> int:
     scene = open_scene(options.file, options.frame)
     width, height = resolution_of(options, scene)
     comparison = replace(comparison, width=width, height=height)
-    _compare_and_print(scene, reflectors, comparison, output, options.camera)
+    _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
     return 0
 
 
@@ -160,7 +162,6 @@ def benchmark(options: argparse.Namespace) -> int:
 
     from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
 
-    output.mkdir(parents=True, exist_ok=True)
     with dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
@@ -195,7 +196,7 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
             f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
         )
     find_reflectors(scene, chosen)
-    return ChartFile(name, Path(file), tuple(chosen), *resolution_of(options, scene))
+    return ChartFile(readable(name), Path(file), tuple(chosen), *resolution_of(options, scene))
 
 
 def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
@@ -246,25 +247,27 @@ def demo(options: argparse.Namespace) -> int:
 
     print("Building the demo scene", flush=True)
     file = output / "demo.blend"
-    with folder_to_publish(output) as folder, dropped(STDOUT):
-        build_demo(folder / file.name)
-    _compare_and_print(open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
+    # (both or none)
+    with folder_to_publish(output) as folder:
+        with dropped(STDOUT):
+            build_demo(folder / file.name)
+        report = _compare(open_scene(folder / file.name), [KETTLE], Comparison(samples=DEMO_SAMPLES), folder)
+    _print_report(report, output)
     print(f"Scene: {file}")
     return 0
 
 
-def _compare_and_print(
+def _compare(
     scene: bpy.types.Scene,
     reflectors: Sequence[str],
     comparison: Comparison,
     output: Path,
     camera: str | None = None,
-) -> None:
-    """Compare the open scene, write the report into `output`, print its table."""
+) -> dict[str, Any]:
+    """Compare the open scene and write the report into `output`; returns it."""
     import bpy
 
     from ..report.compare import compare_open_scene
-    from ..report.table import format_table
 
     view_layer = bpy.context.view_layer
     assert view_layer is not None, "an open scene has a view layer"
@@ -273,15 +276,23 @@ def _compare_and_print(
         def progress(text: str) -> None:
             print(text, file=stdout, flush=True)
 
-        report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+        return compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+
+
+def _print_report(report: dict[str, Any], output: Path) -> None:
+    from ..report.table import format_table
+
     print(format_table(report))
     print(f"Report: {output / 'report.html'}")
 
 
 def test(options: argparse.Namespace) -> int:
-    """Run the checks of the source; see tools/run_tests.py."""
+    """Run the checks and tests of the source, or try awkward scenes; see tools/run_tests.py."""
+    if options.layers[:1] == [AWKWARD]:
+        return int(repository_tool("run_tests", "test").try_awkward(options.layers[1:], options.keep))
     require_known(options.layers, LAYERS, "layer of tests")
-    return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
+    with ended_softly():  # (virtual screens among others)
+        return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
 
 def check(options: argparse.Namespace) -> int:
@@ -294,7 +305,8 @@ def check(options: argparse.Namespace) -> int:
 def images(options: argparse.Namespace) -> int:
     """Make the pictures of the documents; see tools/make_images.py."""
     tool = repository_tool("make_images", "images")
-    tool.make(options.images or list(tool.IMAGES))
+    with ended_softly():
+        tool.make(options.images or list(tool.IMAGES))
     return 0
 
 

@@ -102,7 +102,7 @@ class CurvreflEngine(bpy.types.RenderEngine):
         if camera is None:
             raise InputError(f'Scene "{depsgraph.scene.name}" has no camera: add one or make one active.')
         passes = passes_of(layer)
-        area, pixels = session.draw(depsgraph, camera.original, passes, job, self._before_sub_frame)
+        area, pixels = session.draw(depsgraph, camera.original, passes, job, self._before_sub_frame, self._go_to)
         for item in passes:
             self.add_pass(item.name, len(item.channels), item.channels, layer=layer.name)
         result: Any = self.begin_result(0, 0, area.width, area.height, layer=layer.name)
@@ -111,6 +111,9 @@ class CurvreflEngine(bpy.types.RenderEngine):
         self.end_result(result)
         for warning in session.warnings:
             self._warn(warning)
+
+    def _go_to(self, frame: int, subframe: float) -> None:
+        self.frame_set(frame, subframe=subframe)
 
     def _before_sub_frame(self, index: int, count: int) -> None:
         if is_stopped(self):

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -19,8 +20,11 @@ from ..renderer.settings import Settings
 from ..renderer.surfaces.canvas import Canvas
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.blend_file import find_reflectors, view_of_camera
+from ..scene.camera.film import on_film
+from ..scene.camera.shutter import Moment, read_moments
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
+from ..scene.view import View
 from .area import Area, area_of
 from .job import Job
 from .passes import COMBINED, MIRROR, Pass
@@ -36,6 +40,7 @@ class RenderSession:
         self._renderer: Renderer | None = None
         self._arrays: SceneArrays | None = None
         self._settings = Settings()
+        self._mirrors: list[bpy.types.Object] = []
         self._refused: list[str] = []
 
     def read(self, depsgraph: Any, job: Job | None) -> None:
@@ -43,18 +48,20 @@ class RenderSession:
         scene, shown = depsgraph.scene, depsgraph.scene_eval
         self._refused = []
         if job is None:
-            self._settings = settings_of(shown.curvrefl, shown.curvrefl.render_samples)
+            chosen = settings_of(shown.curvrefl, shown.curvrefl.render_samples)
             mirrors = mirrors_in(depsgraph)
         else:
-            self._settings = job.settings
+            chosen = job.settings
             there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
             mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
             job.missing -= {obj.name for obj in mirrors}
+        self._settings = replace(chosen, film_transparent=scene.render.film_transparent)
         while True:
             # All is read: what a new frame changes is not listed. What comes out as it was stays the same object.
             changes = Changes(everything=self._arrays is None, frame=True)
             try:
                 self._arrays = self._reader.read(depsgraph, shown, mirrors, changes, overrides_of(mirrors))
+                self._mirrors = mirrors
                 return
             except InputError as error:
                 uid = self._reader.uid_of(error.object_id)
@@ -71,34 +78,36 @@ class RenderSession:
         passes: list[Pass],
         job: Job | None,
         before_sub_frame: Callable[[int, int], None],
+        go_to: Callable[[int, float], None],
     ) -> tuple[Area, dict[str, Float32Array]]:
         """The rendered area and its passes by name, Combined among them: (h, w, channels), row 0 at the bottom.
 
-        `before_sub_frame` gets a sub-frame's number and how many there are. Raises InputError for a camera that cannot
+        `before_sub_frame` gets a sub-frame's number and how many there are; `go_to(frame, subframe)` shows the
+        depsgraph at another time. Raises InputError for a camera that cannot
         be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
         """
         assert self._arrays is not None
         scene = depsgraph.scene
         area = area_of(scene.render)
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
+        moments, untold = self._moments(depsgraph, camera, area, view, go_to)
         renderer = self._up_to_date(self._arrays)
         alone = Canvas.of_size(view.width, view.height) if any(item.name == MIRROR for item in passes) else None
         frame = renderer.render(
             view,
-            film_transparent=scene.render.film_transparent,
+            moments=moments,
             mirrors_alone=alone,
             before_sub_frame=lambda index: before_sub_frame(index, self._settings.samples),
         )
-        exposure = film_exposure(depsgraph.scene_eval)
-        result = {COMBINED: exposed(frame.color(), exposure)}
+        result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
         for item in passes:
             if item.read is not None:
                 result[item.name] = item.read(frame)
             elif alone is not None:
-                result[item.name] = exposed(alone.pixels(), exposure)
+                result[item.name] = on_film(alone.pixels(), depsgraph.scene_eval)
         # (Of one that is left out as well the scene's own sentence is enough.)
         refused = [one for one in self._refused if not _is_said(one, frame.warnings)]
-        self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings)
+        self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings, *untold)
         if job is not None and not job.object_names:
             self._tell(job, frame, area)
         return area, result
@@ -108,6 +117,25 @@ class RenderSession:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
+
+    def _moments(
+        self,
+        depsgraph: Any,
+        camera: bpy.types.Object,
+        area: Area,
+        view: View,
+        go_to: Callable[[int, float], None],
+    ) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
+        """What each sub-frame shows where there is motion blur, and what of it is not told."""
+        assert self._arrays is not None
+        scene = depsgraph.scene
+
+        def read_now(changes: Changes) -> tuple[SceneArrays, View]:
+            overrides = overrides_of(self._mirrors)
+            arrays = self._reader.read(depsgraph, depsgraph.scene_eval, self._mirrors, changes, overrides)
+            return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
+
+        return read_moments(scene, Moment(self._arrays, view), self._settings.samples, read_now, go_to)
 
     def _up_to_date(self, arrays: SceneArrays) -> Renderer:
         require_gpu()
@@ -143,16 +171,3 @@ class RenderSession:
 def _is_said(refusal: str, warnings: Sequence[str]) -> bool:
     """Whether a warning tells the same of the same object."""
     return any(warning.startswith(refusal.split(":")[0]) for warning in warnings)
-
-
-def film_exposure(scene: Any) -> float:
-    """What Cycles multiplies all light with."""
-    cycles = getattr(scene, "cycles", None)
-    return 1.0 if cycles is None else float(cycles.film_exposure)
-
-
-def exposed(pixels: Float32Array, exposure: float) -> Float32Array:
-    """(h, w, 4) with the colors multiplied; as they are where that changes nothing."""
-    if exposure != 1.0:
-        pixels[..., :3] *= np.float32(exposure)
-    return pixels

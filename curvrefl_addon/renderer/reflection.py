@@ -7,7 +7,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
+from ..scene.arrays import Float64Array
 from ..scene.view import View
 from .choice import Choice
 from .mirrors.mirror import Mirror
@@ -36,6 +39,7 @@ class Reflection:
     """What the mirrors show in one view. It belongs to that view: nothing of it is kept in the renderer."""
 
     view: View
+    """About `origin`"""
     settings: Settings
     """What was asked for"""
     shown: tuple[Shown, ...]
@@ -44,6 +48,8 @@ class Reflection:
     """One sentence each"""
     choice: Choice | None = None
     """What `auto` has chosen, and why"""
+    origin: Float64Array = field(default_factory=lambda: np.zeros(3))
+    """(3,) where in the world the scene had its origin (see `placement`)"""
 
     @property
     def groups(self) -> list[tuple[type[Shown], list[Shown]]]:

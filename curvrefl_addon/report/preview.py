@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import replace
 from types import TracebackType
 from typing import Self
 
@@ -15,10 +15,9 @@ from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
 from ..scene.blend_file import find_reflectors
+from ..scene.camera.film import on_film
 from ..scene.extract import SceneReader
-from ..scene.render_depsgraph import read_render_scene
-from ..scene.temporary_settings import temporary_settings
-from .images import save_exr, to_image_datablock
+from ..scene.render_depsgraph import read_render_moments
 
 
 class PreviewRenderer:
@@ -30,6 +29,8 @@ class PreviewRenderer:
         self._samples = samples
         self._reader = SceneReader()
         self._renderer: Renderer | None = None
+        self.warnings: tuple[str, ...] = ()
+        """What the last picture does not show, one sentence each"""
 
     def render(self, context: bpy.types.Context) -> Float32Array:
         """(h, w, 4) scene-linear picture at the size of the scene's renders.
@@ -43,15 +44,24 @@ class PreviewRenderer:
         height = max(int(scene.render.resolution_y * scale), 1)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
         overrides = overrides_of(find_reflectors(scene, self._mirrors))
-        arrays, view = read_render_scene(
-            scene, view_layer, self._mirrors, width, height, reader=self._reader, overrides=overrides
+        settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            self._mirrors,
+            width,
+            height,
+            settings.samples,
+            reader=self._reader,
+            overrides=overrides,
         )
-        settings = settings_of(scene.curvrefl, self._samples)
         if self._renderer is None:
-            self._renderer = Renderer(arrays, settings)
+            self._renderer = Renderer(still.scene, settings)
         else:
-            self._renderer.update(arrays)
-        return self._renderer.render(view).color()
+            self._renderer.update(still.scene)
+        frame = self._renderer.render(still.view, moments=moments)
+        self.warnings = (*frame.warnings, *untold)
+        return on_film(frame.color(), scene)
 
     def __enter__(self) -> Self:
         return self
@@ -62,27 +72,3 @@ class PreviewRenderer:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
-
-
-def save_displayed(pixels: Float32Array, scene: bpy.types.Scene, path: Path) -> None:
-    """Write a scene-linear picture (h, w, 4): .exr as it is, .png through the scene's view transform and look.
-
-    Raises OSError when the file cannot be written.
-    """
-    if path.suffix.lower() == ".exr":
-        save_exr(path, pixels)
-        return
-    image = to_image_datablock("curvrefl preview", pixels)
-    try:
-        with temporary_settings() as changes:
-            changes.set(
-                scene.render.image_settings,
-                media_type="IMAGE",
-                file_format="PNG",
-                color_management="FOLLOW_SCENE",
-                color_mode="RGB",
-                color_depth="8",
-            )
-            image.save_render(str(path), scene=scene)
-    finally:
-        bpy.data.images.remove(image)

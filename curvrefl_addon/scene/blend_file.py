@@ -12,8 +12,12 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from .camera.lens import lens_of
+from .finite import problem_of_place
 from .view import View
 
+EXACT_DEPTHS = 1.001e4
+"""Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
 SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """Object types that may evaluate to a mesh"""
 # Uncompressed, Zstandard and (before Blender 3.0) gzip.
@@ -27,15 +31,15 @@ def open_blend(path: str | Path) -> None:
     missing or that Blender cannot read; what was open before may then be gone.
     """
     path = Path(path)
-    if not path.exists():
-        raise InputError(f'There is no file "{path}": check the path of the .blend file.')
-    if not path.is_file():
-        raise InputError(f'"{path}" is not a file: name a .blend file.')
     try:
+        if not path.exists():
+            raise InputError(f'There is no file "{path}": check the path of the .blend file.')
+        if not path.is_file():
+            raise InputError(f'"{path}" is not a file: name a .blend file.')
         with path.open("rb") as file:
             start = file.read(8)
     except OSError as error:
-        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its permissions.') from error
+        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its path and permissions.') from error
     if not start.startswith(_FILE_STARTS):
         raise InputError(f'"{path}" is not a .blend file: choose one that Blender saved.')
     trust = bpy.context.preferences.filepaths.use_scripts_auto_execute
@@ -100,8 +104,10 @@ def view_of_camera(
     if data.type not in ("PERSP", "ORTHO"):
         raise InputError(f'Camera "{camera.name}" is panoramic: make it perspective or orthographic.')
     placed = np.array(evaluated.matrix_world, dtype=np.float64)
+    if problem := problem_of_place(placed, 0.0):
+        raise InputError(f'Camera "{camera.name}" {problem}: clear its location, rotation and scale.')
     lengths = np.linalg.norm(placed[:3, :3], axis=0)
-    if not np.isfinite(placed).all() or lengths.min() == 0.0:
+    if lengths.min() == 0.0:
         raise InputError(f'Camera "{camera.name}" has a zero or endless scale: clear its scale.')
     placed[:3, :3] /= lengths
     if abs(np.linalg.det(placed[:3, :3])) < 1e-6:
@@ -113,11 +119,15 @@ def view_of_camera(
         scale_x=scene.render.pixel_aspect_x,
         scale_y=scene.render.pixel_aspect_y,
     )
+    if not np.isfinite(np.array(projection)).all():
+        raise InputError(f'Camera "{camera.name}" has a lens, shift or clip range that is not a usable number: set it.')
     return View(
         world_to_view=np.linalg.inv(placed),
         view_to_clip=np.array(projection, dtype=np.float64),
         width=width,
         height=height,
+        lens=lens_of(data, placed, depsgraph),
+        clip=(data.clip_start, data.clip_end) if data.clip_end > EXACT_DEPTHS * data.clip_start else None,
     )
 
 

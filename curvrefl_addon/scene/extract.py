@@ -18,7 +18,9 @@ import numpy as np
 from ..errors import InputError
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
+from .finite import problem_of_place
 from .lights import read_light
+from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
@@ -26,6 +28,7 @@ from .reads import (
     SURELY_REGULAR,
     PlainObject,
     ShownInstance,
+    bounces_of,
     is_diced,
     is_same_light,
     is_singular,
@@ -36,6 +39,7 @@ from .reads import (
     uid_of_block,
     with_kept,
 )
+from .remarks import Remark, sentences
 from .visibility import rays_of
 from .world import read_world
 
@@ -70,14 +74,21 @@ class SceneReader:
         self._instancers: set[int] = set()
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
-        self._world_warnings: list[str] = []
+        self._world_warnings: list[Remark] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
         self._overrides: dict[int, MaterialArrays] = {}
         self._mapped: frozenset[int] = frozenset()
         """Reflectors: their UV map is read also where no material needs it, for methods that search in it"""
+        self._space = working_space()
+        """Of the colors in the last scene"""
         self._last: SceneArrays | None = None
+
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) that another frame may change."""
+        return self._images.sequences
 
     @property
     def reads(self) -> dict[str, int]:
@@ -110,6 +121,9 @@ class SceneReader:
         if mapped != self._mapped:
             self._mapped = mapped
             changes.instances = True
+        if working_space() != self._space:
+            self._space = working_space()
+            changes.everything = True
         if changes.everything:
             self._images.forget_all()
         if changes.everything or changes.frame:
@@ -140,7 +154,7 @@ class SceneReader:
         world = view_layer.world_override or scene.world
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
-        self._last = self._arrays(reflectors)
+        self._last = self._arrays(reflectors, *bounces_of(scene))
         return self._last
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
@@ -219,7 +233,7 @@ class SceneReader:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj.data, obj.name, matrix, rays_of(instance, view_layer).glossy, warnings)
+        light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
         return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
@@ -238,6 +252,11 @@ class SceneReader:
             return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
+        if problem := problem_of_place(matrix, 0.0):
+            return ShownInstance(
+                warnings=(f'"{name}" {problem} and is left out.',) if rays.any else (),
+                error=f'"{name}" {problem}: clear its location, rotation and scale.',
+            )
         # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
         determinant = instance.matrix_world.to_3x3().determinant()
         squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
@@ -247,18 +266,25 @@ class SceneReader:
                 error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
             )
         slots = self._slots(obj, uid, view_layer.material_override)
-        warnings: list[str] = [slot.warning for slot in slots if slot.warning]
+        warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks]
         if uid not in self._mapped and any(slot.has_relief for slot in slots):
-            warnings.append(f'"{name}" is drawn without its bumps: only mirrors show theirs.')
-        needs = needs_of(name, slots, warnings)
+            warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
+        needs = needs_of(obj, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
-        warnings += stored.warnings
+        warnings += stored.remarks
         error = (
             f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
         )
+        if problem := problem_of_place(matrix, stored.reach):
+            return ShownInstance(
+                warnings=(*warnings, f'"{name}" {problem} and is left out.'),
+                error=error or f'"{name}" {problem}: clear its scale, or choose another.',
+            )
         if len(self._meshes.meshes[stored.number].triangles) == 0:
+            if any(needs.hidden_slots):
+                error = f'"{name}" has no surface that could reflect: choose another reflector or give it a material.'
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
         if is_diced(obj):
             warnings.append(
@@ -277,6 +303,7 @@ class SceneReader:
                 matrix=matrix,
                 materials=materials,
                 visible_camera=rays.camera,
+                visible_diffuse=rays.diffuse,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,
@@ -294,7 +321,7 @@ class SceneReader:
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
-    def _arrays(self, reflectors: Sequence[bpy.types.Object]) -> SceneArrays:
+    def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         self._check(chosen)
         instances = [
@@ -311,7 +338,9 @@ class SceneReader:
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
-            warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
+            warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
+            mirror_bounces=mirror_bounces,
+            diffuse_bounces=diffuse_bounces,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
 

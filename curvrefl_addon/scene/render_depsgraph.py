@@ -16,6 +16,7 @@ import bpy
 from ..errors import InputError
 from .arrays import MaterialArrays, SceneArrays
 from .blend_file import find_camera, find_reflectors, view_of_camera
+from .camera.shutter import Moment, read_moments
 from .changes import Changes
 from .extract import SceneReader
 from .temporary_settings import TemporarySettings, temporary_settings
@@ -51,6 +52,38 @@ def read_render_scene(
     return with_render_depsgraph(scene, view_layer, read, width, height, seen_by)
 
 
+def read_render_moments(
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    reflectors: Sequence[str],
+    width: int,
+    height: int,
+    samples: int,
+    camera: str | None = None,
+    reader: SceneReader | None = None,
+    overrides: Mapping[int, MaterialArrays] | None = None,
+) -> tuple[Moment, tuple[Moment, ...], tuple[str, ...]]:
+    """As `read_render_scene`: the frame itself, and what `shutter.read_moments` finds of its motion."""
+    chosen = find_reflectors(scene, reflectors)
+    seen_by = find_camera(scene, camera)
+    reading = reader or SceneReader()
+
+    def read(
+        engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph
+    ) -> tuple[Moment, tuple[Moment, ...], tuple[str, ...]]:
+        def read_now(changes: Changes) -> tuple[SceneArrays, View]:
+            view = view_of_camera(scene, seen_by, width, height, depsgraph)
+            return reading.read(depsgraph, scene, chosen, changes, overrides), view
+
+        def go_to(frame: int, subframe: float) -> None:
+            engine.frame_set(frame, subframe=subframe)
+
+        still = Moment(*read_now(Changes(everything=True)))
+        return still, *read_moments(scene, still, samples, read_now, go_to)
+
+    return _in_render(scene, view_layer, read, width, height, seen_by)
+
+
 def read_rendered(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reflectors: Sequence[str]) -> SceneArrays:
     """As `read_render_scene`, of a scene that needs no camera."""
     chosen = find_reflectors(scene, reflectors)
@@ -73,18 +106,32 @@ def with_render_depsgraph[T](
     the scene is read as seen from nowhere in particular. Raises what `read` raises, and InputError where Blender does
     not begin: while it renders something else, for one.
     """
+    return _in_render(scene, view_layer, lambda _engine, depsgraph: read(depsgraph), width, height, camera)
+
+
+def _in_render[T](
+    scene: bpy.types.Scene,
+    view_layer: bpy.types.ViewLayer,
+    work: Callable[[bpy.types.RenderEngine, bpy.types.Depsgraph], T],
+    width: int,
+    height: int,
+    camera: bpy.types.Object | None,
+) -> T:
+    """What `work` makes of an engine and its depsgraph, while Blender renders by it."""
     found: list[T] = []
     failed: list[BaseException] = []
 
-    def render(_engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
+    def render(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
         try:
-            found.append(read(depsgraph))
+            found.append(work(engine, depsgraph))
         except BaseException as error:
             # (Blender would print it and go on.)
             failed.append(error)
 
-    engine = type("CurvreflReader", (bpy.types.RenderEngine,), {"bl_idname": _READER, "bl_label": "", "render": render})
-    bpy.utils.register_class(engine)
+    engine_type = type(
+        "CurvreflReader", (bpy.types.RenderEngine,), {"bl_idname": _READER, "bl_label": "", "render": render}
+    )
+    bpy.utils.register_class(engine_type)
     try:
         with temporary_settings() as changes:
             if camera is None:
@@ -97,7 +144,7 @@ def with_render_depsgraph[T](
                 reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
                 raise InputError(f'Blender does not render scene "{scene.name}" ({reason}).') from error
     finally:
-        bpy.utils.unregister_class(engine)
+        bpy.utils.unregister_class(engine_type)
     if failed:
         raise failed[0]
     if not found:

@@ -27,7 +27,7 @@ from ..shading.lookup import Environment
 from ..shading.shade import ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
-from ..surfaces.primary import draw_primary
+from ..surfaces.primary import depths_of, draw_primary
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import view_block
 from .cube_views import faces_views
@@ -70,7 +70,7 @@ class EnvironmentCube:
             for i in range(SUB_FRAMES):
                 uniforms = self._draw_face(self._seen, view.jittered(((i & 1) - 0.5) / 2, ((i >> 1) - 0.5) / 2))
                 lighting.prepare(i * max(lighting.sub_frames // SUB_FRAMES, 1) % lighting.sub_frames)
-                shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
+                shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES, by_camera=False)
 
     def environment(self, method: str, view: View) -> Environment:
         """What a method of the catalog looks up in a view; for `environment_cube_vertex` the cube itself, out of
@@ -113,7 +113,7 @@ class EnvironmentCube:
 
     def _draw_face(self, target: SurfaceBuffer, view: View) -> Any:
         uniforms = view_block(view)
-        draw_primary(target, self._scenery, self._materials, uniforms)
+        draw_primary(target, self._scenery, self._materials, uniforms, depths=depths_of(view))
         return uniforms
 
     def _sphere_map(self, view: View) -> SphereMap:

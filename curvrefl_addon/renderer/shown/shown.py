@@ -73,8 +73,7 @@ class Light:
     """Record texture by mirrors' numbers, 1 for those of the group; None where there is one group"""
     with_others: bool = True
     """The pixels that show no mirror are of this group too"""
-    with_background: bool = True
-    """Where there is nothing the world is seen"""
+    film_transparent: bool = False
 
 
 @dataclass(frozen=True)
@@ -134,7 +133,7 @@ class Shown(ABC):
             sub_frame.window,
             chosen=light.chosen,
             with_others=light.with_others,
-            with_background=light.with_background,
+            film_transparent=light.film_transparent,
         )
 
     @classmethod

@@ -118,7 +118,8 @@ def test_the_map_active_for_rendering_and_a_named_map() -> None:
     named.uv_map = "gone"
     scene = extracted(square)
     assert mesh_of(scene, "square").corner_uv is None
-    assert any('UV map "gone"' in warning for warning in scene.warnings)
+    # Cycles shows the pixel at the image's corner all over, and so does a mesh without coordinates.
+    assert not scene.warnings
 
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])
