@@ -144,6 +144,19 @@ def find_reflectors(scene: bpy.types.Scene, names: Sequence[str]) -> list[bpy.ty
     return [_find_reflector(scene, name) for name in dict.fromkeys(names)]
 
 
+def objects_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Those of the scene, and those that are only in a collection that one of them instances."""
+    found = {obj.session_uid: obj for obj in scene.objects}
+    unseen = list(found.values())
+    while unseen:
+        group = unseen.pop().instance_collection
+        for obj in () if group is None else group.all_objects:
+            if obj.session_uid not in found:
+                found[obj.session_uid] = obj
+                unseen.append(obj)
+    return list(found.values())
+
+
 def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
     obj = scene.objects.get(name) or bpy.data.objects.get(name)
     if obj is None:
