@@ -275,7 +275,9 @@ class SceneReader:
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
         warnings += stored.remarks
         error = (
-            f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
+            f'"{name}" has vertices at no finite place or too far out: repair its mesh or choose another.'
+            if stored.dropped
+            else ""
         )
         if problem := problem_of_place(matrix, stored.reach):
             return ShownInstance(

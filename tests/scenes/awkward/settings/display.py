@@ -115,7 +115,7 @@ def film_transparent_emitter(folder: Path) -> None:
     add_box("Glow", (-2.2, 1.5, 2.8), 0.7, emitter("Glow", (0.2, 0.5, 0.9)))
 
 
-@awkward("a sequencer color space and a compositor that is off", words=("composit",))
+@awkward("a sequencer color space and a compositor that is off", words=("compositor",))
 def compositor_inverts(folder: Path) -> None:
     scene = stage()
     tree = bpy.data.node_groups.new("Compositing", "CompositorNodeTree")
