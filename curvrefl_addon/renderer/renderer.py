@@ -252,7 +252,8 @@ class Renderer:
             return
         self._lighting.prepare(index)
         if not groups:
-            self._shade.add(canvas, sub_frame.targets.seen, None, sub_frame.uniforms, weight, window)
+            seen, shadows = sub_frame.targets.seen, sub_frame.shadows
+            self._shade.add(canvas, seen, None, sub_frame.uniforms, weight, window, shadows=shadows)
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             kind.add_light(members, sub_frame, Light(canvas, weight, chosen, with_others=number == 0))
@@ -321,7 +322,8 @@ class Renderer:
         self, view: View, reflection: Reflection, window: Window | None = None, everywhere: bool = False
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        sub_frame = SubFrame(self._stage, view, view_block(view), self._targets_for(view), window)
+        shadows = reflection.ray_shadows(self.rays)
+        sub_frame = SubFrame(self._stage, view, view_block(view), self._targets_for(view), window, shadows)
         smooth = {
             id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
         }

@@ -15,9 +15,11 @@ import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.names import listed
+from ...scene.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
+from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out
@@ -181,6 +183,14 @@ class Lighting:
             found.add("LIGHTING_WORLD")
         return frozenset(found)
 
+    def too_coarse(self, view: View) -> tuple[bool, bool]:
+        """Whether the shadow maps of lamps and of the world are too coarse for a view."""
+        balls, lamps, world = self._geometry.balls(), self._lamp_maps, self._world_maps
+        return (
+            are_too_coarse(lamps.views, lamps.resolution, LAMPS, view, *balls),
+            are_too_coarse(world.views, world.resolution, WORLD, view, *balls),
+        )
+
     def prepare(self, sub_frame: int) -> None:
         """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
 
@@ -215,10 +225,8 @@ class Lighting:
         # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
         found = (*self._lamp_warnings, *self._left_out)
         odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
-        if not odd or not self._world_is_lit:
-            return found
         what = "shade the world's light as that of lamps: their visibility to diffuse rays is left out."
-        return (*found, f"{listed(odd)} {what}")
+        return (*found, f"{listed(odd)} {what}") if odd and self._world_is_lit else found
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
@@ -322,9 +330,9 @@ class Lighting:
             world_layers.append(layer)
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
-        records[2:5, :3] = self._world.rotation
         world = self._world
-        records[6, :3] = float(world.visible_camera), float(world.visible_diffuse), float(world.visible_glossy)
+        records[2:5, :3] = world.rotation
+        records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
         return lamp_layers, world_layers, records
 
     def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
