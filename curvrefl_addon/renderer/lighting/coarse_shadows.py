@@ -56,8 +56,10 @@ def are_too_coarse(
     reach = radii[:, None] * np.linalg.norm(view.world_to_clip[:2, :3], axis=1)
     before &= (np.abs(clip[:, :2]) - reach <= np.abs(clip[:, 3:])).all(axis=1)
     before &= 2.0 * radii > SEEN * view.height * pixel
-    least = np.maximum(limit.pixels * pixel, limit.share * radii)
-    return any(bool((before & (_texels(one, resolution, points) > least)).any()) for one in views)
+    if not before.any():
+        return False
+    points, least = points[before], np.maximum(limit.pixels * pixel, limit.share * radii)[before]
+    return any(bool((_texels(one, resolution, points) > least).any()) for one in views)
 
 
 def _texels(view: ShadowView, resolution: int, points: Float64Array) -> Float64Array:

@@ -86,7 +86,7 @@ class Lighting:
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
-        self._lamp_warnings: tuple[str, ...] = ()
+        self._balls: tuple[Float64Array, Float64Array] | None = None
         self._scene = scene
         self._left_out = left_out(scene)
         self._read_geometry()
@@ -98,7 +98,7 @@ class Lighting:
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
-        before, self._scene = self._scene, scene
+        before, self._scene, self._balls = self._scene, scene, None
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
@@ -185,11 +185,11 @@ class Lighting:
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
-        balls, lamps, world = self._geometry.balls(), self._lamp_maps, self._world_maps
-        return (
-            are_too_coarse(lamps.views, lamps.resolution, LAMPS, view, *balls),
-            are_too_coarse(world.views, world.resolution, WORLD, view, *balls),
-        )
+        if self._balls is None:
+            self._balls = self._geometry.balls()
+        pairs = ((self._lamp_maps, LAMPS), (self._world_maps, WORLD))
+        lamps, world = (are_too_coarse(one.views, one.resolution, limit, view, *self._balls) for one, limit in pairs)
+        return lamps, world
 
     def prepare(self, sub_frame: int) -> None:
         """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
@@ -237,7 +237,7 @@ class Lighting:
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self._lamp_warnings = ()
+        self._lamp_warnings: tuple[str, ...] = ()
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
