@@ -49,15 +49,13 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
         from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
         from ..curvrefl_addon.renderer.mirrors.reflector_bake import bake_reflector
         from ..curvrefl_addon.renderer.mirrors.reflector_files import save
-        from ..curvrefl_addon.scene.blend_file import find_reflectors
-        from ..curvrefl_addon.scene.extract import extract_scene
+        from ..curvrefl_addon.scene.render_depsgraph import read_rendered
 
-        scene = context.scene
-        assert scene is not None
+        scene, view_layer = context.scene, context.view_layer
+        assert scene is not None and view_layer is not None
         try:
             folder = checked_folder(output_path(self.folder, "a folder for the maps"))
-            chosen = find_reflectors(scene, [self._reflector_name(context)])
-            arrays = extract_scene(context.evaluated_depsgraph_get(), scene, chosen)
+            arrays = read_rendered(scene, view_layer, [self._reflector_name(context)])
             baked = bake_reflector(arrays, arrays.reflectors[0], self.resolution)
             with folder_to_publish(folder) as part:
                 save(baked, part)

@@ -67,23 +67,28 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         return {"FINISHED"}
 
     def _save(self, context: bpy.types.Context) -> int:
-        from ..curvrefl_addon.report.preview import PreviewRenderer, save_displayed
+        from ..curvrefl_addon.report.as_shown import save_as_shown
+        from ..curvrefl_addon.report.preview import PreviewRenderer
 
         scene = context.scene
         assert scene is not None
         frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step) if self.animation else [None]
         for frame in frames:
             self._path(frame)  # (before minutes of work)
+        warnings: dict[str, None] = {}
         with _frame_kept(scene), PreviewRenderer(self._mirrors(context), self.samples) as renderer:
             context.window_manager.progress_begin(0, len(frames))
             try:
                 for number, frame in enumerate(frames):
                     if frame is not None:
                         scene.frame_set(frame)
-                    save_displayed(renderer.render(context), scene, self._path(frame))
+                    save_as_shown(self._path(frame), renderer.render(context), scene)
+                    warnings |= dict.fromkeys(renderer.warnings)
                     context.window_manager.progress_update(number + 1)
             finally:
                 context.window_manager.progress_end()
+        for warning in warnings:
+            self.report({"WARNING"}, warning)
         return len(frames)
 
     def _mirrors(self, context: bpy.types.Context) -> list[str]:

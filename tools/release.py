@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -21,6 +22,7 @@ bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.errors import InputError  # noqa: E402
 from curvrefl.curvrefl_addon.output import folder_to_publish, write_whole  # noqa: E402
+from curvrefl.curvrefl_addon.supervised import ended_softly  # noqa: E402
 
 MANIFEST = "blender_manifest.toml"
 CHANGELOG = "CHANGELOG.md"
@@ -111,14 +113,18 @@ def _git(*arguments: str) -> str:
 def _changed(texts: dict[str, str]) -> Iterator[None]:
     """The files with these texts, which they lose again where something fails."""
     before = {name: (ROOT / name).read_text(encoding="utf-8") for name in texts}
-    try:
-        for name, text in texts.items():
-            write_whole(ROOT / name, text)
-        yield
-    except BaseException:
-        for name, text in before.items():
-            write_whole(ROOT / name, text)
-        raise
+    with ended_softly():
+        handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
+        try:
+            for name, text in texts.items():
+                write_whole(ROOT / name, text)
+            yield
+        except BaseException:
+            for name, text in before.items():
+                write_whole(ROOT / name, text)
+            raise
+        finally:
+            signal.signal(signal.SIGTERM, handler)
 
 
 def _checked_and_packed(folder: Path) -> str:

@@ -45,6 +45,14 @@ def run(layers: Sequence[str]) -> int:
     return 0 if passed else 1
 
 
+def try_awkward(names: Sequence[str], keep: str | None) -> int:
+    """Tries awkward scenes, all where none is named; exit code as of `run`, and 2 for a name that there is not."""
+    sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "blender")]
+    from awkward import judge
+
+    return judge.judge(names, None if keep is None else Path(keep))
+
+
 def _run_pytest(folders: Sequence[Path]) -> bool:
     # The windows first: they take longest, and one after the other.
     folders = sorted(folders, key=lambda folder: folder.name != "gui")

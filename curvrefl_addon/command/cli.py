@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import signal
 import sys
 import traceback
 from collections.abc import Callable, Sequence
@@ -21,10 +22,14 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
+from ..streams import readable
+from ..supervised import is_supervised
+from ..written_files import NO_ROOM
 from . import verbs
 from .inputs import SETTING, say
+from .signals import StoppedError, answered_signals
 
-DONE, OUR_FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+DONE, OUR_FAILURE, BAD_INPUT = 0, 1, 2
 
 ALL_PEERS = "eevee,cycles1,cycles8,cycles64"
 MAX_FRAME = 1048574
@@ -32,24 +37,49 @@ MAX_FRAME = 1048574
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run a verb and return the exit code: 0 done, 2 bad input or usage, 1 a failure of ours, 130 interrupted."""
+    """Run a verb and return the exit code: 0 done, 2 bad input or usage, 1 a failure of ours, 128 + n for signal n."""
     try:
-        return run(arguments)
+        with answered_signals():
+            code = run(arguments)
+            sys.stdout.flush()
+            return code
     except InputError as error:
         say(str(error))
         return BAD_INPUT
+    except StoppedError as stopped:
+        return _stopped(stopped)
     except KeyboardInterrupt:
-        say("Interrupted.")
-        return INTERRUPTED
+        return _stopped(StoppedError(signal.SIGINT))
     except BrokenPipeError:
         # The reader of our output has left; there is nobody to tell.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_stdout()
+        return OUR_FAILURE
+    except OSError as error:
+        if error.errno not in NO_ROOM:
+            traceback.print_exc()
+            return OUR_FAILURE
+        _drop_stdout()
+        say(f"Cannot write {error.filename or 'the output'} ({error.strerror}): make room first.")
+        return OUR_FAILURE
+    except MemoryError:
+        say("There is not enough memory for this: choose a smaller picture, or close other programs.")
         return OUR_FAILURE
     except Exception:
         traceback.print_exc()
         return OUR_FAILURE
     finally:
         clear_gpu_caches()
+
+
+def _stopped(stopped: StoppedError) -> int:
+    if not is_supervised():  # (who stopped us then says so)
+        say(str(stopped))
+    return stopped.exit_code
+
+
+def _drop_stdout() -> None:
+    """What is still to be written there would fail again when Python ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -82,8 +112,12 @@ def _parser() -> argparse.ArgumentParser:
 
     test = verb("test", verbs.test, "Check the source and run all tests, or one layer of tests.")
     test.add_argument(
-        "layers", nargs="*", metavar="LAYER", help=f"{', '.join(verbs.LAYERS)}; all of them where none is named"
+        "layers",
+        nargs="*",
+        metavar="LAYER",
+        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD} with names of scenes",
     )
+    test.add_argument("--keep", metavar="DIR", help=f"keep the pictures of {verbs.AWKWARD} scenes in this folder")
 
     render = verb(
         "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
@@ -205,7 +239,7 @@ def _parser() -> argparse.ArgumentParser:
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE.blend")
     parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
-    parser.add_argument("--camera", metavar="C", help="name of a camera object (the scene's)")
+    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument(
         "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )
@@ -213,19 +247,20 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
-    """The verb's arguments that the table of settings knows."""
+    """The verb's arguments that the table of settings knows. What `render` is not told is as the file has it."""
     for item in RENDERER:
         for flag in item.flags:
             if flag.verb == verb:
-                _add_setting(parser, item, flag)
+                _add_setting(parser, item, flag, is_of_file=verb == "render")
 
 
-def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> None:
-    default = item.flag_value(flag)
+def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag, is_of_file: bool) -> None:
+    value = item.flag_value(flag)
     dest = f"{SETTING}{item.name}"
-    if isinstance(default, bool):
-        action = "store_false" if default else "store_true"
-        parser.add_argument(flag.spelling, dest=dest, action=action, help=flag.text)
+    default = argparse.SUPPRESS if is_of_file else value
+    if isinstance(value, bool):
+        action = "store_false" if value else "store_true"
+        parser.add_argument(flag.spelling, dest=dest, action=action, default=default, help=flag.text)
         return
     parser.add_argument(
         flag.spelling,
@@ -233,7 +268,7 @@ def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> 
         type=_value_of(item),
         default=default,
         metavar=flag.metavar,
-        help=f"{flag.text} (%(default)s)",
+        help=f"{flag.text} ({"the scene's" if is_of_file else value})",
     )
 
 

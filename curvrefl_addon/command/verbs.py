@@ -12,23 +12,25 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
+from ..streams import STDOUT, dropped, readable
+from ..supervised import ended_softly
 from .inputs import (
-    STDOUT,
     chosen_settings,
-    dropped,
     open_scene,
     read_names,
     read_scene,
+    registered,
     repository_tool,
     require_known,
     resolution_of,
+    settings_of_file,
     start_gpu,
-    view_of_options,
+    view_layer_of,
     warn_of,
 )
 
@@ -41,46 +43,41 @@ if TYPE_CHECKING:
 DEMO_SAMPLES = 64
 """Of the demo's reference: two cores need about two minutes in all"""
 LAYERS = ("unit", "blender", "gui")
+AWKWARD = "awkward"
+"""A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = ("color", "position", "object", "iterations")
 
 
 def render(options: argparse.Namespace) -> int:
-    """Render the file's picture, and what is behind it as passes."""
+    """Render the file's picture by the engine of F12, and what is behind it as passes."""
     passes = read_names(options.passes, "pass")
     require_known(passes, PASSES, "pass")
     reflectors = read_names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    view = view_of_options(options, scene)
-    arrays = read_scene(scene, reflectors)
 
-    from ..renderer.renderer import Renderer
-    from ..report.images import save_exr, save_png
+    from ..engine.job import Job
+    from ..engine.still import render_still
+    from ..report.images import save_exr
+    from ..scene.blend_file import find_reflectors
 
-    renderer = Renderer(arrays, chosen_settings(options))
-    try:
-        frame = renderer.render(view)
-        warn_of(frame.warnings)
-        if not frame.mask().any():
-            warn_of(["No reflector is in view: the picture has no reflections."])
-        with folder_to_publish(output.parent) as folder:
-            if "color" in passes:
-                save = save_png if output.suffix.lower() == ".png" else save_exr
-                save(folder / output.name, frame.color())
-            arrays_of = {
-                "position": frame.reflected_position,
-                "object": lambda: frame.reflected_object().astype("float32"),
-                "iterations": frame.iterations,
-            }
-            for name in passes:
-                if name != "color":
-                    save_exr(folder / f"{output.stem}_{name}.exr", arrays_of[name]())
-    finally:
-        renderer.free()
+    find_reflectors(scene, reflectors)
+    with registered(), folder_to_publish(output.parent) as folder:
+        job = Job(
+            reflectors=tuple(reflectors),
+            settings=settings_of_file(options, scene),
+            passes=tuple(name for name in passes if name != "color"),
+        )
+        with dropped(STDOUT):
+            render_still(scene, job, *resolution_of(options, scene), folder / output.name, options.camera)
+        warn_of(job.warnings)
+        if "color" not in passes:
+            (folder / output.name).unlink()
+        for name, pixels in job.arrays.items():
+            save_exr(folder / f"{output.stem}_{name}.exr", pixels)
     if "object" in passes:
-        names = {instance.object_id: instance.object_name for instance in arrays.instances}
-        print("\n".join(f"object {number}: {name}" for number, name in sorted(names.items())))
+        print("\n".join(f"object {number}: {name}" for number, name in sorted(job.object_names.items())))
     return 0
 
 
@@ -105,7 +102,7 @@ def compare(options: argparse.Namespace) -> int:
     scene = open_scene(options.file, options.frame)
     width, height = resolution_of(options, scene)
     comparison = replace(comparison, width=width, height=height)
-    _compare_and_print(scene, reflectors, comparison, output, options.camera)
+    _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
     return 0
 
 
@@ -165,7 +162,6 @@ def benchmark(options: argparse.Namespace) -> int:
 
     from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
 
-    output.mkdir(parents=True, exist_ok=True)
     with dropped(STDOUT) as stdout:
         report = measure_benchmark(
             options.vertices,
@@ -200,25 +196,15 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
             f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
         )
     find_reflectors(scene, chosen)
-    return ChartFile(name, Path(file), tuple(chosen), *resolution_of(options, scene))
+    return ChartFile(readable(name), Path(file), tuple(chosen), *resolution_of(options, scene))
 
 
 def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
     """Names of the objects whose Mirror switch is on."""
-    import bpy
-
-    from .. import registration
     from ..options import marked_mirrors
 
-    # In the installed extension the switch is there already; in a plain Python Blender does not know it yet.
-    is_known = hasattr(bpy.types.Object, "curvrefl")
-    if not is_known:
-        registration.register()
-    try:
+    with registered():
         return [mirror.name for mirror in marked_mirrors(scene)]
-    finally:
-        if not is_known:
-            registration.unregister()
 
 
 def bake(options: argparse.Namespace) -> int:
@@ -229,20 +215,23 @@ def bake(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    arrays = read_scene(scene, reflectors)
 
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
+    from ..scene.render_depsgraph import read_rendered
 
+    if options.camera is None and scene.camera is None:
+        arrays, view = read_rendered(scene, view_layer_of(scene), reflectors), None
+    else:
+        arrays, view = read_scene(options, scene, reflectors)
     baked = bake_reflector(arrays, arrays.reflectors[0], chosen_settings(options).map_resolution)
     warn_of(baked.warnings)
     with folder_to_publish(output) as folder:
         save(baked, folder)
     for sentence in baked.describe():
         print(sentence)
-    if scene.camera is not None:
-        view = view_of_options(options, scene)
+    if view is not None:
         error = pixel_error(baked, view)
         print(f"error in pixels at {view.width}x{view.height}: median {error.median:.3g}, largest {error.max:.3g}")
     return 0
@@ -258,25 +247,27 @@ def demo(options: argparse.Namespace) -> int:
 
     print("Building the demo scene", flush=True)
     file = output / "demo.blend"
-    with folder_to_publish(output) as folder, dropped(STDOUT):
-        build_demo(folder / file.name)
-    _compare_and_print(open_scene(file), [KETTLE], Comparison(samples=DEMO_SAMPLES), output)
+    # (both or none)
+    with folder_to_publish(output) as folder:
+        with dropped(STDOUT):
+            build_demo(folder / file.name)
+        report = _compare(open_scene(folder / file.name), [KETTLE], Comparison(samples=DEMO_SAMPLES), folder)
+    _print_report(report, output)
     print(f"Scene: {file}")
     return 0
 
 
-def _compare_and_print(
+def _compare(
     scene: bpy.types.Scene,
     reflectors: Sequence[str],
     comparison: Comparison,
     output: Path,
     camera: str | None = None,
-) -> None:
-    """Compare the open scene, write the report into `output`, print its table."""
+) -> dict[str, Any]:
+    """Compare the open scene and write the report into `output`; returns it."""
     import bpy
 
     from ..report.compare import compare_open_scene
-    from ..report.table import format_table
 
     view_layer = bpy.context.view_layer
     assert view_layer is not None, "an open scene has a view layer"
@@ -285,15 +276,23 @@ def _compare_and_print(
         def progress(text: str) -> None:
             print(text, file=stdout, flush=True)
 
-        report = compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+        return compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
+
+
+def _print_report(report: dict[str, Any], output: Path) -> None:
+    from ..report.table import format_table
+
     print(format_table(report))
     print(f"Report: {output / 'report.html'}")
 
 
 def test(options: argparse.Namespace) -> int:
-    """Run the checks of the source; see tools/run_tests.py."""
+    """Run the checks and tests of the source, or try awkward scenes; see tools/run_tests.py."""
+    if options.layers[:1] == [AWKWARD]:
+        return int(repository_tool("run_tests", "test").try_awkward(options.layers[1:], options.keep))
     require_known(options.layers, LAYERS, "layer of tests")
-    return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
+    with ended_softly():  # (virtual screens among others)
+        return int(repository_tool("run_tests", "test").run(options.layers or LAYERS))
 
 
 def check(options: argparse.Namespace) -> int:
@@ -306,7 +305,8 @@ def check(options: argparse.Namespace) -> int:
 def images(options: argparse.Namespace) -> int:
     """Make the pictures of the documents; see tools/make_images.py."""
     tool = repository_tool("make_images", "images")
-    tool.make(options.images or list(tool.IMAGES))
+    with ended_softly():
+        tool.make(options.images or list(tool.IMAGES))
     return 0
 
 

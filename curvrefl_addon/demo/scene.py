@@ -19,6 +19,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ..scene.arrays import Float64Array
+from ..written_files import error_in
 from . import paint
 from .data_blocks import (
     add_camera,
@@ -71,7 +72,10 @@ def body_radius(directions: Float64Array) -> Float64Array:
 
 
 def build_demo(path: Path) -> None:
-    """Replace the open file by the demo scene and save it as the .blend `path`, whose folder must exist."""
+    """Replace the open file by the demo scene and save it as the .blend `path`, whose folder must exist.
+
+    Raises OSError when the file cannot be written.
+    """
     start_empty_scene()
     body = add_kettle()
     add_table()
@@ -80,7 +84,10 @@ def build_demo(path: Path) -> None:
     set_world_image(studio_light("forest.exr"), turn=np.radians(8.0), strength=0.55)
     add_sun(toward=(-0.55, -0.55, 0.8), strength=2.7, color=(1.0, 0.95, 0.87), angle=np.radians(2.0))
     add_camera(eye=(0.03, -0.72, 0.30), target=(0.004, 0.0, 0.0905), lens=67.5)
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
+    except RuntimeError as error:
+        raise error_in(str(error), path) from error
 
 
 def add_kettle() -> bpy.types.Object:

@@ -34,7 +34,7 @@ class Frame:
         self.reflection = reflection
         """What the mirrors show; the next frame of an animation may start from it"""
         self._read_surfaces = read_surfaces
-        self.view = reflection.view
+        self.view = reflection.view.about(-reflection.origin)
         self.color_texture = color
         """RGBA32F, scene-linear"""
         self.times_ms = times_ms
@@ -123,4 +123,8 @@ def read_surfaces(reflection: Reflection, sub_frame: SubFrame) -> dict[str, Floa
             else:
                 arrays.setdefault(name, np.zeros_like(array))[here] = array[here]
     arrays.setdefault("reflected_position", np.zeros_like(arrays["seen_position"]))
+    if reflection.origin.any():
+        for name in ("seen_position", "reflected_position"):
+            # (Without an object it is a direction.)
+            arrays[name][..., :3] += np.where(arrays[name][..., 3:] > 0.0, reflection.origin, 0.0)
     return arrays

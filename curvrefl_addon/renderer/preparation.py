@@ -25,7 +25,8 @@ from .shown.shown import Shown, Stage
 from .shown.vertices import ShownVertices
 from .vertices.mirror_solver import MirrorSolver
 
-EYE_INSIDE = "The eye is inside a reflector, which shows only itself there: its reflection is black."
+EYE_INSIDE = 'The eye is inside of "{}", which shows itself there: choose Automatic or Exact, else it is black.'
+SHARP = "Depth of field is left out: it takes more than one sample."
 
 
 class Preparation:
@@ -63,7 +64,7 @@ class Preparation:
         used = [settings if item is None else item.settings for item in chosen]
         self._split_scenery(stage, view, used)
         shown: list[Shown] = []
-        warnings: list[str] = []
+        warnings = [SHARP] if view.lens is not None and settings.samples == 1 else []
         for mirror, mine, item, old in zip(stage.mirrors, used, chosen, before, strict=True):
             if item is not None and item.shows_nothing:
                 shown.append(ShownNothing(mirror, mine))
@@ -130,7 +131,7 @@ class Preparation:
         if mirror.holds_eye(view, mirror.shape(settings.map_resolution)):
             black_cube = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
             black = Environment("environment_cube", black_cube, lambda: black_cube, mirror=mirror.number)
-            warnings.append(EYE_INSIDE)
+            warnings.append(EYE_INSIDE.format(mirror.object_name))
             return ShownEnvironment(mirror, settings, black)
         if method.is_environment:
             cube = self.environment_cubes(stage, settings)[mirror.number - 1]

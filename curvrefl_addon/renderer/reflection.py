@@ -7,7 +7,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
+from ..scene.arrays import Float64Array
 from ..scene.view import View
 from .choice import Choice
 from .mirrors.mirror import Mirror
@@ -38,6 +41,7 @@ class Reflection:
     """What the mirrors show in one view. It belongs to that view: nothing of it is kept in the renderer."""
 
     view: View
+    """About `origin`"""
     settings: Settings
     """What was asked for"""
     shown: tuple[Shown, ...]
@@ -50,6 +54,8 @@ class Reflection:
     """Of lamps and of the world: their maps are too coarse for the view"""
     follows_shadows: bool = False
     """By rays, where that is so"""
+    origin: Float64Array = field(default_factory=lambda: np.zeros(3))
+    """(3,) where in the world the scene had its origin (see `placement`)"""
 
     def ray_shadows(self, rays: Callable[[], RayScene]) -> RayShadows | None:
         """What takes the place of shadow maps; None where these serve. `rays`: makes the scene as rays need it."""

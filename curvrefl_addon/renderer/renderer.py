@@ -5,39 +5,42 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
-from ..scene.arrays import Float32Array, SceneArrays
+import numpy as np
+
+from ..scene.arrays import Float32Array, Float64Array, SceneArrays
+from ..scene.camera.shutter import Moment
+from ..scene.remarks import Remark, sentences
 from ..scene.view import View
 from .device.context import require_gpu
+from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
+from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
-from .mirrors.mirror import Mirror
+from .mirrors.mirror import Mirror, mirrors_of
+from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
-from .shown.nothing import ShownNothing
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
-from .shown.targets import Targets
+from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
-from .surfaces.primary import draw_primary
+from .surfaces.primary import depths_of, draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
-
-MOST_TARGETS = 3
-"""Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
 
 
 class Renderer:
@@ -62,32 +65,44 @@ class Renderer:
         """Another one when pictures are not the same any more"""
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
-        self._targets: dict[tuple[int, int], Targets] = {}
+        self._targets = TargetPool()
         self._preparation = Preparation()
         self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
         self._jitter = offsets(self.settings.samples)
-        self._follow_scene(scene)
-        self._materials = Materials(scene)
-        self._lighting = Lighting(scene, self.geometry, self.settings.samples)
-        self._shade = ShadePass(scene, self._lighting, self._materials)
+        self._placement = Placement(self.geometry.facts)
+        self._given = scene
+        self._follow_scene(self._placement.placed(scene))
+        self._materials = Materials(self.scene)
+        self._lighting = Lighting(self.scene, self.geometry, self.settings.samples)
+        self._shade = ShadePass(self.scene, self._lighting, self._materials)
 
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
 
         Raises as the constructor; the renderer is of no use then.
         """
-        before = self.scene
-        if scene is before:
+        if scene is self._given:
             return
-        difference = self._follow_scene(scene)
+        self._given = scene
+        self._follow(self._placement.placed(scene))
+        self.revision += 1
+
+    def _move_to(self, origin: Float64Array) -> None:
+        """Have the scene's origin at another point (3,) of the world."""
+        if not np.array_equal(origin, self._placement.origin):
+            self._placement.move_to(origin)
+            self._follow(self._placement.placed(self._given), anew=True)
+
+    def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
+        before = self.scene
+        difference = self._follow_scene(scene, anew)
         if scene.materials is not before.materials or scene.images is not before.images:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
-        self.revision += 1
 
     def configure(self, settings: Settings) -> None:
         """Render otherwise from now on. Raises as the constructor; then nothing has changed."""
@@ -109,30 +124,17 @@ class Renderer:
         self._lighting.free()
         self.mirrors = []
         self.geometry = SceneGeometry()
-        self._targets.clear()
+        self._targets = TargetPool()
         self._preparation = Preparation()
         self._diagnostics = self._rays = None
 
-    def _follow_scene(self, scene: SceneArrays) -> Difference:
+    def _follow_scene(self, scene: SceneArrays, anew: bool = False) -> Difference:
         """Mirrors and geometry."""
-        known: dict[int, list[Mirror]] = {}
-        for old in self.mirrors:
-            known.setdefault(old.object_id, []).append(old)
-        mirrors: list[Mirror] = []
-        for index, instance in enumerate(scene.instances):
-            if instance.object_id not in scene.reflectors:
-                continue
-            number = len(mirrors) + 1
-            same = known.get(instance.object_id)
-            mirror = same.pop(0) if same else None
-            if mirror is None or not mirror.follow(scene, index, number):
-                facts = self.geometry.facts.of(scene.meshes[instance.mesh])
-                mirror = Mirror(scene, index, number, facts, self.counters)
-            mirrors.append(mirror)
+        mirrors = mirrors_of(scene, self.mirrors, self.geometry.facts, self.counters)
         self._require(mirrors, self.settings)
         self.mirrors, self.scene = mirrors, scene
         self._preparation.follow(mirrors)
-        return self.geometry.update(scene, self._numbers)
+        return self.geometry.update(scene, self._numbers, anew)
 
     @staticmethod
     def _require(mirrors: Sequence[Mirror], settings: Settings) -> None:
@@ -164,11 +166,9 @@ class Renderer:
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         if self.settings.entry.solves_vertices:
-            found += [
-                f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
-                for name in self._bumpy_mirrors()
-            ]
-        found += self._lighting.warnings
+            cause = "Bumps {of} are left out: choose Automatic, Exact or an environment method to see them."
+            found += sentences(Remark(cause, "mirror", name) for name in self._bumpy_mirrors())
+        found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._rays is not None:
             found += self._rays.warnings
         return tuple(found)
@@ -182,15 +182,26 @@ class Renderer:
             if any(self.scene.materials[index].relief is not None for index in instance.materials)
         ]
 
-    def render(self, view: View, last: Reflection | None = None) -> Frame:
-        """Draw the picture; its times have the GPU's work in them. `last`: as for `reflect`."""
+    def render(
+        self,
+        view: View,
+        last: Reflection | None = None,
+        moments: Sequence[Moment] = (),
+        mirrors_alone: Canvas | None = None,
+        before_sub_frame: Callable[[int], None] | None = None,
+    ) -> Frame:
+        """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
+
+        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
+        `before_sub_frame` is called with the number of each sub-frame; what it raises ends the picture.
+        """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
-        reflection = self.reflect(view, last=last, is_still=True, at_rest=True)
+        reflection = self.reflect(view, last=last, is_still=not (view.lens or moments), at_rest=True)
         reflection.wait()
         solved = perf_counter()
-        for index in range(self.settings.samples):
-            self.add_sub_frame(canvas, reflection, index, 1.0 / self.settings.samples)
+        still = Moment(self._given, view)
+        reflection = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -222,11 +233,19 @@ class Renderer:
         """
         # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
         # the full resolution may be drawn another way all the same.)
+        origin = self._placement.origin
+        view = view.about(origin)
+        self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
+        view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
+        origin = self._placement.origin
         if not solve:
-            return Reflection(view, self.settings, (), self.warnings)
+            return Reflection(view, self.settings, (), self.warnings, origin=origin)
         bumpy = self._bumpy_mirrors()
+        if last is not None and not np.array_equal(last.origin, origin):
+            # (Its points are elsewhere.)
+            last = None
         found = self._preparation.reflect(self._stage, view, self.settings, bumpy, last, is_still, at_rest)
-        return replace(found, warnings=(*self.warnings, *found.warnings))
+        return replace(found, warnings=(*self.warnings, *found.warnings), origin=origin)
 
     def add_sub_frame(
         self,
@@ -242,46 +261,29 @@ class Renderer:
         With `mirrors_only` the other pixels stay as they are, so that alpha becomes the mirrors' coverage; so it is
         with a `diagnostic` view.
         """
+        self._move_to(reflection.origin)
         dx, dy = self._jitter[index]
+        reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
         groups = reflection.groups
         if diagnostic is not None:
-            self._add_diagnostic(canvas, reflection, sub_frame, weight, diagnostic)
+            if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
+                self._diagnostics = DiagnosticPass(diagnostic.colors)
+            methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
+            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic, methods)
             return
         self._lighting.prepare(index)
         if not groups:
-            seen, shadows = sub_frame.targets.seen, sub_frame.shadows
-            self._shade.add(canvas, seen, None, sub_frame.uniforms, weight, window, shadows=shadows)
+            seen, film, shadows = sub_frame.targets.seen, self.settings.film_transparent, sub_frame.shadows
+            self._shade.add(
+                canvas, seen, None, sub_frame.uniforms, weight, window, None, shadows, film_transparent=film
+            )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            kind.add_light(members, sub_frame, Light(canvas, weight, chosen, with_others=number == 0))
-
-    def _add_diagnostic(
-        self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic
-    ) -> None:
-        if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
-            self._diagnostics = DiagnosticPass(diagnostic.colors)
-        groups = reflection.groups
-        methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
-        for kind, members in groups or [(ShownNothing, [])]:
-            shown = kind.draw(members, sub_frame, of_positions=diagnostic.needs_solve)
-            if shown is None:
-                sub_frame.targets.reflected.clear()
-                shown = sub_frame.targets.reflected
-            self._diagnostics.add(
-                canvas.frame_buffer,
-                sub_frame.targets.seen,
-                shown,
-                sub_frame.uniforms,
-                weight,
-                diagnostic.mode,
-                diagnostic.options,
-                methods,
-                [one.parts if one in members else () for one in reflection.shown],
-                chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None,
-            )
+            light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
+            kind.add_light(members, sub_frame, light)
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -310,20 +312,12 @@ class Renderer:
         if self._rays is not None:
             self._rays.improve()
 
-    def _targets_for(self, view: View) -> Targets:
-        size = (view.width, view.height)
-        if size not in self._targets:
-            while len(self._targets) >= MOST_TARGETS:
-                del self._targets[next(iter(self._targets))]
-            self._targets[size] = Targets(*size)
-        return self._targets[size]
-
     def _draw_surfaces(
         self, view: View, reflection: Reflection, window: Window | None = None, everywhere: bool = False
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        shadows = reflection.ray_shadows(self.rays)
-        sub_frame = SubFrame(self._stage, view, view_block(view), self._targets_for(view), window, shadows)
+        targets, shadows = self._targets.of(view.width, view.height), reflection.ray_shadows(self.rays)
+        sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows)
         smooth = {
             id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
         }
@@ -337,6 +331,8 @@ class Renderer:
             None if everywhere else window,
             lambda chunk: self.geometry.hidden_faces(chunk, view),
             with_reliefs=lambda chunk: id(chunk) not in smooth,
+            depths=depths_of(view),
+            mirrored=view.is_mirrored,
         )
         return sub_frame
 
@@ -347,4 +343,5 @@ class Renderer:
 
     def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
         """Surface buffers through the pixel centers, read back (see `Frame`)."""
+        self._move_to(reflection.origin)
         return read_surfaces(reflection, self._draw_surfaces(reflection.view, reflection))

@@ -4,6 +4,7 @@
 """Methods against Cycles and against Blender's fast engines, on one view of one scene.
 
 Writes `report.json`, `report.html`, `reference.png`, METHOD.png, METHOD_error.png and PEER.png into a folder.
+Pictures are as the file shows them (`as_shown`); errors are between scene-linear pictures through the Standard view.
 They are moved there at the end: a comparison that fails leaves nothing.
 """
 
@@ -25,12 +26,18 @@ from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
-from ..scene.arrays import UNLIMITED_BOUNCES, Float32Array, SceneArrays
-from ..scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
-from ..scene.extract import extract_scene
+from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
+from ..scene.blend_file import find_camera, open_blend
+from ..scene.camera.film import on_film
+from ..scene.camera.shutter import Moment
+from ..scene.materials.color_spaces import scene_to_rec709
+from ..scene.render_depsgraph import read_render_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from ..streams import readable
+from .as_shown import save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
+from .direct_light import mirrors_met
 from .display import inverse_display_transform
 from .geometry_reference import render_geometry
 from .html import report_page
@@ -79,13 +86,8 @@ class Comparison:
 
 
 def new_renderer(comparison: Comparison) -> MakeRenderer:
-    """Makes the extension's renderers, with the comparison's settings.
-
-    In direct light Cycles follows one bounce off a mirror, and so do they.
-    """
+    """Makes the extension's renderers, with the comparison's settings."""
     settings = comparison.settings
-    if comparison.light == "direct":
-        settings = replace(settings, bounces=1)
     return lambda scene, method: Renderer(scene, replace(settings, method=method))
 
 
@@ -176,24 +178,33 @@ def compare_steps(
     reflectors), an output folder that cannot be written; RenderCanceledError where the user stops a render.
     """
     output = checked_folder(output)
+    settings = replace(comparison.settings, film_transparent=scene.render.film_transparent)
+    comparison = replace(comparison, settings=settings)
     count = 4 + len(comparison.methods) + len(comparison.peers)
-    with _camera_in_use(scene, camera) as camera_object:
+    with _camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
-        view = view_of_camera(scene, camera_object, comparison.width, comparison.height)
-        with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-            depsgraph = bpy.context.evaluated_depsgraph_get()
         start = time.perf_counter()
-        arrays = extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            reflector_names,
+            comparison.width,
+            comparison.height,
+            settings.samples,
+            camera,
+        )
         extract_ms = 1e3 * (time.perf_counter() - start)
+        arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
         if comparison.light == "direct":
-            # Mirrors follow each other as often as asked on both sides, whatever the file says.
-            arrays = replace(arrays, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
+            arrays = _in_direct_light(arrays)
+            moments = tuple(replace(moment, scene=_in_direct_light(moment.scene)) for moment in moments)
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
                 view_layer,
                 arrays,
-                view,
+                still.view,
+                moments,
                 comparison,
                 extract_ms,
                 folder,
@@ -209,15 +220,20 @@ def compare_steps(
                 yield Step(label, done / count)
                 done += 1
             report = {
-                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "scene": scene_name or readable(Path(bpy.data.filepath).name) or scene.name,
                 "reflectors": list(reflector_names),
                 **report,
             }
             text = json.dumps(report, indent=1, allow_nan=False)
             (folder / "report.html").write_text(report_page(report, mismatch), encoding="utf-8")
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
-    yield Step(f"Wrote {output / 'report.html'}", 1.0)
+    yield Step("Wrote report.html", 1.0)
     return report
+
+
+def _in_direct_light(scene: SceneArrays) -> SceneArrays:
+    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
+    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
 
 
 def _run(
@@ -225,6 +241,7 @@ def _run(
     view_layer: bpy.types.ViewLayer,
     arrays: SceneArrays,
     view: View,
+    moments: Sequence[Moment],
     comparison: Comparison,
     extract_ms: float,
     folder: Path,
@@ -241,7 +258,7 @@ def _run(
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
         try:
-            frames[method] = measure_frame(make_renderer(arrays, method), view)
+            frames[method] = measure_frame(make_renderer(arrays, method), view, moments=moments)
         except InputError as error:
             refused[method] = str(error)
     if not frames:
@@ -252,8 +269,9 @@ def _run(
     truth = render_geometry(scene, view_layer, width, height, object_ids, arrays.reflectors)
     mask = truth.mask != 0
     yield f"Rendering the reference in Cycles with {comparison.samples} samples"
-    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
-    save_png(folder / "reference.png", _opaque(reference.pixels))
+    bounces = mirrors_met(arrays, comparison.settings.bounces)
+    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light, bounces)
+    save_as_shown(folder / "reference.png", on_film(reference.pixels, scene), scene)
 
     methods, mismatch = {}, {}
     warnings = [f"Without {method}: {reason}" for method, reason in refused.items()]
@@ -263,8 +281,9 @@ def _run(
     if missing := missing_flip():
         warnings.append(missing)
     for method, frame in frames.items():
-        save_png(folder / f"{method}.png", _opaque(frame.color))
-        difference = inverse_display_transform(error_map(frame.color, reference.pixels))
+        save_as_shown(folder / f"{method}.png", on_film(frame.color, scene), scene)
+        found, right = scene_to_rec709(frame.color), scene_to_rec709(reference.pixels)
+        difference = inverse_display_transform(error_map(found, right))
         save_png(folder / f"{method}_error.png", difference)
         methods[method] = {
             "image": image_error(frame.color, reference.pixels, mask),
@@ -279,8 +298,9 @@ def _run(
     peers = {}
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
-        still = render_peer(scene, view_layer, peer, width, height, comparison.light)
-        save_png(folder / f"{peer}.png", _opaque(still.pixels))
+        still = render_peer(scene, view_layer, peer, width, height, comparison.light, bounces=bounces)
+        # (EEVEE's film has no exposure.)
+        save_as_shown(folder / f"{peer}.png", still.pixels if peer == "eevee" else on_film(still.pixels, scene), scene)
         peers[peer] = {
             "image": image_error(still.pixels, reference.pixels, mask),
             "time_ms": 1e3 * still.seconds,
@@ -305,22 +325,16 @@ def _run(
     return report, mismatch
 
 
-def _opaque(pixels: Float32Array) -> Float32Array:
-    """The colors alone: pictures are compared before black, as they are shown."""
-    return pixels[..., :3]
-
-
 def _silent(_message: str) -> None:
     """Says nothing."""
 
 
 @contextmanager
-def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[bpy.types.Object]:
-    """`scene.camera` is the camera object called `name` (or stays) for the time being."""
+def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+    """`scene.camera` is for the time being the camera object called `name`, or the one that Blender renders by."""
     before = scene.camera
-    camera = find_camera(scene, name)
-    scene.camera = camera
+    scene.camera = find_camera(scene, name)
     try:
-        yield camera
+        yield
     finally:
         scene.camera = before

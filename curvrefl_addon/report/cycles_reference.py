@@ -5,27 +5,27 @@
 
 Everything that is changed for a still is set back after it. All stills are scene-linear float32 arrays
 (height, width, 4), row 0 at the BOTTOM, of the scene's camera at its current frame, without denoising,
-compositing, sequencer, stereo or crop, and with an opaque background.
+compositing, sequencer, stereo or crop. Film exposure is 1: pictures get theirs as they are shown.
 
-The geometry is the *viewport's* (its subdivision levels, its hidden objects), since that is what the
-renderer under test is given.
+The geometry is the file's, as F12 renders it.
 """
 
 from __future__ import annotations
 
-import tempfile
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ..errors import InputError
+from ..output import temporary_folder
 from ..scene.arrays import Float32Array
+from ..scene.render_depsgraph import use_camera
+from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..written_files import require_whole
 from .images import load_exr
 from .repeats import Timing, repeated
-from .temporary_settings import TemporarySettings, temporary_settings
 
 LIGHTS = ("direct", "full")
 PEERS = ("eevee", "cycles1", "cycles8", "cycles64")
@@ -62,16 +62,20 @@ def render_reference(
     height: int,
     samples: int,
     light: str = "direct",
+    bounces: int = 1,
+    sharp: bool = False,
 ) -> Still:
     """The scene in Cycles on the CPU.
 
-    `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that
-    way; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter that the user has set.
+    `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that way, up to
+    `bounces` mirrors one after the other; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter
+    that the user has set. `sharp` leaves out depth of field and motion blur.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
-        use_viewport_geometry(changes, scene, view_layer)
-        use_cycles(changes, scene, view_layer, samples, light)
+        if sharp:
+            use_pinhole(changes, scene)
+        use_cycles(changes, scene, view_layer, samples, light, bounces)
         return render_still(scene, view_layer)
 
 
@@ -84,16 +88,20 @@ def render_peer(
     light: str = "direct",
     repeats: int = 1,
     seconds: float = 0.0,
+    bounces: int = 1,
+    sharp: bool = False,
 ) -> PeerStill:
-    """The scene in one of `PEERS`. A first render compiles and loads; then come up to `repeats` timed ones, as long as
-    `seconds` have not passed.
+    """The scene in one of `PEERS`, lit and sharp as the reference.
+
+    A first render compiles and loads; then come up to `repeats` timed ones, as long as `seconds` have not passed.
 
     'eevee' has ray tracing on and 16 samples; with `light` 'direct' its fast global illumination only occludes.
     Cycles has another seed than the reference: with the same its samples would be among those of the reference.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
-        use_viewport_geometry(changes, scene, view_layer)
+        if sharp:
+            use_pinhole(changes, scene)
         # One sample compiles and loads as much as all do, and each can take a second on a software renderer.
         if peer == "eevee":
             _use_eevee(changes, scene, light)
@@ -101,7 +109,7 @@ def render_peer(
             render_still(scene, view_layer)
             changes.set(scene.eevee, taa_render_samples=EEVEE_SAMPLES)
         elif peer in PEERS:
-            use_cycles(changes, scene, view_layer, 1, light)
+            use_cycles(changes, scene, view_layer, 1, light, bounces)
             cycles = cycles_settings(scene)
             changes.set(cycles, seed=(cycles.seed + 1) % MOST_SEEDS)
             render_still(scene, view_layer)
@@ -128,8 +136,6 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         use_sequencer=False,
         use_stamp=False,
         use_freestyle=False,
-        use_motion_blur=False,
-        film_transparent=False,
         use_file_extension=True,
         use_overwrite=True,
         use_placeholder=False,
@@ -145,39 +151,15 @@ def use_still_output(changes: TemporarySettings, scene: bpy.types.Scene, width: 
         color_depth="32",
         exr_codec="NONE",
     )
+    use_camera(changes, scene, scene.camera)
+
+
+def use_pinhole(changes: TemporarySettings, scene: bpy.types.Scene) -> None:
+    """The moment of the frame through a point, on an opaque film."""
+    changes.set(scene.render, use_motion_blur=False, film_transparent=False)
     camera = scene.camera.data if scene.camera is not None else None
     if isinstance(camera, bpy.types.Camera):
-        # The renderer under test has a pinhole.
         changes.set(camera.dof, use_dof=False)
-    for marker in scene.timeline_markers:
-        # A marker with a camera would replace the chosen one as the render starts.
-        changes.set(marker, camera=None)
-    # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
-    changes.set(scene, camera=scene.camera)
-
-
-def use_viewport_geometry(changes: TemporarySettings, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> None:
-    """Render what the viewport's dependency graph shows: its detail and its hidden objects."""
-    changes.set(scene.render, simplify_subdivision_render=scene.render.simplify_subdivision)
-    in_view_layer = set(view_layer.objects)
-    for obj in bpy.data.objects:
-        hidden = obj.hide_viewport or (obj in in_view_layer and not obj.visible_get(view_layer=view_layer))
-        if hidden:
-            changes.set(obj, hide_render=True)
-        changes.set(obj, show_instancer_for_render=obj.show_instancer_for_viewport)
-        modifier: Any
-        for modifier in obj.modifiers:
-            changes.set(modifier, show_render=modifier.show_viewport)
-            if modifier.type in ("SUBSURF", "MULTIRES"):
-                changes.set(modifier, render_levels=modifier.levels)
-            if modifier.type == "SUBSURF":
-                changes.set(modifier, use_adaptive_subdivision=False)
-            elif modifier.type == "SCREW":
-                changes.set(modifier, render_steps=modifier.steps)
-    for curve in bpy.data.curves:
-        changes.set(curve, render_resolution_u=0, render_resolution_v=0)
-    for metaball in bpy.data.metaballs:
-        changes.set(metaball, render_resolution=metaball.resolution)
 
 
 def use_cycles(
@@ -186,8 +168,9 @@ def use_cycles(
     view_layer: bpy.types.ViewLayer,
     samples: int,
     light: str,
+    bounces: int = 1,
 ) -> None:
-    """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for `light`."""
+    """Cycles on the CPU with exactly `samples` samples in every pixel. See `render_reference` for the light."""
     cycles = cycles_settings(scene)
     changes.set(scene.render, engine="CYCLES")
     changes.set(
@@ -201,13 +184,13 @@ def use_cycles(
     )
     changes.set(view_layer, samples=0, use_pass_combined=True)
     if light == "direct":
-        # One bounce off the mirror; what it shows is lit, then the path ends. Cycles still follows the last
-        # bounce to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
+        # From mirror to mirror; what the last one shows is lit, then the path ends. Cycles still follows that bounce
+        # to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
         changes.set(
             cycles,
-            max_bounces=1,
+            max_bounces=bounces,
             diffuse_bounces=0,
-            glossy_bounces=1,
+            glossy_bounces=bounces,
             transmission_bounces=0,
             volume_bounces=0,
             sample_clamp_direct=0.0,
@@ -241,8 +224,8 @@ def _use_eevee(changes: TemporarySettings, scene: bpy.types.Scene, light: str) -
 def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Still:
     """Render with the settings as they are (see `use_still_output`), through a file in a temporary folder."""
     filepath = scene.render.filepath
-    with tempfile.TemporaryDirectory(prefix="curvrefl-") as folder:
-        path = Path(folder, "still.exr")
+    with temporary_folder() as folder:
+        path = folder / "still.exr"
         scene.render.filepath = str(path)
         try:
             start = time.perf_counter()
@@ -252,6 +235,8 @@ def render_still(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Sti
             scene.render.filepath = filepath
         if "CANCELLED" in result:
             raise RenderCanceledError(f"{scene.render.engine} was stopped at the picture of scene '{scene.name}'")
-        if "FINISHED" not in result or not path.is_file():
+        if "FINISHED" not in result:
             raise RuntimeError(f"{scene.render.engine} did not finish the picture of scene '{scene.name}'")
+        # On a full disk, too, the render has finished.
+        require_whole(path)
         return Still(load_exr(path), seconds)

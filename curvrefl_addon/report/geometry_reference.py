@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Int32Array
-from .cycles_reference import cycles_settings, render_still, use_cycles, use_still_output, use_viewport_geometry
-from .temporary_settings import TemporarySettings, temporary_settings
+from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from .cycles_reference import cycles_settings, render_still, use_cycles, use_pinhole, use_still_output
 
 UNLISTED_OBJECT = -1
 """The id of objects that were not given one"""
@@ -82,7 +82,7 @@ def render_geometry(
     index_of_id = {number: index for index, number in enumerate(ids_by_index)}
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
-        use_viewport_geometry(changes, scene, view_layer)
+        use_pinhole(changes, scene)
         use_cycles(changes, scene, view_layer, 1, "direct")
         changes.set(cycles_settings(scene), pixel_filter_type="BLACKMAN_HARRIS", filter_width=_PIXEL_FILTER_WIDTH)
         for obj in bpy.data.objects:

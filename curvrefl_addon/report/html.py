@@ -55,8 +55,10 @@ def report_page(report: dict[str, Any], mismatch: dict[str, float | None] | None
         f"<p>{escape(headline(report))}. Blender {escape(report['blender'])} on {escape(report['gpu'])}.</p>",
         *(f'<p class="warning">{escape(warning)}</p>' for warning in report.get("warnings", ())),
         _table(report),
-        "<p>FLIP (0 is equal, lower is better) and PSNR compare the mirror's pixels with Cycles as the screen shows "
-        "them. The angle is how far, seen from the mirror, the shown point lies from the one that Cycles shows. "
+        "<p>Pictures are as the file shows them: with its film, view transform, look, exposure and gamma. FLIP (0 is "
+        "equal, lower is better), PSNR and the differences are measured through Blender's Standard view without any of "
+        "these, over the mirror's pixels. The angle is how far, seen from the mirror, the shown point lies from the "
+        "one that Cycles shows. "
         "The time of a peer is its second render of the frame.</p>",
         *(_method(report, name, (mismatch or {}).get(name)) for name in report["methods"]),
         _other_peers(report),

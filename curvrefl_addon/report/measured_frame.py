@@ -5,10 +5,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..scene.arrays import Float32Array, Int32Array
+from ..scene.camera.shutter import Moment
+from ..scene.materials.color_spaces import scene_to_rec709
 from ..scene.view import View
 from .geometry_reference import GeometryReference
 from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask
@@ -35,7 +38,7 @@ class FrameLike(Protocol):
 class RendererLike(Protocol):
     """What is used of `renderer.renderer.Renderer`."""
 
-    def render(self, view: View) -> FrameLike: ...
+    def render(self, view: View, *, moments: Sequence[Moment] = ()) -> FrameLike: ...
     def settle(self) -> None: ...
     def free(self) -> None: ...
 
@@ -61,10 +64,12 @@ class MeasuredFrame:
         return {name: timing.median for name, timing in self.times.items()}
 
 
-def measure_frame(renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES) -> MeasuredFrame:
-    """The picture and its times; frees the renderer."""
+def measure_frame(
+    renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES, moments: Sequence[Moment] = ()
+) -> MeasuredFrame:
+    """The picture, with these `moments` if any, and its times; frees the renderer."""
     try:
-        frame, times = _timed_frames(renderer, view, repeats)
+        frame, times = _timed_frames(renderer, view, repeats, moments)
         return MeasuredFrame(
             color=frame.color(),
             mask=frame.mask(),
@@ -82,22 +87,32 @@ def measure_frame(renderer: RendererLike, view: View, repeats: int = TIMED_FRAME
 def measure_times(renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES) -> dict[str, Timing]:
     """The times alone; frees the renderer."""
     try:
-        return _timed_frames(renderer, view, repeats)[1]
+        return _timed_frames(renderer, view, repeats, ())[1]
     finally:
         renderer.free()
 
 
-def _timed_frames(renderer: RendererLike, view: View, repeats: int) -> tuple[FrameLike, dict[str, Timing]]:
+def _timed_frames(
+    renderer: RendererLike, view: View, repeats: int, moments: Sequence[Moment]
+) -> tuple[FrameLike, dict[str, Timing]]:
     """One warming frame (shaders compile, resources load), then the timed ones; the last of them, and times by step."""
-    renderer.render(view)
+
+    def draw() -> FrameLike:
+        return renderer.render(view, moments=moments) if moments else renderer.render(view)
+
+    draw()
     renderer.settle()
-    frames = [renderer.render(view) for _ in range(repeats)]
+    frames = [draw() for _ in range(repeats)]
     steps = frames[0].times_ms
     return frames[-1], {name: Timing(tuple(frame.times_ms[name] for frame in frames)) for name in steps}
 
 
 def image_error(test: Float32Array, reference: Float32Array, mask: BoolArray) -> dict[str, float | None]:
-    """FLIP and PSNR over `mask` (h, w); None where there is no number: no pixels, no FLIP package, equal pictures."""
+    """FLIP and PSNR of scene-linear pictures over `mask` (h, w).
+
+    None where there is no number: no pixels, no FLIP package, equal pictures.
+    """
+    test, reference = scene_to_rec709(test), scene_to_rec709(reference)
     psnr = psnr_in_mask(test, reference, mask)
     # JSON has no infinity.
     flip = None if missing_flip() else flip_in_mask(test, reference, mask)

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import replace
 from types import TracebackType
 from typing import Self
 
@@ -14,11 +14,10 @@ import bpy
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
-from ..scene.blend_file import find_camera, find_reflectors, view_of_camera
-from ..scene.changes import Changes
+from ..scene.blend_file import find_reflectors
+from ..scene.camera.film import on_film
 from ..scene.extract import SceneReader
-from .images import save_exr, to_image_datablock
-from .temporary_settings import temporary_settings
+from ..scene.render_depsgraph import read_render_moments
 
 
 class PreviewRenderer:
@@ -28,30 +27,41 @@ class PreviewRenderer:
         """`mirrors`: names of objects."""
         self._mirrors = tuple(mirrors)
         self._samples = samples
-        self._reader = SceneReader(for_render=True)
+        self._reader = SceneReader()
         self._renderer: Renderer | None = None
+        self.warnings: tuple[str, ...] = ()
+        """What the last picture does not show, one sentence each"""
 
     def render(self, context: bpy.types.Context) -> Float32Array:
         """(h, w, 4) scene-linear picture at the size of the scene's renders.
 
         Raises InputError for what the user can change: camera, mirrors.
         """
-        scene = context.scene
-        assert scene is not None
+        scene, view_layer = context.scene, context.view_layer
+        assert scene is not None and view_layer is not None
         scale = scene.render.resolution_percentage / 100.0
         width = max(int(scene.render.resolution_x * scale), 1)
         height = max(int(scene.render.resolution_y * scale), 1)
-        depsgraph = context.evaluated_depsgraph_get()
-        view = view_of_camera(scene, find_camera(scene), width, height, depsgraph)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
-        mirrors = find_reflectors(scene, self._mirrors)
-        arrays = self._reader.read(depsgraph, scene, mirrors, Changes(everything=True), overrides_of(mirrors))
-        settings = settings_of(scene.curvrefl, self._samples)
+        overrides = overrides_of(find_reflectors(scene, self._mirrors))
+        settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)
+        still, moments, untold = read_render_moments(
+            scene,
+            view_layer,
+            self._mirrors,
+            width,
+            height,
+            settings.samples,
+            reader=self._reader,
+            overrides=overrides,
+        )
         if self._renderer is None:
-            self._renderer = Renderer(arrays, settings)
+            self._renderer = Renderer(still.scene, settings)
         else:
-            self._renderer.update(arrays)
-        return self._renderer.render(view).color()
+            self._renderer.update(still.scene)
+        frame = self._renderer.render(still.view, moments=moments)
+        self.warnings = (*frame.warnings, *untold)
+        return on_film(frame.color(), scene)
 
     def __enter__(self) -> Self:
         return self
@@ -62,27 +72,3 @@ class PreviewRenderer:
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None
-
-
-def save_displayed(pixels: Float32Array, scene: bpy.types.Scene, path: Path) -> None:
-    """Write a scene-linear picture (h, w, 4): .exr as it is, .png through the scene's view transform and look.
-
-    Raises OSError when the file cannot be written.
-    """
-    if path.suffix.lower() == ".exr":
-        save_exr(path, pixels)
-        return
-    image = to_image_datablock("curvrefl preview", pixels)
-    try:
-        with temporary_settings() as changes:
-            changes.set(
-                scene.render.image_settings,
-                media_type="IMAGE",
-                file_format="PNG",
-                color_management="FOLLOW_SCENE",
-                color_mode="RGB",
-                color_depth="8",
-            )
-            image.save_render(str(path), scene=scene)
-    finally:
-        bpy.data.images.remove(image)

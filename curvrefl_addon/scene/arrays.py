@@ -59,8 +59,9 @@ class ImageArrays:
     name: str
     pixels: Float32Array
     """(height, width, 4)"""
-    repeat: bool = True
-    """Extend by repetition, else clamp to the border texel"""
+    extension: str = "REPEAT"
+    """Beyond the border: 'REPEAT', 'EXTEND' (its texels go on), 'MIRROR' (repeated, every other one the other way
+    round) or 'CLIP' (black)"""
     nearest: bool = False
 
 
@@ -76,6 +77,7 @@ class ReliefArrays:
     distance: float = 1.0
     """Of heights: meters for a height of 1, negative where inverted"""
     uv_scale: tuple[float, float] = (1.0, 1.0)
+    uv_turn: tuple[float, float] = (0.0, 0.0)
     uv_offset: tuple[float, float] = (0.0, 0.0)
 
 
@@ -86,8 +88,10 @@ class MaterialArrays:
     name: str
     base_color: tuple[float, float, float] = (0.8, 0.8, 0.8)
     image: int = -1
-    """Index into `SceneArrays.images` of the base color texture, -1 for none"""
+    """Index into `SceneArrays.images` of the base color texture, -1 for none; its coordinates are `uv_scale` * (u, v) +
+    `uv_turn` * (v, u) + `uv_offset`"""
     uv_scale: tuple[float, float] = (1.0, 1.0)
+    uv_turn: tuple[float, float] = (0.0, 0.0)
     uv_offset: tuple[float, float] = (0.0, 0.0)
     uses_vertex_color: bool = False
     """Base color is multiplied with the corner color"""

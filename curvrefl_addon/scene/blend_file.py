@@ -12,8 +12,12 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from .camera.lens import lens_of
+from .finite import problem_of_place
 from .view import View
 
+EXACT_DEPTHS = 1.001e4
+"""Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
 SURFACE_TYPES = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """Object types that may evaluate to a mesh"""
 # Uncompressed, Zstandard and (before Blender 3.0) gzip.
@@ -27,15 +31,15 @@ def open_blend(path: str | Path) -> None:
     missing or that Blender cannot read; what was open before may then be gone.
     """
     path = Path(path)
-    if not path.exists():
-        raise InputError(f'There is no file "{path}": check the path of the .blend file.')
-    if not path.is_file():
-        raise InputError(f'"{path}" is not a file: name a .blend file.')
     try:
+        if not path.exists():
+            raise InputError(f'There is no file "{path}": check the path of the .blend file.')
+        if not path.is_file():
+            raise InputError(f'"{path}" is not a file: name a .blend file.')
         with path.open("rb") as file:
             start = file.read(8)
     except OSError as error:
-        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its permissions.') from error
+        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its path and permissions.') from error
     if not start.startswith(_FILE_STARTS):
         raise InputError(f'"{path}" is not a .blend file: choose one that Blender saved.')
     trust = bpy.context.preferences.filepaths.use_scripts_auto_execute
@@ -51,11 +55,12 @@ def open_blend(path: str | Path) -> None:
 
 
 def find_camera(scene: bpy.types.Scene, name: str | None = None) -> bpy.types.Object:
-    """The camera object called `name`, or the scene's active camera. Raises InputError when there is none."""
+    """The camera object called `name`, or the one that Blender would render by. Raises InputError for none."""
     if name is None:
-        if scene.camera is None:
+        active = _camera_of_markers(scene) or scene.camera
+        if active is None:
             raise InputError(f'Scene "{scene.name}" has no camera: add one or make one active.')
-        camera = scene.camera
+        camera = active
     else:
         found = scene.objects.get(name)
         if found is None:
@@ -65,6 +70,15 @@ def find_camera(scene: bpy.types.Scene, name: str | None = None) -> bpy.types.Ob
     if not isinstance(camera.data, bpy.types.Camera):
         raise InputError(f'"{camera.name}" is not a camera: choose a camera object.')
     return camera
+
+
+def _camera_of_markers(scene: bpy.types.Scene) -> bpy.types.Object | None:
+    """The camera that a marker binds to the frame: the last one until then, else the first one after."""
+    bound = [marker for marker in scene.timeline_markers if marker.camera is not None and not marker.camera.hide_render]
+    begun = [marker for marker in bound if marker.frame <= scene.frame_current]
+    if begun:
+        return max(begun, key=lambda marker: marker.frame).camera
+    return min(bound, key=lambda marker: marker.frame).camera if bound else None
 
 
 def view_of_camera(
@@ -90,8 +104,10 @@ def view_of_camera(
     if data.type not in ("PERSP", "ORTHO"):
         raise InputError(f'Camera "{camera.name}" is panoramic: make it perspective or orthographic.')
     placed = np.array(evaluated.matrix_world, dtype=np.float64)
+    if problem := problem_of_place(placed, 0.0):
+        raise InputError(f'Camera "{camera.name}" {problem}: clear its location, rotation and scale.')
     lengths = np.linalg.norm(placed[:3, :3], axis=0)
-    if not np.isfinite(placed).all() or lengths.min() == 0.0:
+    if lengths.min() == 0.0:
         raise InputError(f'Camera "{camera.name}" has a zero or endless scale: clear its scale.')
     placed[:3, :3] /= lengths
     if abs(np.linalg.det(placed[:3, :3])) < 1e-6:
@@ -103,20 +119,25 @@ def view_of_camera(
         scale_x=scene.render.pixel_aspect_x,
         scale_y=scene.render.pixel_aspect_y,
     )
+    if not np.isfinite(np.array(projection)).all():
+        raise InputError(f'Camera "{camera.name}" has a lens, shift or clip range that is not a usable number: set it.')
     return View(
         world_to_view=np.linalg.inv(placed),
         view_to_clip=np.array(projection, dtype=np.float64),
         width=width,
         height=height,
+        lens=lens_of(data, placed, depsgraph),
+        clip=(data.clip_start, data.clip_end) if data.clip_end > EXACT_DEPTHS * data.clip_start else None,
     )
 
 
 def find_reflectors(scene: bpy.types.Scene, names: Sequence[str]) -> list[bpy.types.Object]:
     """The objects called `names`, once each, in that order.
 
-    Raises InputError, with what to do, for no name at all, a name that the scene does not have (near names are
-    offered), an object that has no surface, is hidden, or is a mesh without faces or modifiers. What only shows
-    in the evaluated mesh (no faces, wild coordinates) is found by `extract_scene`.
+    An object may be one that is only in a collection that is instanced. Raises InputError, with what to do, for no
+    name at all, a name that the file does not have (near names are offered), an object that has no surface, or is a
+    mesh without faces or modifiers. What only shows in a depsgraph (hidden, no faces, wild coordinates) is found by
+    `SceneReader`.
     """
     if not names:
         raise InputError("No reflector is chosen: name at least one object.")
@@ -124,7 +145,7 @@ def find_reflectors(scene: bpy.types.Scene, names: Sequence[str]) -> list[bpy.ty
 
 
 def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
-    obj = scene.objects.get(name)
+    obj = scene.objects.get(name) or bpy.data.objects.get(name)
     if obj is None:
         surfaces = (other.name for other in scene.objects if other.type in SURFACE_TYPES)
         raise InputError(f'There is no object "{name}" in scene "{scene.name}"{_near(name, surfaces)}')
@@ -133,15 +154,7 @@ def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:
         raise InputError(f'"{name}" is not a mesh but of type {kind}: choose a mesh object as the reflector.')
     if isinstance(obj.data, bpy.types.Mesh) and len(obj.data.polygons) == 0 and len(obj.modifiers) == 0:
         raise InputError(f'"{name}" has no faces: choose a mesh with a surface as the reflector.')
-    if obj.hide_render or not obj.visible_get(view_layer=view_layer_of(scene)):
-        raise InputError(f'"{name}" is hidden: show it, in the viewport and in renders, to use it as a reflector.')
     return obj
-
-
-def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
-    """The view layer in use where `scene` is the open one, else its first."""
-    in_use = bpy.context.view_layer
-    return in_use if in_use is not None and bpy.context.scene == scene else scene.view_layers[0]
 
 
 def _near(name: str, known: Iterable[str]) -> str:

@@ -14,6 +14,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..streams import STDERR, dropped
+from ..written_files import error_in, require_whole
 from .arrays import Float32Array
 
 
@@ -67,10 +69,13 @@ def load_exr(path: Path | str) -> Float32Array:
 
 
 def save_image(image: Any, file_format: str, path: Path) -> None:
-    """Write an image datablock. Raises OSError when the file cannot be written."""
+    """Write an image datablock. Raises OSError when the file cannot be written, or not whole."""
     image.file_format = file_format
     image.filepath_raw = str(path.absolute())
     try:
-        image.save()
+        # (it says more on stderr than the error does)
+        with dropped(STDERR):
+            image.save()
     except RuntimeError as error:
-        raise OSError(f"cannot write {path}: {' '.join(str(error).split())}") from error
+        raise error_in(str(error), path) from error
+    require_whole(path)

@@ -18,7 +18,9 @@ import numpy as np
 from ..errors import InputError
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
+from .finite import problem_of_place
 from .lights import read_light
+from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
@@ -27,6 +29,7 @@ from .reads import (
     PlainObject,
     ShownInstance,
     bounces_of,
+    is_diced,
     is_same_light,
     is_singular,
     listing_of,
@@ -36,7 +39,8 @@ from .reads import (
     uid_of_block,
     with_kept,
 )
-from .visibility import Visibility
+from .remarks import Remark, sentences
+from .visibility import rays_of
 from .world import read_world
 
 SHOWN = ("LIGHT", "MESH")
@@ -47,22 +51,20 @@ def extract_scene(
     depsgraph: bpy.types.Depsgraph,
     scene: bpy.types.Scene,
     reflectors: Sequence[bpy.types.Object],
-    for_render: bool = True,
 ) -> SceneArrays:
     """Read everything that can be seen or that lights what is seen, at the depsgraph's frame.
 
-    `for_render` leaves out what is hidden in renders; what is hidden in the viewport is not in a viewport's
-    depsgraph. Instances of one mesh share its arrays. Raises InputError where a reflector cannot be one: hidden,
-    no faces, coordinates that are not finite, a singular matrix. Elsewhere such parts are left out with a warning.
+    What is there, and how fine, is the depsgraph's: a viewport's or a render's. Instances of one mesh share its
+    arrays. Raises InputError where a reflector cannot be one: hidden, no faces, coordinates that are not finite, a
+    singular matrix. Elsewhere such parts are left out with a warning.
     """
-    return SceneReader(for_render).read(depsgraph, scene, reflectors, Changes(everything=True))
+    return SceneReader().read(depsgraph, scene, reflectors, Changes(everything=True))
 
 
 class SceneReader:
     """Reads one scene, one view layer."""
 
-    def __init__(self, for_render: bool = False) -> None:
-        self._for_render = for_render
+    def __init__(self) -> None:
         self.counters = {"walks": 0, "objects read": 0, "worlds read": 0}
         self._images = ImageReader()
         self._materials = MaterialReader(self._images)
@@ -72,14 +74,21 @@ class SceneReader:
         self._instancers: set[int] = set()
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
-        self._world_warnings: list[str] = []
+        self._world_warnings: list[Remark] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
         self._overrides: dict[int, MaterialArrays] = {}
         self._mapped: frozenset[int] = frozenset()
         """Reflectors: their UV map is read also where no material needs it, for methods that search in it"""
+        self._space = working_space()
+        """Of the colors in the last scene"""
         self._last: SceneArrays | None = None
+
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) that another frame may change."""
+        return self._images.sequences
 
     @property
     def reads(self) -> dict[str, int]:
@@ -112,11 +121,15 @@ class SceneReader:
         if mapped != self._mapped:
             self._mapped = mapped
             changes.instances = True
+        if working_space() != self._space:
+            self._space = working_space()
+            changes.everything = True
         if changes.everything:
             self._images.forget_all()
+        if changes.everything or changes.frame:
             self._materials.forget_all()
             self._meshes.forget_all()
-        if self._last is None or changes.everything:
+        if self._last is None or changes.everything or changes.frame:
             changes.world = changes.instances = True
         if changes.images:
             self._images.forget(changes.images)
@@ -129,18 +142,15 @@ class SceneReader:
         if not walk and changes.listing:
             listing = listing_of(depsgraph, view_layer)
             walk = listing != self._listing
-        visibility = Visibility(view_layer, self._for_render)
         objects = self._plain_objects(changes) if not walk else None
         if objects is None:
             self._listing = listing_of(depsgraph, view_layer)
-            self._walk(depsgraph, visibility, view_layer.material_override)
+            self._walk(depsgraph, view_layer)
         else:
             for uid, obj in objects:
                 evaluated = obj.evaluated_get(depsgraph)
                 placed = PlainObject(evaluated, evaluated.matrix_world)
-                self._shown[uid, 0, 0] = self._read_instance(
-                    placed, uid, 0, visibility, view_layer.material_override, self._shown[uid, 0, 0]
-                )
+                self._shown[uid, 0, 0] = self._read_instance(placed, uid, 0, view_layer, self._shown[uid, 0, 0])
         world = view_layer.world_override or scene.world
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
@@ -184,16 +194,14 @@ class SceneReader:
                 return None
         return found
 
-    def _walk(
-        self, depsgraph: bpy.types.Depsgraph, visibility: Visibility, override: bpy.types.Material | None
-    ) -> None:
+    def _walk(self, depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> None:
         self.counters["walks"] += 1
         self._meshes.begin()
         before, self._shown = self._shown, {}
         self._instancers = set()
         counts: dict[tuple[int, int], int] = {}
         for instance in depsgraph.object_instances:
-            if instance.object.type not in SHOWN or not visibility.is_there(instance):
+            if instance.object.type not in SHOWN or not instance.show_self:
                 continue
             uid = instance.object.original.session_uid
             parent = 0
@@ -203,7 +211,7 @@ class SceneReader:
             number = counts.get((uid, parent), 0)
             counts[uid, parent] = number + 1
             key = (uid, parent, number)
-            self._shown[key] = self._read_instance(instance, uid, parent, visibility, override, before.get(key))
+            self._shown[key] = self._read_instance(instance, uid, parent, view_layer, before.get(key))
         self._meshes.end()
 
     def _read_instance(
@@ -211,20 +219,21 @@ class SceneReader:
         instance: Any,
         uid: int,
         parent: int,
-        visibility: Visibility,
-        override: bpy.types.Material | None,
+        view_layer: bpy.types.ViewLayer,
         before: ShownInstance | None,
     ) -> ShownInstance:
         self.counters["objects read"] += 1
         if instance.object.type == "LIGHT":
-            return self._read_light(instance, visibility, before)
-        return self._read_surface(instance, uid, parent, visibility, override, before)
+            return self._read_light(instance, view_layer, before)
+        return self._read_surface(instance, uid, parent, view_layer, before)
 
-    def _read_light(self, instance: Any, visibility: Visibility, before: ShownInstance | None) -> ShownInstance:
+    def _read_light(
+        self, instance: Any, view_layer: bpy.types.ViewLayer, before: ShownInstance | None
+    ) -> ShownInstance:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj, matrix, visibility.rays(instance), warnings)
+        light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
         return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
@@ -234,16 +243,20 @@ class SceneReader:
         instance: Any,
         uid: int,
         parent: int,
-        visibility: Visibility,
-        override: bpy.types.Material | None,
+        view_layer: bpy.types.ViewLayer,
         before: ShownInstance | None,
     ) -> ShownInstance:
         obj = instance.object
-        rays = visibility.rays(instance)
+        rays = rays_of(instance, view_layer)
         if len(obj.data.polygons) == 0 and not obj.data.is_editmode:
             return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
+        if problem := problem_of_place(matrix, 0.0):
+            return ShownInstance(
+                warnings=(f'"{name}" {problem} and is left out.',) if rays.any else (),
+                error=f'"{name}" {problem}: clear its location, rotation and scale.',
+            )
         # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
         determinant = instance.matrix_world.to_3x3().determinant()
         squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
@@ -252,20 +265,31 @@ class SceneReader:
                 warnings=(f'"{name}" is flattened by a zero or endless scale and left out.',) if rays.any else (),
                 error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
             )
-        slots = self._slots(obj, uid, override)
-        warnings: list[str] = [slot.warning for slot in slots if slot.warning]
+        slots = self._slots(obj, uid, view_layer.material_override)
+        warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks]
         if uid not in self._mapped and any(slot.has_relief for slot in slots):
-            warnings.append(f'"{name}" is drawn without its bumps: only mirrors show theirs.')
-        needs = needs_of(name, slots, warnings)
+            warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
+        needs = needs_of(obj, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
-        warnings += stored.warnings
+        warnings += stored.remarks
         error = (
             f'"{name}" has vertices at no finite place: repair its mesh or choose another.' if stored.dropped else ""
         )
+        if problem := problem_of_place(matrix, stored.reach):
+            return ShownInstance(
+                warnings=(*warnings, f'"{name}" {problem} and is left out.'),
+                error=error or f'"{name}" {problem}: clear its scale, or choose another.',
+            )
         if len(self._meshes.meshes[stored.number].triangles) == 0:
+            if any(needs.hidden_slots):
+                error = f'"{name}" has no surface that could reflect: choose another reflector or give it a material.'
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
+        if is_diced(obj):
+            warnings.append(
+                f'"{name}" is drawn as finely as its levels of subdivision say: adaptive ones are Cycles\' own.'
+            )
         if obj.original.is_shadow_catcher:
             warnings.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
         materials = tuple(slot.index for slot in slots)
@@ -314,7 +338,7 @@ class SceneReader:
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
-            warnings=tuple(dict.fromkeys([*warnings, *self._images.warnings, *self._world_warnings])),
+            warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
             mirror_bounces=mirror_bounces,
             diffuse_bounces=diffuse_bounces,
         )
@@ -328,7 +352,7 @@ class SceneReader:
                 if item.error:
                     raise InputError(item.error, self._id(uid))
             if not any(item.instance for item in items):
-                problem = "is hidden or has no surface: show it or choose another reflector."
-                if any(not item.has_faces for item in items):
+                problem = "is hidden or not in the scene: show it or choose another reflector."
+                if items:
                     problem = "has no faces: choose a reflector with a surface."
                 raise InputError(f'"{chosen[uid]}" {problem}', self._id(uid))

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from .arrays import Float64Array, LightArrays
+from .finite import LARGEST_PLACE, LARGEST_POWER, is_usable, problem_of_place
 from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
 from .visibility import RayVisibility
@@ -29,8 +30,11 @@ def read_light(
     """
     light, name = obj.data, obj.name
     assert isinstance(light, bpy.types.Light)
+    if problem := problem_of_place(matrix, 0.0):
+        warnings.append(f'Lamp "{name}" {problem} and is left out.')
+        return None
     lengths = np.linalg.norm(matrix[:3, :3], axis=0)
-    if not np.isfinite(matrix).all() or lengths.min() == 0.0:
+    if lengths.min() == 0.0 or not is_usable(lengths):
         warnings.append(f'Lamp "{name}" has a zero or endless scale and is left out.')
         return None
     placed = matrix.copy()
@@ -39,6 +43,9 @@ def read_light(
     if light.use_temperature:
         color *= np.array(light.temperature_color, np.float64)
     color *= _node_color(light, name, warnings)
+    if not is_usable(color, LARGEST_POWER):
+        warnings.append(f'Lamp "{name}" is left out: its color or power is not a usable number.')
+        return None
     # Cycles is an add-on, and may be off. What it has of a lamp does not get into evaluated copies by itself.
     cycles = getattr(obj.original.data, "cycles", None)
     is_portal = light.type == "AREA" and cycles is not None and cycles.is_portal
@@ -77,6 +84,13 @@ def read_light(
     if not light.normalize:
         # The energy is then that of a square meter; Cycles counts a point as four.
         color *= area
+    if not (
+        is_usable((radius, *size), LARGEST_PLACE)
+        and is_usable((angle, spot_angle, spot_blend))
+        and is_usable(color, LARGEST_POWER)
+    ):
+        warnings.append(f'Lamp "{name}" is left out: its size is not a usable number.')
+        return None
     r, g, b = color.tolist()
     return LightArrays(
         name=name,

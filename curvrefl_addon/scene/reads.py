@@ -14,14 +14,27 @@ import numpy as np
 
 from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .materials.materials import ReadMaterial
-from .meshes.meshes import MeshNeeds
+from .meshes.meshes import GENERATED, MeshNeeds
+from .remarks import Remark
 
 SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
 
 
+SMALLEST_SIZE = 1e-12
+"""Greatest stretch under which nothing is left of a mesh"""
 SURELY_REGULAR = 1e-4
 """Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
+
+
+# fmt: off
+DEFORMING = frozenset((
+    "ARMATURE", "CAST", "CLOTH", "CORRECTIVE_SMOOTH", "CURVE", "DISPLACE", "HOOK", "LAPLACIANDEFORM",
+    "LAPLACIANSMOOTH", "LATTICE", "MESH_CACHE", "MESH_DEFORM", "MESH_SEQUENCE_CACHE", "NODES", "SHRINKWRAP",
+    "SIMPLE_DEFORM", "SMOOTH", "SOFT_BODY", "SURFACE_DEFORM", "WARP", "WAVE",
+))
+# fmt: on
+"""Modifiers that move vertices and leave their generated coordinates where they were"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +54,7 @@ class ShownInstance:
 
     instance: InstanceArrays | None = None
     light: LightArrays | None = None
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark | str, ...] = ()
     has_faces: bool = True
     made_of: tuple[Any, ...] = ()
     """All that `instance` is made of"""
@@ -72,7 +85,7 @@ def bounces_of(scene: bpy.types.Scene) -> tuple[int, int]:
 
 def uid_of_block(block: bpy.types.ID | None) -> int:
     """Its `session_uid`; 0 for none."""
-    return 0 if block is None else block.session_uid
+    return 0 if block is None else block.original.session_uid
 
 
 def listing_of(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:
@@ -104,14 +117,29 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
     return materials or [None]
 
 
-def needs_of(name: str, slots: Sequence[ReadMaterial], warnings: list[str]) -> MeshNeeds:
+def is_diced(obj: bpy.types.Object) -> bool:
+    """Whether Cycles subdivides an object as finely as its pixels ask for."""
+    modifier = obj.original.modifiers[-1] if obj.original.modifiers else None
+    return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
+
+
+def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: list[Remark | str]) -> MeshNeeds:
     """What the first slots that need a UV map or colors say: a mesh has one of each here."""
-    uv_maps = [slot.needs.uv_map for slot in slots if slot.needs.uv_map is not None]
-    colors = [slot.needs.colors for slot in slots if slot.needs.colors is not None]
-    for wanted, what in ((uv_maps, "texture coordinates"), (colors, "vertex colors")):
-        if len(set(wanted)) > 1:
-            warnings.append(f'"{name}" has several materials; the {what} of the first serve all.')
-    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None)
+    mesh = obj.data
+    assert isinstance(mesh, bpy.types.Mesh)
+    default = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
+    colors = [slot.colors for slot in slots if slot.colors is not None]
+    if len({uv_map or default for uv_map in uv_maps}) > 1:
+        warnings.append(Remark("Textures {of} are drawn on one UV map, though they use several.", "object", obj.name))
+    if GENERATED in uv_maps and any(modifier.type in DEFORMING for modifier in obj.original.modifiers):
+        warnings.append(
+            Remark("Generated coordinates {of} are taken of its deformed shape, not of its own.", "object", obj.name)
+        )
+    if len(set(colors)) > 1:
+        warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
+    hidden = tuple(slot.is_hidden for slot in slots)
+    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None, hidden if any(hidden) else ())
 
 
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:
@@ -153,4 +181,4 @@ def is_singular(matrix: Float64Array) -> bool:
     if not np.isfinite(matrix).all():
         return True
     stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0])
+    return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0] or stretches[0] < SMALLEST_SIZE)

@@ -11,9 +11,15 @@ import bpy
 import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
-from .materials.images import ImageReader
-from .materials.node_colors import Change, ColorReader, NodeColor
-from .materials.node_links import Source, find_input, source_of, surface_source
+from .finite import usable_world
+from .materials.color_spaces import rec709_to_scene
+from .materials.images import MISSING_COLOR, ImageReader
+from .materials.mappings import mapped_from
+from .materials.node_color import Change, NodeColor, gray
+from .materials.node_colors import ColorReader
+from .materials.node_links import Source, find_input, output_node, output_source
+from .materials.pixels import bilinear, stretched
+from .remarks import Remark
 
 SKY_COLORS = {
     "SINGLE_SCATTERING": (1.6, 2.0, 2.5),
@@ -21,12 +27,14 @@ SKY_COLORS = {
     "PREETHAM": (0.60, 0.64, 0.88),
     "HOSEK_WILKIE": (0.11, 0.15, 0.17),
 }
-"""Mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, without its disc"""
+"""Linear Rec.709, mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, no disc"""
+FEWEST_ROWS = 32
+"""Of an environment image"""
 
 
 @dataclass(frozen=True, slots=True)
 class WorldImage:
-    """A `node_colors.Texture` around the scene."""
+    """A `node_color.Texture` around the scene."""
 
     pixels: Float32Array
     """(h, w, 3) equirectangular, row 0 at the bottom"""
@@ -39,9 +47,17 @@ class WorldImage:
     def changed(self, change: Change) -> WorldImage:
         return replace(self, pixels=np.asarray(change(self.pixels), np.float32))
 
+    def aligned(self, other: WorldImage) -> Float32Array | None:
+        if not np.allclose(other.rotation, self.rotation, atol=1e-6):
+            return None
+        return stretched(other.pixels, *self.pixels.shape[:2])
 
-def read_world(world: bpy.types.World | None, images: ImageReader, warnings: list[str]) -> WorldArrays:
-    """Background color or environment texture with its mapping; the nearest color and a warning for the rest."""
+    def coarse(self) -> WorldImage:
+        return self
+
+
+def read_world(world: bpy.types.World | None, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
+    """Background color or environment texture with its mapping; the nearest color and a remark for the rest."""
     if world is None:
         return WorldArrays()
     found = _background(world, images, warnings)
@@ -52,16 +68,19 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
     return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
 
 
-def _background(world: bpy.types.World, images: ImageReader, warnings: list[str]) -> WorldArrays:
-    source = surface_source(world.node_tree)
-    if source is None:
-        # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
-        has_output = world.node_tree is not None and world.node_tree.get_output_node("CYCLES") is not None
-        return WorldArrays() if has_output else WorldArrays(_triple(world.color))
+def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
     notes: list[str] = []
-    result = _WorldReader(images, notes).background(source)
-    if notes:
-        warnings.append(f'World "{world.name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
+    if output_source(world.node_tree, "Volume") is not None:
+        notes.append("The volume {of} is not shown.")
+    source = output_source(world.node_tree, "Surface")
+    if source is not None:
+        result = _WorldReader(images, notes).background(source)
+    else:
+        # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
+        has_output = output_node(world.node_tree) is not None
+        result = WorldArrays() if has_output else WorldArrays(_triple(world.color))
+    result = usable_world(result, notes)
+    warnings += [Remark(cause, "world", world.name) for cause in dict.fromkeys(notes)]
     return result
 
 
@@ -76,36 +95,50 @@ class _WorldReader:
     def background(self, source: Source) -> WorldArrays:
         """What a shader node of a world shines."""
         node = source.node
-        if node is None or node.mute:
+        if node is None:
             return WorldArrays()
-        if node.type in ("MIX_SHADER", "ADD_SHADER"):
-            second = False
-            if node.type == "MIX_SHADER":
-                second = self._colors.number(source.input("Fac"), "mix factor") > 0.5
-            self._notes.append("only one of its backgrounds is drawn")
-            return self.background(source.input("Shader_001" if second else "Shader"))
+        if source.socket.type != "SHADER":
+            # Cycles takes a color for a background of it.
+            return _world_of(self._colors.color(source))
+        if node.type == "MIX_SHADER":
+            factor = min(max(self._colors.number(source.input("Fac"), "the mix factor"), 0.0), 1.0)
+            if 0.0 < factor < 1.0:
+                self._notes.append("Of mixed backgrounds {of} only the stronger one is drawn.")
+            return self.background(source.input("Shader_001" if factor > 0.5 else "Shader"))
+        if node.type == "ADD_SHADER":
+            self._notes.append("Of added backgrounds {of} only the first one is drawn.")
+            return self.background(source.input("Shader"))
         if node.type not in ("BACKGROUND", "EMISSION"):
-            self._notes.append(f'shader "{node.name}" is drawn black')
+            self._notes.append(f"{node.bl_label} {{of}} is drawn black.")
             return WorldArrays()
-        strength = self._colors.number(source.input("Strength"), "strength")
-        color = self._colors.color(source.input("Color")).scaled((strength, strength, strength))
-        if isinstance(color.texture, WorldImage):
-            return WorldArrays(color.factor, np.ascontiguousarray(color.texture.pixels), color.texture.rotation)
-        return WorldArrays(color.mean())
+        strength = self._colors.value(source.input("Strength"))
+        color = self._colors.color(source.input("Color"))
+        if strength.is_constant:
+            return _world_of(color.scaled(strength.factor))
+        return _world_of(self._colors.made(lambda c, s: c * s, color, strength))
 
     def _texture(self, source: Source) -> NodeColor | None:
         node = source.node
         assert node is not None
         if node.type == "TEX_SKY":
-            self._notes.append("its sky is drawn as an even color without a sun; an image of it would be drawn in full")
-            return NodeColor(SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"]))
+            self._notes.append(
+                "The sky {of} is drawn as an even color without a sun; an image of it would be drawn in full."
+            )
+            sky = SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"])
+            return NodeColor(_triple(rec709_to_scene(np.array(sky, np.float32))))
         if node.type != "TEX_ENVIRONMENT":
             return None
+        is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
-            return NodeColor((1.0, 0.0, 1.0))
-        pixels = self._images.read(node.image)[..., :3]
+            return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
+        splits_alpha = "Alpha" in node.outputs and any(not link.is_muted for link in node.outputs["Alpha"].links)
+        image = self._images.read(node.image, node.image_user, splits_alpha)
+        pixels = image[..., 3:].repeat(3, axis=-1) if is_alpha else image[..., :3]
         linear, shift = self._mapping(source)
         is_rotation = not shift.any() and bool(np.allclose(linear @ linear.T, np.eye(3), atol=1e-5))
+        if pixels.shape[:2] == (1, 1):
+            return NodeColor(_triple(pixels[0, 0]))
+        pixels = _enlarged(pixels)
         if node.projection == "MIRROR_BALL" or not is_rotation:
             pixels = _resampled(pixels, node.projection == "MIRROR_BALL", linear, shift)
             linear = np.eye(3)
@@ -113,50 +146,15 @@ class _WorldReader:
 
     def _mapping(self, source: Source) -> tuple[Float64Array, Float64Array]:
         """(3, 3) and (3,): image direction = matrix @ world direction + shift, up to its length."""
-        linear, shift = np.eye(3), np.zeros(3)
-        vector = source.input("Vector")
-        while vector.node is not None and vector.node.type == "MAPPING":
-            inner_linear, inner_shift = self._mapping_node(vector.node, vector.groups)
-            linear, shift = linear @ inner_linear, linear @ inner_shift + shift
-            vector = vector.input("Vector")
+        linear, shift, vector = mapped_from(source, self._colors)
         node = vector.node
         known = node is None or (
             node.type == "TEX_COORD"
             and (vector.socket.name == "Generated" or (vector.socket.name == "Object" and node.object is None))
         )
-        if not known:
-            self._notes.append("the coordinates of its texture are taken for the plain direction")
+        if not known or (node is None and vector.socket != find_input(source.node, "Vector")):
+            self._notes.append("Coordinates of the texture {of} are taken for the plain direction.")
         return linear, shift
-
-    def _mapping_node(self, node: Any, groups: Any) -> tuple[Float64Array, Float64Array]:
-        def vector(name: str, default: float) -> Float64Array:
-            if name not in node.inputs:
-                return np.full(3, default)
-            found = source_of(find_input(node, name), groups)
-            if found.node is None:
-                return np.array(found.socket.default_value[:3], np.float64)
-            color = self._colors.color(found)
-            return np.array(color.mean(), np.float64)
-
-        location, angles, scale = vector("Location", 0.0), vector("Rotation", 0.0), vector("Scale", 1.0)
-        turn = _euler_matrix(angles)
-        if node.vector_type == "TEXTURE":
-            inverse = np.divide(1.0, scale, out=np.zeros(3), where=scale != 0.0)
-            linear = inverse[:, None] * turn.T
-            return linear, -linear @ location
-        if node.vector_type == "NORMAL":
-            inverse = np.divide(1.0, scale, out=np.zeros(3), where=scale != 0.0)
-            return turn * inverse, np.zeros(3)
-        return turn * scale, location if node.vector_type == "POINT" else np.zeros(3)
-
-
-def _euler_matrix(angles: Float64Array) -> Float64Array:
-    """(3, 3) of Blender's Euler angles XYZ: about X first."""
-    (cx, cy, cz), (sx, sy, sz) = np.cos(angles), np.sin(angles)
-    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
-    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
-    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
-    return about_z @ about_y @ about_x
 
 
 def equirectangular_directions(width: int, height: int) -> Float64Array:
@@ -181,19 +179,19 @@ def _resampled(pixels: Float32Array, is_mirror_ball: bool, linear: Float64Array,
         u, v = 0.5 * (x / radius + 1.0), 0.5 * (z / radius + 1.0)
     else:
         u, v = 0.5 - np.arctan2(y, x) / (2.0 * np.pi), np.arcsin(np.clip(z, -1.0, 1.0)) / np.pi + 0.5
-    return _bilinear(pixels, u * width - 0.5, np.clip(v * height - 0.5, 0.0, height - 1.0))
+    return bilinear(pixels, u * width - 0.5, v * height - 0.5)
 
 
-def _bilinear(pixels: Float32Array, column: Float64Array, row: Float64Array) -> Float32Array:
-    """Columns wrap around, rows are within the image."""
+def _world_of(color: NodeColor) -> WorldArrays:
+    if isinstance(color.texture, WorldImage):
+        return WorldArrays(color.factor, np.ascontiguousarray(color.texture.pixels), color.texture.rotation)
+    return WorldArrays(color.mean())
+
+
+def _enlarged(pixels: Float32Array) -> Float32Array:
+    """An image of few pixels as interpolation shows it: light takes pixels for small parts of the sky."""
     height, width = pixels.shape[:2]
-    left, low = np.floor(column).astype(np.int64), np.floor(row).astype(np.int64)
-    across, up = (column - left)[..., None], (row - low)[..., None]
-    high = np.minimum(low + 1, height - 1)
-    left, right = left % width, (left + 1) % width
-    below = pixels[low, left] * (1.0 - across) + pixels[low, right] * across
-    above = pixels[high, left] * (1.0 - across) + pixels[high, right] * across
-    return (below * (1.0 - up) + above * up).astype(np.float32)
+    return stretched(pixels, -(-FEWEST_ROWS // height) * height, -(-2 * FEWEST_ROWS // width) * width)
 
 
 def _triple(color: Any) -> tuple[float, float, float]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays, WorldArrays
+from ..scene.materials.color_spaces import rec709_to_scene
 from ..scene.materials.images import ImageReader
 
 
@@ -108,7 +109,7 @@ def _read_file(path: str) -> Float32Array:
     pixels = OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.FLOAT)
     if pixels is None or pixels.ndim != 3 or pixels.shape[2] < 3:
         raise _unreadable(path)
-    return np.ascontiguousarray(pixels[::-1, :, :3], np.float32)
+    return rec709_to_scene(np.ascontiguousarray(pixels[::-1, :, :3], np.float32))
 
 
 def _read_as_image(path: str) -> Float32Array:

@@ -23,6 +23,7 @@ from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
+from ..scene.camera.lens import Lens, lens_of
 from ..scene.view import View
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ class RegionPicture:
         self._reflection: Reflection | None = None
         self._canvas: Canvas | None = None
         self._divisor = 1
+        self._is_sharp = True
+        """Drawn without the lens"""
         self._sub_frames = 0
         self._changed_at = 0.0
         self._rows: list[tuple[str, str]] = []
@@ -55,7 +58,9 @@ class RegionPicture:
     @property
     def is_coarse(self) -> bool:
         """Drawn at less than the full resolution, or with less care: it is worth another go once all rests."""
-        return self._divisor > 1 or (self._reflection is not None and not self._reflection.is_final)
+        if self._divisor > 1 or self._reflection is None or self._view is None:
+            return self._divisor > 1
+        return not self._reflection.is_final or (self._is_sharp and self._view.lens is not None)
 
     @property
     def is_complete(self) -> bool:
@@ -76,6 +81,8 @@ class RegionPicture:
         the times wait for the GPU.
         """
         diagnostic = diagnostic_of(settings, options)
+        if diagnostic is not None:
+            view = replace(view, lens=None)
         state = (self.renderer.revision, diagnostic)
         divisor, at_rest = 0, False
         if self._view is None or state != self._state or not _is_same(self._view, view):
@@ -168,7 +175,11 @@ class RegionPicture:
         counters: dict[str, int],
         at_rest: bool,
     ) -> None:
-        small = replace(view, width=max(view.width // divisor, 1), height=max(view.height // divisor, 1))
+        # Depth of field takes all sub-frames: while something moves it would only shake.
+        self._is_sharp = not at_rest
+        lens = None if self._is_sharp else view.lens
+        size = (max(view.width // divisor, 1), max(view.height // divisor, 1))
+        small = replace(view, width=size[0], height=size[1], lens=lens)
         texture = None if self._canvas is None else self._canvas.texture
         if self._canvas is None or (texture.width, texture.height) != (small.width, small.height):
             self._canvas = Canvas.of_size(small.width, small.height, linear=True)
@@ -198,14 +209,32 @@ def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
 
 
 def view_of(context: bpy.types.Context) -> View:
-    """The eye of a region."""
+    """The eye of a region, with the camera's lens where the viewport shows its depth of field."""
     data = context.region_data
+    world_to_view = np.array(data.view_matrix, np.float64)
     return View(
-        np.array(data.view_matrix, np.float64),
+        world_to_view,
         np.array(data.window_matrix, np.float64),
         context.region.width,
         context.region.height,
+        _lens_shown(context, world_to_view),
     )
+
+
+def _lens_shown(context: bpy.types.Context, world_to_view: np.ndarray) -> Lens | None:
+    space, scene = context.space_data, context.scene
+    if not isinstance(space, bpy.types.SpaceView3D) or scene is None or context.region_data is None:
+        return None
+    if context.region_data.view_perspective != "CAMERA":
+        return None
+    shading = space.shading
+    shows = shading.use_dof if shading.type == "SOLID" else shading.type in ("MATERIAL", "RENDERED")
+    camera = (space.camera if space.use_local_camera else None) or scene.camera
+    if not shows or camera is None or not isinstance(camera.data, bpy.types.Camera) or not camera.data.dof.use_dof:
+        return None
+    depsgraph = context.evaluated_depsgraph_get()
+    data: Any = camera.evaluated_get(depsgraph).data
+    return lens_of(data, np.linalg.inv(world_to_view), depsgraph)
 
 
 def _is_same(one: View, other: View) -> bool:
@@ -213,6 +242,7 @@ def _is_same(one: View, other: View) -> bool:
         (one.width, one.height) == (other.width, other.height)
         and np.array_equal(one.world_to_view, other.world_to_view)
         and np.array_equal(one.view_to_clip, other.view_to_clip)
+        and one.lens == other.lens
     )
 
 

@@ -97,7 +97,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       if (kind != LAMP_AREA) {
         // a ball shines as a disk that faces the surface: the sample moved into that disk
         vec3 middle = lighting_data[base + 2].xyz - s.position;
-        float away2 = max(dot(middle, middle), 1e-12);
+        float away2 = max(dot(middle, middle), 1e-30);
         to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
 #ifdef LIGHTING_BALLS
         if (lighting_data[base + 5].x > 0.5) {
@@ -109,9 +109,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
           away2 *= share * share;
         }
 #endif
-        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-12));
+        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-30));
       }
-      float distance2 = max(dot(to_light, to_light), 1e-12);
+      float distance2 = max(dot(to_light, to_light), 1e-30);
       range = sqrt(distance2);
       to_light *= inversesqrt(distance2);
       width *= inversesqrt(distance2);
@@ -126,7 +126,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       else if (kind == LAMP_SPOT) {
         irradiance *= spot_share(base, -to_light);
       }
-      irradiance *= facing / distance2;
+      // (Not endless at the lamp's own place.)
+      irradiance = clamp(irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
     }
 #endif
     float cos_light = dot(s.normal, to_light);

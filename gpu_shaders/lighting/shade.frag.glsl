@@ -30,6 +30,11 @@ void main()
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
 #ifdef SHADES_BACKGROUND
+#ifdef FILM_TRANSPARENT
+  // As in Cycles: lamps add their light and cover nothing.
+  color = vec4(lamps_seen(origin, direction, 2e30, BY_CAMERA).rgb, 0.0) * weight;
+  return;
+#endif
   vec3 radiance = world_seen(direction, BY_CAMERA) + lamps_seen(origin, direction, 2e30, BY_CAMERA).rgb;
 #else
   vec4 position = texelFetch(seen_position, pixel, 0);

@@ -19,11 +19,14 @@ void main()
   vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
 #else
   vec3 incoming = normalize(mirror_place.xyz * view.eye.w - view.eye.xyz);
-  own *= eye_side;
 #endif
   vec3 normal = mirror_facing.xyz;
   vec3 direction = reflect(incoming, normal);
-  Hit hit = walk(mirror_place.xyz, direction, 3e38, SEEN_IN_MIRRORS, own, false);
+  // `enclosing`: number of the mirror that holds the eye, how far in rays start, 1 in the last pass. Inside of a
+  // mirror rays start a little off its surface, and do not get out.
+  bool is_enclosed = abs(own - enclosing.x) < 0.5;
+  vec3 origin = is_enclosed ? mirror_place.xyz + enclosing.y * normal : mirror_place.xyz;
+  Hit hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, is_enclosed ? 0.0 : own, false);
 
 #ifdef KEEPS_WAY
 #ifdef WITH_COUNTS
@@ -35,7 +38,8 @@ void main()
 #ifdef ON_PATH
   tint *= texelFetch(path_throughput, pixel, 0).rgb;
 #endif
-  throughput_out = vec4(tint, 1.0);
+  // (Half precision ends a little above.)
+  throughput_out = vec4(min(tint, vec3(6e4)), 1.0);
 #endif
   if (hit.instance < 0) {
     surface_position = vec4(direction, 0.0);
@@ -46,14 +50,20 @@ void main()
 #endif
     return;
   }
-  RaySurface surface = surface_of_hit(hit, mirror_place.xyz, direction);
+  RaySurface surface = surface_of_hit(hit, origin, direction);
+#ifdef KEEPS_WAY
+  // Nor does light get in, however coarse its shadows are.
+  if (is_enclosed && enclosing.z > 0.5 && abs(surface.mirror - enclosing.x) < 0.5) {
+    throughput_out.rgb = vec3(0.0);
+  }
+#endif
   vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
   surface_position = vec4(surface.position, surface.object_id);
   surface_normal = vec4(surface.normal, float(surface.material));
   surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, surface.mirror);
 #ifdef WITH_IMAGES
   vec4 transform = fetch_record(materials, MATERIAL_RECORDS * surface.material + 3);
-  float image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4).x;
-  uv_out = vec4(surface.uv * transform.xy + transform.zw, image, 0.0);
+  vec4 image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4);
+  uv_out = vec4(surface.uv * transform.xy + transform.zw + image.yz * surface.uv.yx, image.x, 0.0);
 #endif
 }

@@ -7,6 +7,14 @@
 
 void main()
 {
+#ifdef LINEAR_DEPTH
+  // `depths`: near and far end, and the distance whose depth is 1. In floating point that is as exact near as far.
+  float distance_ahead = 1.0 / gl_FragCoord.w;
+  if (distance_ahead > depths.y) {
+    discard;
+  }
+  gl_FragDepth = distance_ahead / depths.z;
+#endif
   vec3 normal = normalize(world_normal);
 #ifdef RELIEF
   normal = ids.y > 0.5 ? bent_normal(normal) : normal;

@@ -15,4 +15,8 @@ void main()
   ids = vec2(corner.object_id, corner.mirror);
   // Multiplied in this order: a product made beforehand rounds differently from other passes' depths.
   gl_Position = view.view_to_clip * (view.world_to_view * vec4(corner.position, 1.0));
+#ifdef LINEAR_DEPTH
+  // Cut off at the near end exactly, and nowhere else: the fragments do the rest.
+  gl_Position.z = -depths.x;
+#endif
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shading normals bent by a normal map or by heights, as Cycles' nodes Normal Map (in tangent space) and Bump bend
 // them. Tangents come from screen-space derivatives. Needs the uniform block `view`, the interpolated `world_position`
-// and `uv`, and of renderer/surfaces/materials.py: `relief` (is bump, strength, distance), `relief_transform` and
-// `relief_image`.
+// and `uv`, and of renderer/surfaces/materials.py: `relief` (is bump, strength, distance), `relief_transform`,
+// `relief_turn` and `relief_image`.
 
 // Steepest normal towards `bent` whose mirrored ray leaves the surface (Cycles' ensure_valid_specular_reflection).
 // `facing`: geometric normal; `to_eye`; all unit, on one side of the surface.
@@ -33,7 +33,7 @@ vec3 bent_normal(vec3 normal)
 {
   vec3 right = dFdx(world_position), up = dFdy(world_position);
   vec2 uv_right = dFdx(uv), uv_up = dFdy(uv);
-  vec2 place = uv * relief_transform.xy + relief_transform.zw;
+  vec2 place = uv * relief_transform.xy + relief_transform.zw + relief_turn * uv.yx;
   vec3 bent = normal;
   if (relief.x > 0.5) {
     // Slope of the heights that are interpolated between texels, per screen pixel.
@@ -41,7 +41,9 @@ vec3 bent_normal(vec3 normal)
     vec2 u = vec2(half_texel.x, 0.0), v = vec2(0.0, half_texel.y);
     vec2 slope = vec2(texture(relief_image, place + u).r - texture(relief_image, place - u).r,
                       texture(relief_image, place + v).r - texture(relief_image, place - v).r) /
-                 (2.0 * half_texel) * relief_transform.xy;
+                 (2.0 * half_texel);
+    // from the image's axes to those of the UV map
+    slope = slope * relief_transform.xy + slope.yx * relief_turn.yx;
     vec3 across_right = cross(up, normal), across_up = cross(normal, right);
     float area = dot(right, across_right);
     vec3 gradient = dot(slope, uv_right) * across_right + dot(slope, uv_up) * across_up;

@@ -8,7 +8,8 @@ vec3 surface_color()
 #ifdef PLAIN
   return base_color;
 #else
-  vec3 color = base_color * texture(base_image, uv * uv_transform.xy + uv_transform.zw).rgb;
+  vec2 place = uv * uv_transform.xy + uv_transform.zw + uv_turn * uv.yx;
+  vec3 color = base_color * texture(base_image, place).rgb;
   return uses_vertex_color > 0.5 ? color * vertex_color : color;
 #endif
 }

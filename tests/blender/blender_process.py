@@ -14,9 +14,13 @@ import bpy
 
 def run_script(script: Path, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
     """Run `script` with `arguments` as the end of sys.argv and `variables` in its environment."""
+    command = script_command(script, *arguments)
+    return subprocess.run(command, env=os.environ | variables, capture_output=True, text=True, timeout=300)
+
+
+def script_command(script: Path, *arguments: str) -> list[str]:
+    """The command that runs `script` in such a Blender, with `arguments` as the end of sys.argv."""
     if bpy.app.binary_path:
         command = [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "1"]
-        command += ["--python", str(script), "--", *arguments]
-    else:
-        command = [sys.executable, str(script), *arguments]
-    return subprocess.run(command, env=os.environ | variables, capture_output=True, text=True, timeout=300)
+        return [*command, "--python", str(script), "--", *arguments]
+    return [sys.executable, str(script), *arguments]

@@ -12,6 +12,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, InstanceArrays, MaterialArrays, MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
+from curvrefl.curvrefl_addon.scene.render_depsgraph import with_render_depsgraph
 
 CUBE_CORNERS = [(x, y, z) for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)]
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -68,9 +69,12 @@ def link(obj: bpy.types.Object, collection: bpy.types.Collection | None = None) 
 
 
 def extracted(*reflectors: bpy.types.Object, for_render: bool = True) -> SceneArrays:
-    """The open scene."""
-    bpy.context.view_layer.update()
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), bpy.context.scene, reflectors, for_render=for_render)
+    """The open scene, as it renders or as the viewport has it."""
+    scene, view_layer = bpy.context.scene, bpy.context.view_layer
+    view_layer.update()
+    if not for_render:
+        return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors)
+    return with_render_depsgraph(scene, view_layer, lambda depsgraph: extract_scene(depsgraph, scene, reflectors))
 
 
 def instances_of(scene: SceneArrays, name: str) -> list[InstanceArrays]:

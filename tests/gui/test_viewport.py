@@ -102,7 +102,7 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session, picture
 
     open_blend(session.folder / "demo.blend")
     scene = bpy.context.scene
-    arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, find_reflectors(scene, ["Kettle"]), False)
+    arrays = extract_scene(bpy.context.evaluated_depsgraph_get(), scene, find_reflectors(scene, ["Kettle"]))
     matrices = session.seen["view"]
     view = View(np.array(matrices["view_matrix"]), np.array(matrices["window_matrix"]), width, height)
     frame = Renderer(arrays, Settings(method=method, samples=8)).render(view)

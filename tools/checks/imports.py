@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "gpu_shaders"),
-    ("output", "optics", "setting"),
+    ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
+    ("memory", "output", "optics", "setting"),
     ("settings_table",),
     ("scene", "renderer.settings"),
     ("diagnostic_colors",),
@@ -30,6 +30,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("report", "demo"),
     ("study",),
     ("viewport",),
+    ("engine",),
     ("ui",),
     ("operators",),
     ("gpu_caches",),

@@ -24,12 +24,20 @@ def _buffer_of(array: np.ndarray) -> Any:
     return gpu.types.Buffer("FLOAT", flat.size, flat)
 
 
-def texture_2d(array: np.ndarray, fmt: str = "RGBA32F", linear: bool = False, repeat: bool = False) -> Any:
-    """Texture of a (height, width, channels) float array, row 0 at t = 0."""
+_EXTENSIONS = {"REPEAT": "REPEAT", "EXTEND": "EXTEND", "MIRROR": "MIRRORED_REPEAT", "CLIP": "CLAMP_TO_BORDER"}
+
+
+def largest_texture() -> int:
+    """Pixels along a side."""
+    return int(gpu.capabilities.max_texture_size_get())
+
+
+def texture_2d(array: np.ndarray, fmt: str = "RGBA32F", linear: bool = False, extension: str = "EXTEND") -> Any:
+    """Texture of a (height, width, channels) float array, row 0 at t = 0; `extension` as `ImageArrays`."""
     height, width = array.shape[:2]
     texture = gpu.types.GPUTexture((width, height), format=fmt, data=_buffer_of(array))
     texture.filter_mode(linear)
-    texture.extend_mode("REPEAT" if repeat else "EXTEND")
+    texture.extend_mode(_EXTENSIONS[extension])
     return texture
 
 

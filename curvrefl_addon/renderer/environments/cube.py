@@ -27,7 +27,7 @@ from ..shading.lookup import Environment
 from ..shading.shade import ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
-from ..surfaces.primary import draw_primary
+from ..surfaces.primary import depths_of, draw_primary
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import view_block
 from .cube_views import faces_views
@@ -113,7 +113,7 @@ class EnvironmentCube:
 
     def _draw_face(self, target: SurfaceBuffer, view: View) -> Any:
         uniforms = view_block(view)
-        draw_primary(target, self._scenery, self._materials, uniforms)
+        draw_primary(target, self._scenery, self._materials, uniforms, depths=depths_of(view))
         return uniforms
 
     def _sphere_map(self, view: View) -> SphereMap:

@@ -34,5 +34,5 @@ def faces_views(center: np.ndarray, near: float, far: float, resolution: int) ->
         world_to_view = np.eye(4)
         world_to_view[:3, :3] = np.array([np.cross(forward, up), up, np.negative(forward)])
         world_to_view[:3, 3] = -world_to_view[:3, :3] @ center
-        views.append(View(world_to_view, projection, resolution, resolution))
+        views.append(View(world_to_view, projection, resolution, resolution).fitted(near, far))
     return views

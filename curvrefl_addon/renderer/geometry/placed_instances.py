@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...memory import require_memory
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from .chunk import Placed
 
@@ -35,6 +36,11 @@ def corners_of_boxes(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Fl
     return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
 
 
+def box_around(points: Float64Array) -> Float64Array:
+    """(8, 4) homogeneous corners of the box around points (n, 3)."""
+    return np.column_stack([np.where(CORNERS, points.max(axis=0), points.min(axis=0)), np.ones(8)])
+
+
 def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
     """GPU memory that the meshes will take, about, before edges are split; `with_rays`: and their hierarchies."""
     sizes = [
@@ -46,6 +52,11 @@ def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
         # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
         total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
     return total
+
+
+def require_room(scene: SceneArrays) -> None:
+    """Raises InputError where the meshes of all instances are more than memory holds: drivers end a program for it."""
+    require_memory(estimated_bytes(scene), "The scene", "hide objects, or make their meshes coarser")
 
 
 def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:

@@ -20,12 +20,13 @@ from ...scene.view import View
 from .chunk import Batches, Chunk, Placed
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
-    CORNERS,
     Sight,
+    box_around,
     corners_of_boxes,
     differs_in_place_only,
     instance_keys,
     relative_positions,
+    require_room,
     stretches_of,
 )
 from .split import has_long_edges, split_mesh
@@ -71,8 +72,11 @@ class SceneGeometry:
         self._sights: tuple[Sight, ...] = ()
         self._unchecked: set[int] = set()
 
-    def update(self, scene: SceneArrays, mirrors: Mapping[int, int]) -> Difference:
-        """Follow the scene; `mirrors` numbers reflectors (1, 2, ...) by the index of their instance."""
+    def update(self, scene: SceneArrays, mirrors: Mapping[int, int], anew: bool = False) -> Difference:
+        """Follow the scene; `mirrors` numbers reflectors (1, 2, ...) by the index of their instance.
+
+        `anew`: in other chunks than before, so that those of an earlier picture stay where they are.
+        """
         old = self._matched(scene.instances)
         known = [None if before is None else self.placed[before] for before in old]
         difference = Difference(structure=old != list(range(len(self.placed))))
@@ -83,7 +87,8 @@ class SceneGeometry:
         changed = [
             index
             for index, (item, instance, number) in enumerate(zip(known, scene.instances, numbers, strict=True))
-            if item is None
+            if anew
+            or item is None
             or item.instance is not instance
             or item.mirror != number
             or item.mesh is not meshes[instance.mesh]
@@ -92,7 +97,7 @@ class SceneGeometry:
         for index in changed:
             item, instance, number = known[index], scene.instances[index], numbers[index]
             mesh = meshes[instance.mesh]
-            if item is not None and item.mesh is mesh and differs_in_place_only(item, instance, number):
+            if not anew and item is not None and item.mesh is mesh and differs_in_place_only(item, instance, number):
                 known[index] = replace(item, instance=instance, mirror=number)
                 difference.moved.append(index)
                 continue
@@ -107,6 +112,7 @@ class SceneGeometry:
             self._unchecked.update(difference.moved)
             self._move(difference.moved)
             return difference
+        require_room(scene)
         difference.structure = True
         where = [None if before is None else self._where[before] for before in old]
         self._angles = [
@@ -177,9 +183,8 @@ class SceneGeometry:
         """(8, 4) homogeneous corners of a box around a chunk, world space."""
         box = self._boxes.get(id(chunk))
         if box is None:
-            corners = corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed])
-            low, high = corners.min(axis=0), corners.max(axis=0)
-            box = self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
+            boxes = [(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed]
+            box = self._boxes[id(chunk)] = box_around(corners_of_boxes(boxes))
         return box
 
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
@@ -196,7 +201,7 @@ class SceneGeometry:
                 keep = np.array([item.instance.visible_camera for item in chunk.placed])
                 if batches := chunk.batches(keep, holdouts=True):
                     self._seen.append((chunk, batches))
-        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_clip)]
+        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_volume)]
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
@@ -260,9 +265,7 @@ class SceneGeometry:
         box = self._boxes.get(id(chunk))
         if box is not None:
             corners = corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
-            low = np.minimum(box[:, :3].min(axis=0), corners.min(axis=0))
-            high = np.maximum(box[:, :3].max(axis=0), corners.max(axis=0))
-            self._boxes[id(chunk)] = np.column_stack([np.where(CORNERS, high, low), np.ones(8)])
+            self._boxes[id(chunk)] = box_around(np.concatenate([box[:, :3], corners]))
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""

@@ -14,17 +14,19 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.materials.pixels import averaged
 from ...scene.names import listed
 from ...scene.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out
-from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
-from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
+from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
+from .shadow_reach import shadow_pieces
+from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
 
@@ -50,6 +52,8 @@ FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
+LARGEST_RECORD = 1e30
+"""What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
 
@@ -87,6 +91,8 @@ class Lighting:
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
         self._balls: tuple[Float64Array, Float64Array] | None = None
+        self._lamp_warnings: tuple[str, ...] = ()
+        self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._left_out = left_out(scene)
         self._read_geometry()
@@ -119,13 +125,8 @@ class Lighting:
         self._blocks.clear()
 
     def _read_geometry(self) -> None:
-        facts = self._geometry.facts
-        self._extent = SceneExtent(
-            [
-                (facts.of(item.mesh).pieces, item.instance.matrix, item.instance.visible_shadow)
-                for item in self._geometry.placed
-            ]
-        )
+        pieces, self._standing_apart = shadow_pieces(self._geometry)
+        self._extent = SceneExtent(pieces)
         self._casters = ShadowCasters(self._geometry, self._extent)
         self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
 
@@ -201,6 +202,8 @@ class Lighting:
             lamp_layers, world_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers, self._casters)
             self._world_maps.draw(world_layers, self._casters)
+            # (A strong lamp of nearly no size would shine endlessly there.)
+            records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
@@ -231,13 +234,13 @@ class Lighting:
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
         if len(shining) > MAX_LAMPS:
-            self._lamp_warnings = (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            self._lamp_warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
             shining.sort(key=lambda light: -sum(map(abs, light.color)))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self._lamp_warnings: tuple[str, ...] = ()
+        self._lamp_warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
@@ -283,12 +286,18 @@ class Lighting:
         light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
+        self.world_warnings = ()
         if world.image is None:
             self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
         else:
-            image = np.ones((*world.image.shape[:2], 4), np.float32)
-            image[..., :3] = world.image
-            self._world_image = texture_2d(image, linear=True, repeat=True)
+            pixels = averaged(world.image, largest_texture(), largest_texture())
+            if pixels.shape != world.image.shape:
+                self.world_warnings = (
+                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
+                )
+            image = np.ones((*pixels.shape[:2], 4), np.float32)
+            image[..., :3] = pixels
+            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
@@ -310,7 +319,7 @@ class Lighting:
             place, layers = planned[index % len(planned)]
             start = HEADER_RECORDS + row * LAMP_RECORDS
             block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
-            self._shadow_records(block, self._lamp_maps, layers)
+            fill_shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
             lamp_layers += [layer for layer in layers if layer >= 0]
         world_layers: list[int] = []
@@ -334,17 +343,3 @@ class Lighting:
         records[2:5, :3] = world.rotation
         records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
         return lamp_layers, world_layers, records
-
-    def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
-        """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
-        if len(layers) == 1 and layers[0] >= 0:
-            block[6, 3] = 1.0
-            block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
-            block[11, 0] = layers[0]
-        elif len(layers) == 6 and max(layers) >= 0:
-            block[6, 3] = 2.0
-            near_term, far_term = maps.views[max(layers)].depth_terms
-            block[7] = layers[:4]
-            block[8] = [layers[4], layers[5], near_term, far_term]
-            half = 0.5 * maps.resolution - BORDER
-            block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]

@@ -35,14 +35,14 @@ _last: list[tuple[WorldArrays, Sky]] = []
 
 
 def split_suns(world: WorldArrays) -> Sky:
-    """Find the suns of the world. The last world's are kept, so that its image stays the same object."""
+    """Find the suns of the world. The last two worlds' are kept, so that its image stays the same object."""
     if world.image is None:
         return Sky(world, (), np.inf)
     for known, sky in _last:
         if is_same_world(known, world):
             return sky
     sky = _split(world)
-    _last[:] = [(world, sky)]
+    _last[:] = [(world, sky), *_last[:1]]
     return sky
 
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene.arrays import Float32Array, Float64Array, WorldArrays
+from ...scene.materials.pixels import averaged
 from .ggx import own_lobe
 from .suns import is_same_world
 
@@ -66,7 +67,8 @@ _last: list[tuple[WorldArrays, int, WorldLight]] = []
 
 
 def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """`count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
+    """`count` draws from the sky, and its maps. The last two worlds' are kept: scenes change more often, and a render
+    may run beside the viewports."""
     for known, known_count, light in _last:
         if known_count == count and is_same_world(known, world):
             return light
@@ -91,7 +93,7 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     maps[LOBE_LAYER:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
-    _last[:] = [(world, count, light)]
+    _last[:] = [(world, count, light), *_last[:1]]
     return light
 
 
@@ -119,17 +121,6 @@ def image_directions(height: int, width: int) -> tuple[Float64Array, Float64Arra
     return directions, (np.sin(edges[1:]) - np.sin(edges[:-1])) * 2.0 * np.pi / width
 
 
-def _shrunk(image: Float32Array, height: int) -> Float64Array:
-    """The image averaged down to `height` rows and twice as many columns, never up."""
-    shape = (min(height, image.shape[0]), min(2 * height, image.shape[1]))
-    pixels: np.ndarray = image
-    for axis, parts in enumerate(shape):
-        starts = np.arange(parts) * image.shape[axis] // parts
-        counts = np.diff(np.append(starts, image.shape[axis])).reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
-        pixels = np.add.reduceat(pixels, starts, axis=axis) / counts.astype(np.float32)
-    return pixels.astype(np.float64)
-
-
 @dataclass(frozen=True, slots=True)
 class _Sky:
     """The sky in patches, world directions."""
@@ -147,7 +138,7 @@ class _Sky:
         if world.image is None:
             pixels = np.broadcast_to(np.asarray(world.color, np.float64), (height, 2 * height, 3))
         else:
-            pixels = _shrunk(world.image, height) * np.asarray(world.color)
+            pixels = averaged(world.image, height, 2 * height).astype(np.float64) * np.asarray(world.color)
         directions, solid = image_directions(*pixels.shape[:2])
         solid_angles = np.broadcast_to(solid[:, None], pixels.shape[:2]).ravel()
         power = pixels.reshape(-1, 3) * solid_angles[:, None]

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.view import View
-from ..geometry.mesh_facts import MeshFacts
+from ..geometry.mesh_facts import MeshFacts, MeshFactsCache
 from ..geometry.mesh_inside import holds_point
 from ..geometry.placed_instances import CORNERS, Sight
 from ..geometry.split import split_angle
@@ -24,6 +25,8 @@ SLIVER_SHARE = 1e-6
 """A triangle with this share of the largest one's area has no plane"""
 INSIDE_SHARE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
+NEAR_SHARE = 0.05
+"""Of the radius: nearer to the surface a map does not tell the sides apart, and the mesh is asked"""
 
 MOST_SHAPES = 5
 """Resolutions whose maps are kept, none among them"""
@@ -138,19 +141,20 @@ class Mirror:
         return matrix[:3, :3] @ middle + matrix[:3, 3], self._inner_radius
 
     def holds_eye(self, view: View, shape: BakedShape) -> bool:
-        """Whether the eye is inside of it."""
+        """Whether lines of sight begin inside of it."""
         if view.is_orthographic or shape.is_open:
             return False
-        eye = (shape.world_to_map @ view.eye)[:3]
+        eye = (shape.world_to_map @ view.start)[:3]
         distance = float(np.linalg.norm(eye))
         if distance >= shape.bound:
             return False
-        if shape.map is None:
-            return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.eye)[:3])
-        if distance == 0.0:
-            return True
-        radius, _ = CubeMapSurface(shape.map.radial).radius(eye[None] / distance)
-        return distance < float(radius[0])
+        if shape.map is not None:
+            if distance == 0.0:
+                return True
+            radius = float(CubeMapSurface(shape.map.radial).radius(eye[None] / distance)[0][0])
+            if abs(distance - radius) > NEAR_SHARE * radius or not self.facts.is_closed:
+                return distance < radius
+        return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.start)[:3])
 
     def _mesh_holds(self, eye: Float64Array) -> bool:
         """Whether the closed mesh holds a point (3,), object space.
@@ -170,7 +174,7 @@ class Mirror:
         corners = np.ones((8, 4))
         corners[:, :3] = np.where(CORNERS, high, low)
         clip = corners @ (view.world_to_clip @ self._instance.matrix).T
-        if (clip[:, 3] <= 1e-6).any():
+        if (clip[:, 3] <= 1e-6 * np.abs(clip[:, 3]).max()).any():
             return (0, 0, view.width, view.height)
         pixels = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
         size = (view.width, view.height)
@@ -197,6 +201,26 @@ class Mirror:
         to_eye = eye[:3] - middle * eye[3]
         seen = np.einsum("ij,ij->i", normals, to_eye) / np.maximum(np.linalg.norm(to_eye, axis=1), 1e-30) ** 3
         return 1.0 if np.maximum(seen, 0.0).sum() >= np.maximum(-seen, 0.0).sum() else -1.0
+
+
+def mirrors_of(
+    scene: SceneArrays, before: Sequence[Mirror], facts: MeshFactsCache, counters: Counter[str]
+) -> list[Mirror]:
+    """The reflectors of a scene, numbered 1, 2, ...: those of the state before where they only moved."""
+    known: dict[int, list[Mirror]] = {}
+    for old in before:
+        known.setdefault(old.object_id, []).append(old)
+    mirrors: list[Mirror] = []
+    for index, instance in enumerate(scene.instances):
+        if instance.object_id not in scene.reflectors:
+            continue
+        number = len(mirrors) + 1
+        same = known.get(instance.object_id)
+        mirror = same.pop(0) if same else None
+        if mirror is None or not mirror.follow(scene, index, number):
+            mirror = Mirror(scene, index, number, facts.of(scene.meshes[instance.mesh]), counters)
+        mirrors.append(mirror)
+    return mirrors
 
 
 def _moved_map(world_to_map: Float64Array, before: InstanceArrays, after: InstanceArrays) -> Float64Array | None:

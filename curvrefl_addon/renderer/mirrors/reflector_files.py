@@ -31,7 +31,7 @@ _NUMBERS = ("r_min", "r_max", "multiple_hits", "holes", "grazing")
 def save(reflector: ReflectorMap, folder: Path | str) -> None:
     """Write the map into `folder`, which is made when missing; files of the same names are replaced.
 
-    Raises InputError when the folder cannot be written to.
+    Raises OSError when the folder cannot be written to.
     """
     folder = Path(folder)
     description: dict[str, Any] = {"version": VERSION}
@@ -41,17 +41,14 @@ def save(reflector: ReflectorMap, folder: Path | str) -> None:
     description["world_to_map"] = reflector.world_to_map.tolist()
     for name in _SPREADS:
         description[name] = asdict(getattr(reflector, name))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in _CUBES:
-            save_exr(_picture(folder, name), getattr(reflector, name).reshape(-1, reflector.resolution, 4))
-        _picture(folder, _POINTS).unlink(missing_ok=True)
-        if len(reflector.error_points):
-            save_exr(_picture(folder, _POINTS), reflector.error_points[None])
-        # Last: where the description is, the pictures are.
-        (folder / DESCRIPTION).write_text(json.dumps(description, indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise InputError(f'Cannot write the map into "{folder}" ({error}): choose another folder.') from error
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in _CUBES:
+        save_exr(_picture(folder, name), getattr(reflector, name).reshape(-1, reflector.resolution, 4))
+    _picture(folder, _POINTS).unlink(missing_ok=True)
+    if len(reflector.error_points):
+        save_exr(_picture(folder, _POINTS), reflector.error_points[None])
+    # Last: where the description is, the pictures are.
+    (folder / DESCRIPTION).write_text(json.dumps(description, indent=2) + "\n", encoding="utf-8")
 
 
 def load(folder: Path | str) -> ReflectorMap:

@@ -13,7 +13,7 @@ from ...scene.arrays import Float64Array
 from ...scene.view import View
 from ..geometry.chunk import Batches, Chunk
 from ..surfaces.materials import Materials
-from ..surfaces.primary import draw_primary
+from ..surfaces.primary import depths_of, draw_primary
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import view_block
 
@@ -38,7 +38,7 @@ class ScreenMaps:
             self._target = SurfaceBuffer(view.width, view.height)
         # Bound by reference only until the draw is done.
         uniforms = view_block(view)
-        draw_primary(self._target, [surface], materials, uniforms)
+        draw_primary(self._target, [surface], materials, uniforms, depths=depths_of(view), mirrored=view.is_mirrored)
         return {"screen_position": self._target.position, "screen_normal": self._target.normal}
 
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
@@ -31,6 +31,9 @@ MIRRORS_END = "MIRRORS_END"
 """Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
 RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
+FILM_TRANSPARENT = "FILM_TRANSPARENT"
+"""Of the background: lamps alone are seen there, and they cover nothing"""
+_LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
@@ -86,6 +89,7 @@ class ShadePass:
         shadows: RayShadows | None = None,
         chosen: Any = None,
         with_others: bool = True,
+        film_transparent: bool = False,
         by_camera: bool = True,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
@@ -94,7 +98,8 @@ class ShadePass:
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
         take the place of maps. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
-        all; `with_others`: what is no mirror is, too. `by_camera`: what sees all this is the camera, else a mirror.
+        all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
+        `by_camera`: what sees all this is the camera, else a mirror.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -106,7 +111,7 @@ class ShadePass:
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             set_viewport(0, 0, seen.width, seen.height)
-            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, by_camera)
+            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent, by_camera)
             self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         for bounce in later or ():
             self._add_path(canvas, bounce, view_uniforms, weight, shadows)
@@ -119,6 +124,7 @@ class ShadePass:
         weight: float,
         mirrors_only: bool,
         shadows: RayShadows | None,
+        film_transparent: bool,
         by_camera: bool,
     ) -> None:
         """Background and surfaces, seen directly or in mirrors."""
@@ -126,8 +132,14 @@ class ShadePass:
         if not mirrors_only:
             kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
         for kind in kinds:
+            features = self._lighting.features
+            if kind is PixelClass.SURFACE:
+                features = self._features(shadows, is_seen=True)
+            if kind is PixelClass.BACKGROUND and film_transparent:
+                if not features & _LAMPS:
+                    continue
+                features |= {FILM_TRANSPARENT}
             as_camera = by_camera or kind != PixelClass.BACKGROUND
-            features = self._features(shadows, is_seen=True) if kind is PixelClass.SURFACE else self._lighting.features
             rays = _rays_of(features, shadows)
             self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
         if isinstance(reflected, SurfaceBuffer):
@@ -256,7 +268,7 @@ def _rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
     return shadows.rays if shadows is not None and features & {RAY_SHADOWS, WORLD_RAYS} else None
 
 
-@cache
+@gpu_cache
 def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
@@ -270,7 +282,7 @@ def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) 
     )
 
 
-@cache
+@gpu_cache
 def _environment_shader(lookup: str, features: Features) -> Any:
     """For mirrors that show an environment, with the name of its lookup."""
     return build_shader(
@@ -282,7 +294,7 @@ def _environment_shader(lookup: str, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
     return build_shader(
         "shade path",
@@ -297,7 +309,7 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
     return build_shader(
         "shade front",

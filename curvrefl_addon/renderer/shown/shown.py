@@ -75,6 +75,7 @@ class Light:
     """Record texture by mirrors' numbers, 1 for those of the group; None where there is one group"""
     with_others: bool = True
     """The pixels that show no mirror are of this group too"""
+    film_transparent: bool = False
 
 
 @dataclass(frozen=True)
@@ -135,6 +136,7 @@ class Shown(ABC):
             shadows=sub_frame.shadows,
             chosen=light.chosen,
             with_others=light.with_others,
+            film_transparent=light.film_transparent,
         )
 
     @classmethod

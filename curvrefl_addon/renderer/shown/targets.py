@@ -35,3 +35,22 @@ class Targets:
         self.seen = SurfaceBuffer(self.width, self.height)
         self.reflected = SurfaceBuffer(self.width, self.height)
         self.back_faces = BackFaces(self.width, self.height)
+
+
+MOST_TARGETS = 3
+"""Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
+
+
+class TargetPool:
+    """Targets by their size."""
+
+    def __init__(self) -> None:
+        self._targets: dict[tuple[int, int], Targets] = {}
+
+    def of(self, width: int, height: int) -> Targets:
+        """Made when first asked for; those that were made the longest ago go."""
+        if (width, height) not in self._targets:
+            while len(self._targets) >= MOST_TARGETS:
+                del self._targets[next(iter(self._targets))]
+            self._targets[width, height] = Targets(width, height)
+        return self._targets[width, height]

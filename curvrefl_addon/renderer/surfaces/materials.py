@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import ImageArrays, MaterialArrays, SceneArrays
+from ...scene.materials.pixels import averaged
+from ...scene.remarks import Remark, sentences
 from ..device.records import record_texture
 from ..device.shaders import Piece, flags, named
-from ..device.textures import texture_2d
+from ..device.textures import largest_texture, texture_2d
 from ..geometry.chunk import HOLDOUT
 
 RECORDS = 5
@@ -21,13 +23,19 @@ TABLE = Piece(samplers={"materials": "FLOAT_2D"}, defines={"MATERIAL_RECORDS": R
 PLAIN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"}, defines=flags("PLAIN"))
 """What `surface_color.glsl` needs for materials without an image, UV and vertex color to interpolate"""
 TEXTURED = Piece(
-    constants={"base_color": "VEC3", "material": "FLOAT", "uv_transform": "VEC4", "uses_vertex_color": "FLOAT"},
+    constants={
+        "base_color": "VEC3",
+        "material": "FLOAT",
+        "uv_transform": "VEC4",
+        "uv_turn": "VEC2",
+        "uses_vertex_color": "FLOAT",
+    },
     samplers={"base_image": "FLOAT_2D"},
     smooth={"uv": "VEC2", "vertex_color": "VEC3"},
 )
 """The same for the others"""
 RELIEF = Piece(
-    constants=named("VEC4", "relief", "relief_transform"),
+    constants={**named("VEC4", "relief", "relief_transform"), "relief_turn": "VEC2"},
     samplers={"relief_image": "FLOAT_2D"},
     defines=flags("RELIEF"),
 )
@@ -54,8 +62,17 @@ class Materials:
             record[1] = (*material.emission, float(material.glossy_only))
             record[2] = (*material.base_color, float(material.uses_vertex_color))
             record[3] = (*material.uv_scale, *material.uv_offset)
-            record[4, 0] = material.image
+            record[4, :3] = (material.image, *material.uv_turn)
         self.table = record_texture(records.reshape(-1, 4))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is not drawn as it is, one sentence each."""
+        largest = largest_texture()
+        cause = "Fewer pixels {of} are drawn than there are: as many as the graphics driver takes."
+        return sentences(
+            Remark(cause, "image", image.name) for image, _ in self._images if max(image.pixels.shape[:2]) > largest
+        )
 
     @property
     def images(self) -> list[Any]:
@@ -80,6 +97,7 @@ class Materials:
         assert relief is not None
         shader.uniform_float("relief", (float(relief.is_bump), relief.strength, relief.distance, 0.0))
         shader.uniform_float("relief_transform", (*relief.uv_scale, *relief.uv_offset))
+        shader.uniform_float("relief_turn", relief.uv_turn)
         shader.uniform_sampler("relief_image", self._images[relief.image][1])
 
     def bind(self, shader: Any, index: int) -> None:
@@ -90,10 +108,15 @@ class Materials:
         if self.is_plain(index):
             return
         shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
+        shader.uniform_float("uv_turn", material.uv_turn)
         shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
         shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image][1])
 
 
 def _texture(image: ImageArrays) -> Any:
-    fmt = "RGBA16F" if image.pixels.max(initial=0.0) < 6e4 else "RGBA32F"
-    return texture_2d(image.pixels, fmt, not image.nearest, image.repeat)
+    pixels = image.pixels
+    largest = largest_texture()
+    if max(pixels.shape[:2]) > largest:
+        pixels = np.asarray(averaged(pixels, largest, largest), np.float32)
+    fmt = "RGBA16F" if pixels.max(initial=0.0) < 6e4 and pixels.min(initial=0.0) > -6e4 else "RGBA32F"
+    return texture_2d(pixels, fmt, not image.nearest, image.extension)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...scene.arrays import Float64Array
+from ...scene.camera.sampling import hammersley
 
 WIDTH = 3.0
 """Pixels from end to end: Cycles' default filter width of 1.5 is half of a Blackman-Harris window's"""
@@ -21,15 +22,7 @@ def offsets(samples: int) -> Float64Array:
     """(samples, 2) pixel offsets, mean zero; one sample looks through the pixel's center."""
     if samples == 1:
         return np.zeros((1, 2))
-    # Two-dimensional low-discrepancy points (Hammersley set), centered in their strata.
-    index = np.arange(samples)
-    bits = np.zeros(samples)
-    scale, left = 0.5, index.copy()
-    while left.any():
-        bits += scale * (left & 1)
-        left >>= 1
-        scale *= 0.5
-    points = np.column_stack([(index + 0.5) / samples, bits + 0.5 / samples])
+    points = hammersley(samples)
     position = np.linspace(-0.5, 0.5, 1025)
     window = np.cos(2 * np.pi * np.outer(position + 0.5, np.arange(4))) @ np.array(_COEFFICIENTS)
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (window[1:] + window[:-1]))])

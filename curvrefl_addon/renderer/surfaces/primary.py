@@ -5,16 +5,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from typing import Any
 
-from ..device.shaders import Piece, build_shader, named
+from ...scene.view import View
+from ..device.context import gpu_cache
+from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
 from .materials import PLAIN, RELIEF, TEXTURED, Materials
 from .surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from .view_block import VIEW
 from .windows import Window
+
+type Depths = tuple[float, float, float]
+"""Distances from the eye's plane where a view begins and ends, and the one that has the depth 1"""
+LINEAR_DEPTH = Piece(constants={"depths": "VEC3"}, defines=flags("LINEAR_DEPTH"), writes_depth=True)
+ENDLESS = 3e38
+
+
+def depths_of(view: View) -> Depths | None:
+    """Of a view with linear depths; None of any other, which needs no such pass."""
+    if not view.linear_depth:
+        return None
+    near, far = view.clip_range
+    return (near, min(far, ENDLESS), view.linear_depth)
 
 
 def draw_primary(
@@ -25,13 +39,16 @@ def draw_primary(
     window: Window | None = None,
     hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
     with_reliefs: Callable[[Chunk], bool] = lambda _chunk: False,
+    depths: Depths | None = None,
+    mirrored: bool = False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
     `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
-    mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface.
+    mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface. `depths`: what
+    `depths_of` says of the view; `mirrored` whether left and right are swapped in it.
     """
-    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+    with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), target.frame_buffer.bind():
         set_viewport(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
@@ -42,8 +59,10 @@ def draw_primary(
                 if materials.has_relief(material) and with_reliefs(chunk)
             }
             for kind in ("PLAIN", "TEXTURED", *(("RELIEF",) if reliefs else ())):
-                shader = _primary_shader(kind)
+                shader = _primary_shader(kind, depths is not None)
                 shader.bind()
+                if depths is not None:
+                    shader.uniform_float("depths", depths)
                 shader.uniform_block("view", view_uniforms)
                 for chunk, batches in seen:
                     hide_faces(hidden_faces(chunk))
@@ -69,8 +88,8 @@ def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: 
             batch.draw(shader)
 
 
-@cache
-def _primary_shader(kind: str) -> Any:
+@gpu_cache
+def _primary_shader(kind: str, has_linear_depth: bool) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
     return build_shader(
         f"primary {kind}",
@@ -78,6 +97,7 @@ def _primary_shader(kind: str) -> Any:
         CHUNK,
         PLAIN if kind == "PLAIN" else TEXTURED,
         *((RELIEF,) if kind == "RELIEF" else ()),
+        *((LINEAR_DEPTH,) if has_linear_depth else ()),
         SURFACE_OUTPUTS,
         Piece(
             smooth=named("VEC3", "world_position", "world_normal"),

@@ -12,6 +12,9 @@ import bpy
 type Groups = tuple[Any, ...]
 """Group nodes one is inside of, outermost first"""
 
+NUMBERS = ("VALUE", "INT", "BOOLEAN")
+"""Types of sockets that hold one number"""
+
 
 @dataclass(frozen=True, slots=True)
 class Source:
@@ -30,6 +33,10 @@ class Source:
         """Source of the node's input called `name` (its name or identifier)."""
         return source_of(find_input(self.socket.node, name), self.groups)
 
+    def inputs(self) -> list[Source]:
+        """Sources of all inputs that are in use, in order."""
+        return [source_of(socket, self.groups) for socket in self.socket.node.inputs if socket.enabled]
+
 
 def find_input(node: Any, name: str) -> Any:
     """The input called `name`; identifiers go before names, which are not unique. Raises KeyError."""
@@ -40,38 +47,46 @@ def find_input(node: Any, name: str) -> Any:
 
 
 def source_of(socket: Any, groups: Groups = ()) -> Source:
-    """Follow the links of an input."""
+    """Follow the links of an input. (Sockets of groups change nothing, whatever their kind: Cycles has no groups.)"""
+    # The input last gone through, and where: its own value counts if the chain leads nowhere.
+    last, last_groups = socket, groups
     while not socket.is_output:
         links = [link for link in socket.links if not link.is_muted and link.is_valid]
+        last, last_groups = socket, groups
         if not links:
-            return Source(socket, groups)
+            break
         socket = links[0].from_socket
         node = socket.node
         if node.type == "REROUTE":
             socket = node.inputs[0]
+            if not socket.links:
+                return Source(last, last_groups)
         elif node.mute:
             passed = next((link.from_socket for link in node.internal_links if link.to_socket == socket), None)
             if passed is None:
-                return Source(socket, groups)
+                return Source(last, last_groups)
             socket = passed
-        elif node.type == "GROUP" and node.node_tree is not None:
-            inside = _group_output(node.node_tree)
+        elif node.type == "GROUP":
+            inside = None if node.node_tree is None else _group_output(node.node_tree)
             if inside is None:
-                return Source(socket, groups)
+                return Source(last, last_groups)
             socket, groups = find_input(inside, socket.identifier), (*groups, node)
         elif node.type == "GROUP_INPUT" and groups:
             socket, groups = find_input(groups[-1], socket.identifier), groups[:-1]
     return Source(socket, groups)
 
 
-def surface_source(tree: bpy.types.NodeTree | None) -> Source | None:
-    """What is plugged into the Surface of a material's or world's output as Cycles sees it, or None."""
-    if tree is None:
-        return None
-    output: Any = tree.get_output_node("CYCLES")
+def output_node(tree: bpy.types.NodeTree | None) -> Any | None:
+    """The output of a material or world that Cycles takes."""
+    return None if tree is None else tree.get_output_node("CYCLES")
+
+
+def output_source(tree: bpy.types.NodeTree | None, name: str) -> Source | None:
+    """What is plugged into the input `name` of a material's or world's output, or None."""
+    output = output_node(tree)
     if output is None:
         return None
-    found = source_of(output.inputs["Surface"])
+    found = source_of(output.inputs[name])
     return found if found.node is not None else None
 
 

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Float32Array, ImageArrays
+from ..arrays import ImageArrays
 from ..meshes.meshes import GENERATED, OBJECT
-from .node_colors import LUMA, ColorReader, NodeColor, Pixels
+from .node_color import NodeColor
+from .node_colors import ColorReader
 from .node_links import Source
 from .surface_textures import SurfaceTexture, TextureSpace
 
@@ -24,6 +25,8 @@ class Relief:
     is_bump: bool
     strength: float
     distance: float = 1.0
+    tangents: str = ""
+    """UV map whose axes the normals are in, as `MeshNeeds.uv_map`"""
 
 
 def read_relief(source: Source, colors: ColorReader, notes: list[str]) -> Relief | None:
@@ -36,52 +39,49 @@ def read_relief(source: Source, colors: ColorReader, notes: list[str]) -> Relief
     if node.type == "BUMP":
         return _bump(source, colors, notes)
     if node.type != "NEW_GEOMETRY":
-        notes.append("its bumps are left out")
+        notes.append("Normals {of} that nodes change are drawn unchanged.")
     return None
 
 
 def _normal_map(source: Source, colors: ColorReader, notes: list[str]) -> Relief | None:
     node: Any = source.node
     if node.space != "TANGENT":
-        notes.append(f'normal map "{node.name}" is left out: it is not in tangent space')
+        notes.append("Normal maps {of} that are not in tangent space are left out.")
         return None
+    if "Base" in node.inputs and source.input("Base").node is not None:
+        notes.append("What is plugged into the base of a normal map {of} is left out.")
     strength = max(colors.number(source.input("Strength"), "normal map strength"), 0.0)
     color = colors.color(source.input("Color"))
     if color.vertex_colors is not None:
-        notes.append(f'normal map "{node.name}" is left out: vertex colors are no normals')
+        notes.append("Normals {of} out of vertex colors are left out.")
         return None
+    tangents = str(node.uv_map)
     texture = color.texture
     if isinstance(texture, SurfaceTexture):
-        if texture.space.uv_map != node.uv_map:
-            notes.append(f'normal map "{node.name}" is left out: its image is on another UV map')
+        own = texture.space.uv_map
+        if own in (GENERATED, OBJECT) or (own and tangents and own != tangents):
+            notes.append("Normal maps {of} are left out: their image is on another UV map than their tangents.")
             return None
         texture = _scaled(texture, color)
     else:
         texture = _constant(node, color)
-    return Relief(texture, is_bump=False, strength=strength)
+    return Relief(texture, is_bump=False, strength=strength, tangents=tangents)
 
 
 def _bump(source: Source, colors: ColorReader, notes: list[str]) -> Relief | None:
     node: Any = source.node
     if source.input("Normal").node is not None:
-        notes.append(f'what is plugged into the normal of node "{node.name}" is left out')
-    height = colors.color(source.input("Height"))
+        notes.append("What is plugged into the normal of a Bump node {of} is left out.")
+    height = colors.value(source.input("Height"))
     texture = height.texture
     if not isinstance(texture, SurfaceTexture) or texture.space.uv_map in (GENERATED, OBJECT):
         if source.input("Height").node is not None:
-            notes.append("its bumps are left out: their height is no image on a UV map")
+            notes.append("Bumps {of} are left out: their height is no image on a UV map.")
         return None
-    texture = _scaled(texture, height).changed(_gray)
+    texture = _scaled(texture, height)
     strength = max(colors.number(source.input("Strength"), "bump strength"), 0.0)
     distance = colors.number(source.input("Distance"), "bump distance")
-    return Relief(texture, True, strength, -distance if node.invert else distance)
-
-
-def _gray(pixels: Pixels) -> Pixels:
-    """The luminance in all channels."""
-    gray: Float32Array = np.empty(pixels.shape, np.float32)
-    gray[...] = (pixels @ LUMA)[..., None]
-    return gray
+    return Relief(texture, True, strength, -distance if node.invert else distance, texture.space.uv_map)
 
 
 def _scaled(texture: SurfaceTexture, color: NodeColor) -> SurfaceTexture:

@@ -4,32 +4,37 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Float32Array, ImageArrays
 from ..meshes.meshes import GENERATED, OBJECT
-from .images import ImageReader
-from .node_colors import Change, ColorReader, NodeColor
-from .node_links import Source, find_input, source_of
+from .images import MISSING_COLOR, ImageReader
+from .mappings import mapped_from
+from .node_color import Change, NodeColor, gray
+from .node_colors import ColorReader
+from .node_links import Source, find_input
+from .pixels import averaged, stretched
+
+COARSE = 1 << 20
+"""Pixels that are enough for a mean of what nodes make of an image"""
 
 
 @dataclass(frozen=True, slots=True)
 class TextureSpace:
-    """Texture coordinates: `scale` * uv + `offset`."""
+    """Texture coordinates: `scale` * (u, v) + `turn` * (v, u) + `offset`."""
 
     uv_map: str = ""
     """As `MeshNeeds.uv_map`"""
     scale: tuple[float, float] = (1.0, 1.0)
+    turn: tuple[float, float] = (0.0, 0.0)
     offset: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class SurfaceTexture:
-    """A `node_colors.Texture`."""
+    """A `node_color.Texture`."""
 
     image: ImageArrays
     space: TextureSpace
@@ -42,20 +47,33 @@ class SurfaceTexture:
         pixels[..., :3] = change(pixels[..., :3])
         return replace(self, image=replace(self.image, pixels=pixels))
 
+    def aligned(self, other: SurfaceTexture) -> Float32Array | None:
+        if other.space != self.space or other.image.extension != self.image.extension:
+            return None
+        return stretched(other.colors(), *self.image.pixels.shape[:2])
+
+    def coarse(self) -> SurfaceTexture:
+        height, width = self.image.pixels.shape[:2]
+        if height * width <= COARSE:
+            return self
+        part = (COARSE / (height * width)) ** 0.5
+        pixels = averaged(self.image.pixels, max(int(height * part), 1), max(int(width * part), 1))
+        return replace(self, image=replace(self.image, pixels=np.asarray(pixels, np.float32)))
+
 
 class SurfaceTextureReader:
     """Texture nodes of materials. Equal images are one `ImageArrays`."""
 
     def __init__(self, images: ImageReader) -> None:
         self._images = images
-        self._arrays: dict[tuple[int, bool, bool], ImageArrays] = {}
+        self._arrays: dict[tuple[int, bool, str], ImageArrays] = {}
 
     def forget(self) -> None:
         """Images changed."""
         self._arrays.clear()
 
     def read(self, source: Source, notes: list[str]) -> NodeColor | None:
-        """The color of a texture node, None where it cannot be one. Approximations are added to `notes`."""
+        """The color of a texture node, None where it cannot be one. What is not drawn is added to `notes`."""
         node = source.node
         assert node is not None
         if node.type == "TEX_IMAGE":
@@ -67,118 +85,93 @@ class SurfaceTextureReader:
     def _image(self, source: Source, notes: list[str]) -> NodeColor:
         node = source.node
         assert node is not None
+        is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
-            # Cycles shows an unset image black in surfaces.
-            return NodeColor((0.0, 0.0, 0.0))
-        space = _texture_space(source, "", notes)
+            return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
+        # (Cycles looks at alpha by itself where anything uses it.)
+        splits_alpha = any(not link.is_muted for link in node.outputs["Alpha"].links)
+        pixels = self._images.read(node.image, node.image_user, splits_alpha)
+        space = _texture_space(source, "", self._colors(notes), notes)
         if space is None or node.projection != "FLAT":
-            notes.append(f'image texture "{node.name}" is drawn as one color, for want of a UV map')
-            mean = self._images.read(node.image)[..., :3].reshape(-1, 3).mean(axis=0, dtype=np.float64)
+            notes.append("Images {of} without a UV map are drawn as one color.")
+            part = pixels[..., 3:].repeat(3, axis=-1) if is_alpha else pixels[..., :3]
+            mean = part.reshape(-1, 3).mean(axis=0, dtype=np.float64)
             return NodeColor((float(mean[0]), float(mean[1]), float(mean[2])))
-        if node.extension in ("CLIP", "MIRROR"):
-            done = "clipped" if node.extension == "CLIP" else "mirrored"
-            notes.append(f'image texture "{node.name}" is not {done} beyond its border')
-        nearest, repeat = node.interpolation == "Closest", node.extension in ("REPEAT", "MIRROR")
-        key = (node.image.as_pointer(), nearest, repeat)
+        nearest = node.interpolation == "Closest"
+        key = (id(pixels), nearest, node.extension)
         if key not in self._arrays:
-            self._arrays[key] = ImageArrays(node.image.name, self._images.read(node.image), repeat, nearest)
+            # (It keeps the pixels, so that their id is not given to others.)
+            self._arrays[key] = ImageArrays(node.image.name, pixels, node.extension, nearest)
         texture = SurfaceTexture(self._arrays[key], space)
-        if source.socket.name == "Alpha":
+        if is_alpha:
             alpha = texture.image.pixels[..., 3:]
             return NodeColor(texture=texture.changed(lambda colors: np.broadcast_to(alpha, colors.shape)))
         return NodeColor(texture=texture)
 
+    def _colors(self, notes: list[str]) -> ColorReader:
+        return ColorReader(lambda inner: self.read(inner, notes), notes)
+
     def _checker(self, source: Source, notes: list[str]) -> NodeColor | None:
         """On a UV map (where z is 0) the pattern is exactly an image of 2 x 2 pixels, each as large as a square."""
-        node = source.node
-        assert node is not None
-        space = _texture_space(source, GENERATED, notes)
+        reader = self._colors(notes)
+        space = _texture_space(source, GENERATED, reader, notes)
         if space is None or space.uv_map in (GENERATED, OBJECT):
             return None
-        reader = ColorReader(lambda inner: self.read(inner, notes), notes)
         squares = reader.number(source.input("Scale"), "checker scale")
         # Black and white squares: the output "Factor" is 1 on squares of the first color.
         pair = np.array([(1.0, 1.0, 1.0), (0.0, 0.0, 0.0)], np.float32)
         if source.socket.name == "Color":
             ends = [reader.color(source.input(name)) for name in ("Color1", "Color2")]
             if not all(end.is_constant for end in ends):
-                notes.append(f'the textures within node "{node.name}" are drawn as one color')
+                notes.append("Textures within a Checker Texture {of} are drawn as one color.")
             pair = np.array([end.mean() for end in ends], np.float32)
         first, second = pair[0], pair[1]
         pixels = np.ones((2, 2, 4), np.float32)
         pixels[0, 0, :3] = pixels[1, 1, :3] = second
         pixels[0, 1, :3] = pixels[1, 0, :3] = first
         half = 0.5 * squares
-        space = replace(
-            space,
-            scale=(space.scale[0] * half, space.scale[1] * half),
-            offset=(space.offset[0] * half, space.offset[1] * half),
-        )
-        return NodeColor(texture=SurfaceTexture(ImageArrays(node.name, pixels, repeat=True, nearest=True), space))
+
+        def grown(pair: tuple[float, float]) -> tuple[float, float]:
+            return pair[0] * half, pair[1] * half
+
+        space = replace(space, scale=grown(space.scale), turn=grown(space.turn), offset=grown(space.offset))
+        name = str(source.socket.node.name)
+        return NodeColor(texture=SurfaceTexture(ImageArrays(name, pixels, nearest=True), space))
 
 
-def _texture_space(source: Source, unlinked: str, notes: list[str]) -> TextureSpace | None:
+def _texture_space(source: Source, unlinked: str, colors: ColorReader, notes: list[str]) -> TextureSpace | None:
     """Coordinates at the input "Vector" of a texture node; `unlinked` is the map used without a link.
 
     None where they are neither a UV map nor a plane of the object.
     """
-    mappings: list[tuple[Any, Any]] = []
-    vector = source.input("Vector")
-    while vector.node is not None and vector.node.type == "MAPPING":
-        mappings.append((vector.node, vector.groups))
-        vector = vector.input("Vector")
-    uv_map = _uv_map(vector, unlinked, notes)
+    linear, shift, vector = mapped_from(source, colors)
+    own = source.socket.node.texture_mapping
+    if any(own.translation) or any(own.rotation) or tuple(own.scale) != (1.0, 1.0, 1.0):
+        notes.append("Mappings within texture nodes {of} are left out.")
+    if vector.node is None and vector.socket != find_input(source.node, "Vector"):
+        # Not the default coordinates: a place that is the same everywhere.
+        shift, linear = linear @ np.array(vector.socket.default_value[:3]) + shift, np.zeros((3, 3))
+    uv_map = _uv_map(vector, unlinked)
     if uv_map is None:
         return None
-    scale, offset = np.ones(2), np.zeros(2)
-    for node, groups in reversed(mappings):
-        linear, shift = _mapping(node, groups, notes)
-        scale, offset = linear * scale, linear * offset + shift
-    return TextureSpace(uv_map, (float(scale[0]), float(scale[1])), (float(offset[0]), float(offset[1])))
+    if uv_map in (GENERATED, OBJECT) and np.abs(linear[:2, 2]).max() > 1e-6:
+        notes.append("Images {of} that are turned out of the object's plane XY are drawn as if they were not.")
+    (a, b), (c, d) = linear[:2, :2].tolist()
+    # What is 1e-17 by a sine of half a turn is none.
+    b, c = (0.0 if abs(x) < 1e-9 * max(abs(a), abs(d)) else x for x in (b, c))
+    return TextureSpace(uv_map, (a, d), (b, c), (float(shift[0]), float(shift[1])))
 
 
-def _uv_map(vector: Source, unlinked: str, notes: list[str]) -> str | None:
+def _uv_map(vector: Source, unlinked: str) -> str | None:
     node = vector.node
     if node is None:
         return unlinked
     if node.type == "TEX_COORD":
         if vector.socket.name == "Object" and node.object is not None:
             return None
-        known = {"UV": "", "Generated": GENERATED, "Object": OBJECT}.get(vector.socket.name)
-        if known in (GENERATED, OBJECT):
-            notes.append("its texture is drawn as seen along the object's Z axis")
-        return known
+        return {"UV": "", "Generated": GENERATED, "Object": OBJECT}.get(vector.socket.name)
     if node.type == "UVMAP":
         return str(node.uv_map)
     if node.type == "ATTRIBUTE" and node.attribute_type == "GEOMETRY" and vector.socket.name == "Vector":
         return str(node.attribute_name)
     return None
-
-
-def _mapping(node: Any, groups: Any, notes: list[str]) -> tuple[np.ndarray, np.ndarray]:
-    """(2,) factors and (2,) shift of a Mapping node in the plane; half turns about Z are the only rotation."""
-
-    def vector(name: str, default: float) -> np.ndarray:
-        if name not in node.inputs:
-            return np.full(3, default)
-        value = source_of(find_input(node, name), groups)
-        if value.node is not None:
-            notes.append(f'the {name.lower()} of node "{node.name}" varies and is left out')
-            return np.full(3, default)
-        return np.array(value.socket.default_value[:3], np.float64)
-
-    location, rotation, scale = vector("Location", 0.0), vector("Rotation", 0.0), vector("Scale", 1.0)
-    if node.vector_type == "NORMAL":
-        notes.append(f'node "{node.name}" maps normals and is left out')
-        return np.ones(2), np.zeros(2)
-    half_turns = rotation[2] / math.pi
-    if max(abs(rotation[0]), abs(rotation[1]), abs(half_turns - round(half_turns))) > 1e-5:
-        notes.append(f'the rotation of node "{node.name}" is left out')
-        half_turns = 0.0
-    sign = -1.0 if round(half_turns) % 2 else 1.0
-    factors = sign * scale[:2]
-    if node.vector_type == "TEXTURE":
-        factors = np.divide(sign, scale[:2], out=np.zeros(2), where=scale[:2] != 0.0)
-        return factors, -location[:2] * factors
-    shift = location[:2] if node.vector_type == "POINT" else np.zeros(2)
-    return factors, shift

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..arrays import MeshArrays
+from ..remarks import Remark
 from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
 
 EMPTY = MeshArrays(
@@ -37,9 +38,11 @@ class StoredMesh:
     """Index into `MeshStore.meshes`"""
     dropped: int
     """Triangles left out because a coordinate is not finite"""
-    warnings: tuple[str, ...]
+    remarks: tuple[Remark | str, ...]
     owners: frozenset[int]
     """`session_uid` of data-blocks whose change of geometry changes the mesh"""
+    reach: float
+    """Largest distance of a vertex from the object's origin, or more"""
 
 
 class MeshStore:
@@ -86,21 +89,25 @@ class MeshStore:
             owners = frozenset((owner, obj.original.session_uid, obj.data.original.session_uid))
             if is_mirrored:
                 plain = self.read(obj, owner, needs, is_mirrored=False)
-                arrays, dropped, warnings = mirrored(self.meshes[plain.number]), plain.dropped, plain.warnings
+                arrays, dropped, remarks = mirrored(self.meshes[plain.number]), plain.dropped, plain.remarks
             else:
-                arrays, dropped, warnings = self._read(obj, needs)
-            self._stored[key] = StoredMesh(self._number(arrays), dropped, warnings, owners)
+                arrays, dropped, remarks = self._read(obj, needs)
+            reach = 2.0 * float(np.abs(arrays.positions).max(initial=0.0))
+            self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach)
         return self._stored[key]
 
-    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[str, ...]]:
+    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
         reading = _read_surface(obj, needs)
         self.reads += 1
-        warnings = [f'"{obj.name}" has no {what} that its material needs.' for what in reading.missing]
+        remarks: list[Remark | str] = []
         if reading.dropped:
-            warnings.insert(
-                0, f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
+            remarks.append(
+                f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
             )
-        return reading.mesh, reading.dropped, tuple(warnings)
+        remarks += [Remark(cause, "object", obj.name) for cause in reading.repaired]
+        if reading.is_cut:
+            remarks.append(Remark("Vertex colors {of} are cut off below 0 and above 1.", "object", obj.name))
+        return reading.mesh, reading.dropped, tuple(remarks)
 
     def _number(self, arrays: MeshArrays) -> int:
         """The lowest free number for these arrays, or for the same ones as they were before."""

@@ -11,8 +11,11 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...errors import InputError
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
+from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..signature import array_signature
+from .attributes import VertexColors, attribute_data, corner_colors, corner_coordinates
 from .corners import merge_corners
 
 GENERATED = "\0generated"
@@ -26,9 +29,11 @@ class MeshNeeds:
     """What the materials on a mesh read of it."""
 
     uv_map: str | None = None
-    """Name of a UV map, "" for the one active for rendering, GENERATED, OBJECT, or None for no texture"""
-    colors: str | None = None
-    """Name of a color attribute, "" for the default one, or None"""
+    """Name of a UV map or another attribute, "" for the map active for rendering, GENERATED, OBJECT, or None for no
+    texture"""
+    colors: VertexColors | None = None
+    hidden_slots: tuple[bool, ...] = ()
+    """For each slot whether its faces are left out, as those of volumes; empty where none are"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +43,10 @@ class MeshReading:
     mesh: MeshArrays
     dropped: int = 0
     """Triangles left out because a coordinate is not finite"""
-    missing: tuple[str, ...] = ()
-    """UV maps and color attributes that a material names and the mesh lacks"""
+    is_cut: bool = False
+    """Its vertex colors have values beyond 0..1"""
+    repaired: tuple[str, ...] = ()
+    """Causes of remarks: what of it was no number and has been replaced"""
 
 
 def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
@@ -50,27 +57,36 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
     triangle_corners = _loop_triangles(mesh)
     corner_vertex = np.empty(len(mesh.loops), np.int32)
     if len(mesh.loops):
-        _data(mesh.attributes[".corner_vert"]).foreach_get("value", corner_vertex)
+        attribute_data(mesh.attributes[".corner_vert"]).foreach_get("value", corner_vertex)
     positions = np.empty((len(mesh.vertices), 3), np.float32)
     if len(mesh.vertices):
-        _data(mesh.attributes["position"]).foreach_get("vector", positions.reshape(-1))
+        attribute_data(mesh.attributes["position"]).foreach_get("vector", positions.reshape(-1))
+    if len(corner_vertex) and not 0 <= corner_vertex.min() <= corner_vertex.max() < len(positions):
+        raise InputError(f'Mesh "{mesh.name}" is damaged, it has faces without vertices: make it anew.')
     slots = _triangle_slots(mesh, len(triangle_corners))
+    if any(needs.hidden_slots):
+        shown = ~np.array(needs.hidden_slots)[np.minimum(slots, len(needs.hidden_slots) - 1)]
+        triangle_corners, slots = triangle_corners[shown], slots[shown]
 
-    finite = np.isfinite(positions)
     dropped = 0
-    if not finite.all():
-        good_vertex = finite.all(axis=1)
+    if not is_usable(positions, LARGEST_PLACE):
+        # (Comparisons with what is not a number are not true.)
+        good_vertex = (np.abs(positions) <= LARGEST_PLACE).all(axis=1)
         good = good_vertex[corner_vertex[triangle_corners]].all(axis=1)
         dropped = int(len(good) - np.count_nonzero(good))
         triangle_corners, slots = triangle_corners[good], slots[good]
 
-    missing: list[str] = []
-    uv = _uv(mesh, needs.uv_map, positions, corner_vertex, missing)
-    colors = _colors(mesh, needs.colors, corner_vertex, missing)
+    repaired: list[str] = []
+    uv = _usable(_uv(mesh, needs.uv_map, positions, corner_vertex), "Texture coordinates", repaired)
+    colors = None if needs.colors is None else corner_colors(mesh, needs.colors, corner_vertex)
+    colors = _usable(colors, "Vertex colors", repaired)
+    is_cut = colors is not None and bool((colors < -1e-6).any() or (colors > 1.0 + 1e-6).any())
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
 
-    used_corners, triangle_corners = _compact(triangle_corners, len(corner_vertex), complete=dropped == 0)
+    used_corners, triangle_corners = _compact(
+        triangle_corners, len(corner_vertex), complete=dropped == 0 and not any(needs.hidden_slots)
+    )
     if used_corners is not None:
         corner_vertex = corner_vertex[used_corners]
         normals = normals if per_vertex_normals else normals[used_corners]
@@ -109,7 +125,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         triangle_slot=slots,
         signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots),
     )
-    return MeshReading(arrays, dropped, tuple(missing))
+    return MeshReading(arrays, dropped, is_cut, tuple(repaired))
 
 
 def mirrored(mesh: MeshArrays) -> MeshArrays:
@@ -119,12 +135,6 @@ def mirrored(mesh: MeshArrays) -> MeshArrays:
     """
     triangles = np.ascontiguousarray(mesh.triangles[:, (0, 2, 1)])
     return replace(mesh, triangles=triangles, signature=array_signature(np.array([mesh.signature]), triangles))
-
-
-def _data(attribute: bpy.types.Attribute | None) -> Any:
-    """The values of an attribute; every kind has `data`, their common base has not."""
-    assert attribute is not None
-    return attribute.data
 
 
 def _loop_triangles(mesh: bpy.types.Mesh) -> Int32Array:
@@ -155,7 +165,7 @@ def _triangle_slots(mesh: bpy.types.Mesh, count: int) -> Int32Array:
     if attribute is None or count == 0:
         return np.zeros(count, np.int32)
     slot_of_face = np.empty(len(mesh.polygons), np.int32)
-    _data(attribute).foreach_get("value", slot_of_face)
+    attribute_data(attribute).foreach_get("value", slot_of_face)
     face = np.empty(count, np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", face)
     return np.maximum(slot_of_face, 0)[face]
@@ -170,8 +180,9 @@ def _normals(mesh: bpy.types.Mesh, per_vertex: bool) -> Float32Array:
 
 
 def _uv(
-    mesh: bpy.types.Mesh, name: str | None, positions: Float32Array, corner_vertex: Int32Array, missing: list[str]
+    mesh: bpy.types.Mesh, name: str | None, positions: Float32Array, corner_vertex: Int32Array
 ) -> Float32Array | None:
+    """(corners, 2); None, which is drawn as 0, also where the mesh has no such UV map, as in Cycles."""
     if name is None:
         return None
     if name in (GENERATED, OBJECT):
@@ -183,28 +194,19 @@ def _uv(
         return np.ascontiguousarray(flat, np.float32)[corner_vertex]
     layer = next((uv_map for uv_map in mesh.uv_layers if (uv_map.name == name if name else uv_map.active_render)), None)
     if layer is None:
-        missing.append(f'UV map "{name}"' if name else "a UV map")
-        return None
+        return corner_coordinates(mesh, name, corner_vertex) if name else None
     uv = np.empty((len(corner_vertex), 2), np.float32)
     if len(uv):
         layer.uv.foreach_get("vector", uv.reshape(-1))
     return uv
 
 
-def _colors(
-    mesh: bpy.types.Mesh, name: str | None, corner_vertex: Int32Array, missing: list[str]
-) -> Float32Array | None:
-    if name is None:
-        return None
-    attribute = mesh.color_attributes.get(name or mesh.attributes.default_color_name)
-    if attribute is None:
-        missing.append(f'color attribute "{name}"' if name else "a color attribute")
-        return None
-    data = _data(attribute)
-    colors = np.empty((len(data), 4), np.float32)
-    if len(data):
-        data.foreach_get("color", colors.reshape(-1))
-    return colors[corner_vertex] if attribute.domain == "POINT" else colors
+def _usable(layer: Float32Array | None, what: str, repaired: list[str]) -> Float32Array | None:
+    """A layer (n, k) with 0 in place of what is no number."""
+    if layer is None or is_usable(layer):
+        return layer
+    repaired.append(f"{what} {{of}} that are not usable numbers are taken for 0.")
+    return np.where(np.abs(layer) <= LARGEST_LIGHT, layer, np.float32(0.0))
 
 
 def _compact(indices: Int32Array, count: int, complete: bool) -> tuple[Int32Array | None, Int32Array]:

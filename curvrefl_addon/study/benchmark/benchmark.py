@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ...output import write_whole
+from ...output import folder_to_publish
 from ...renderer.device.context import platform_facts
 from ...report.table import NO_NUMBER, aligned, number
 from .rays import measure_rays
@@ -56,8 +56,9 @@ def measure_benchmark(
                     shares = limits.share(row[f"{state}_bytes"], row[f"{state}_operations"], rate)
                     row |= {f"{state}_{share}": value for share, value in shares.items()}
             report[name].append(row)
-            write_whole(folder / "benchmark.json", json.dumps(report, indent=1) + "\n")
-            write_whole(folder / "benchmark.txt", format_benchmark(report) + "\n")
+            with folder_to_publish(folder) as part:
+                (part / "benchmark.json").write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+                (part / "benchmark.txt").write_text(format_benchmark(report) + "\n", encoding="utf-8")
     return report
 
 

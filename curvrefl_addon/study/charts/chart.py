@@ -16,8 +16,10 @@ import bpy
 from ...output import folder_to_publish
 from ...renderer.device.context import renderer_name
 from ...report.compare import Comparison, Step
-from ...scene.blend_file import find_camera, open_blend, view_of_camera
-from .chart_data import read_scene, scene_steps, step_count
+from ...scene.blend_file import open_blend
+from ...scene.render_depsgraph import read_render_scene
+from ...streams import readable
+from .chart_data import scene_steps, step_count
 from .chart_draw import draw_chart, draw_vertex_count, has_matplotlib, require_matplotlib
 from .chart_marks import Mark, rows, write_csv
 from .vertex_count import vertex_count_steps
@@ -75,7 +77,7 @@ def open_scene_steps(
     Yields before each step; closed between two of them it leaves nothing, and the scene as it was. Raises as
     `chart_data.scene_steps`.
     """
-    name = Path(bpy.data.filepath).stem or scene.name
+    name = readable(Path(bpy.data.filepath).stem) or scene.name
     count = step_count(comparison) + 1
     with folder_to_publish(output) as folder:
         steps = scene_steps(scene, view_layer, reflector_names, comparison, name)
@@ -107,8 +109,7 @@ def chart_steps(
             scene, view_layer = bpy.context.scene, bpy.context.view_layer
             assert scene is not None and view_layer is not None, "an open file has both"
             if index == 0:
-                arrays = read_scene(scene, view_layer, file.reflectors)
-                view = view_of_camera(scene, find_camera(scene), file.width, file.height)
+                arrays, view = read_render_scene(scene, view_layer, file.reflectors, file.width, file.height)
                 curves = yield from _counted(vertex_count_steps(arrays, view, comparison.methods, largest), 0, count)
             here = replace(comparison, width=file.width, height=file.height)
             steps = scene_steps(scene, view_layer, file.reflectors, here, file.name)

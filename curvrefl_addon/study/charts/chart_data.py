@@ -19,12 +19,12 @@ from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...report.compare import Comparison
 from ...report.cycles_reference import Still, render_peer, render_reference
+from ...report.direct_light import mirrors_met
 from ...report.geometry_reference import GeometryReference, render_geometry
 from ...report.measured_frame import frame_geometry_error, image_error, measure_frame, measure_times
 from ...report.metrics import missing_flip
 from ...scene.arrays import SceneArrays
-from ...scene.blend_file import find_camera, find_reflectors, view_of_camera
-from ...scene.extract import extract_scene
+from ...scene.render_depsgraph import read_render_scene
 from ...scene.view import View
 from ..solvers.solver_table import settings_of
 from ..solvers.vertex_accuracy import VertexTruth
@@ -32,6 +32,7 @@ from .chart_marks import Mark
 
 FRAMES = 2
 """Timed in each of two rounds through all methods"""
+BLURRED = "Depth of field and motion blur are left out, on all sides: methods are charted by sharp pictures."
 PEER_REPEATS, PEER_SECONDS = 3, 2.0
 """A peer is timed again while it has taken less: one that needs half a minute once is timed once"""
 
@@ -67,10 +68,11 @@ def scene_steps(
     Raises InputError for what is wrong with the scene itself; RenderCanceledError where the user stops a render.
     """
     yield "Reading the scene"
-    view = view_of_camera(scene, find_camera(scene), comparison.width, comparison.height)
-    arrays = read_scene(scene, view_layer, reflector_names)
+    arrays, view = read_render_scene(scene, view_layer, reflector_names, comparison.width, comparison.height)
+    is_blurred = scene.render.use_motion_blur or view.lens is not None
+    view = replace(view, lens=None)
     vertex_truth = VertexTruth(arrays, view)
-    warnings = [*vertex_truth.warnings, *filter(None, [missing_flip()])]
+    warnings = [*vertex_truth.warnings, *filter(None, [missing_flip(), BLURRED if is_blurred else ""])]
 
     try:
         marks = yield from _marks(scene, view_layer, arrays, view, comparison, scene_name, vertex_truth)
@@ -95,7 +97,10 @@ def _marks(
     if not geometry.mask.any():
         raise InputError(f"No reflector is in view of the camera of {scene_name}: turn the camera, or name others.")
     yield f"Rendering the reference in Cycles with {comparison.samples} samples"
-    reference = render_reference(scene, view_layer, width, height, comparison.samples, comparison.light)
+    bounces = mirrors_met(arrays, comparison.settings.bounces)
+    reference = render_reference(
+        scene, view_layer, width, height, comparison.samples, comparison.light, bounces, sharp=True
+    )
     yield "Looking for all reflection points of the vertices"
     vertex_truth.prepare()
 
@@ -104,9 +109,7 @@ def _marks(
     for name in comparison.methods:
         for settings, value, is_default in sweep(name):
             setting = settings.entry.sweep[0]
-            if comparison.light == "direct":
-                # As Cycles there.
-                settings = replace(settings, bounces=1)
+            settings = replace(settings, bounces=comparison.settings.bounces)
             yield f"Rendering {name}, {setting} {value:g}"
             mark = Mark(scene_name, name, setting, value, is_default)
             try:
@@ -124,7 +127,9 @@ def _marks(
     mask = geometry.mask != 0
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
-        still = render_peer(scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS)
+        still = render_peer(
+            scene, view_layer, peer, width, height, comparison.light, PEER_REPEATS, PEER_SECONDS, bounces, True
+        )
         error = image_error(still.pixels, reference.pixels, mask)
         samples = peer.removeprefix("cycles")
         engine = ("cycles", "samples", float(samples)) if samples.isdigit() else (peer, "", None)
@@ -139,13 +144,6 @@ def _marks(
             )
         )
     return marks
-
-
-def read_scene(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reflector_names: Sequence[str]) -> SceneArrays:
-    """The open scene at its frame. Raises InputError for what is wrong with it."""
-    with bpy.context.temp_override(scene=scene, view_layer=view_layer):
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-    return extract_scene(depsgraph, scene, find_reflectors(scene, reflector_names), for_render=True)
 
 
 def _measured(

@@ -7,7 +7,6 @@ from __future__ import annotations
 import colorsys
 import importlib.util
 import os
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from ...diagnostic_colors import GOLDEN_RATIO
 from ...errors import InputError
 from ...optics.catalog import METHODS, label_of
+from ...output import temporary_folder
 from ...report.table import milliseconds
 from .chart_marks import LEVELS, MOST_WRONG, Level, Mark, front_marks, point
 from .vertex_curves import Curve
@@ -262,8 +262,8 @@ def _matplotlib() -> Iterator[None]:
     """matplotlib as it comes, whatever the user's settings; its cache of fonts goes to a temporary folder."""
     require_matplotlib()
     before = os.environ.get("MPLCONFIGDIR")
-    with tempfile.TemporaryDirectory(prefix="curvrefl-") as folder:
-        os.environ["MPLCONFIGDIR"] = folder
+    with temporary_folder() as folder:
+        os.environ["MPLCONFIGDIR"] = str(folder)
         try:
             import matplotlib
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from curvrefl.curvrefl_addon.report.compare import compare_blend
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
+from curvrefl.curvrefl_addon.scene.camera.shutter import Moment
 from curvrefl.curvrefl_addon.scene.view import View
 
 WIDTH, HEIGHT, SAMPLES = 64, 48, 4
@@ -67,7 +68,8 @@ class CyclesRenderer:
     def settle(self) -> None:
         pass
 
-    def render(self, view: View) -> CyclesFrame:
+    def render(self, view: View, *, moments: Sequence[Moment] = ()) -> CyclesFrame:
+        assert not moments
         assert (view.width, view.height) == (WIDTH, HEIGHT)
         return self.frame_type(self._scene, next(self._times))
 
@@ -97,7 +99,8 @@ class BlackRenderer(CyclesRenderer):
 
 
 class FailingRenderer(CyclesRenderer):
-    def render(self, view: View) -> CyclesFrame:
+    def render(self, view: View, *, moments: Sequence[Moment] = ()) -> CyclesFrame:
+        assert not moments
         raise RuntimeError("the renderer broke down")
 
 

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.report import cycles_reference
 from curvrefl.curvrefl_addon.report.cycles_reference import Still, render_peer, render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.report.images import load_exr, save_exr, save_png
-from curvrefl.curvrefl_addon.report.temporary_settings import temporary_settings
+from curvrefl.curvrefl_addon.scene.temporary_settings import temporary_settings
 
 WIDTH, HEIGHT = 16, 12
 
@@ -116,7 +116,7 @@ def make_eventful(scene: bpy.types.Scene) -> None:
     marker.camera = elsewhere
     scene.camera = chosen
     bpy.ops.mesh.primitive_cube_add(size=4, location=(0, 0, 2))
-    bpy.context.object.hide_viewport = True
+    bpy.context.object.hide_render = True
     subdivision = bpy.data.objects["floor"].modifiers.new("subdivision", "SUBSURF")
     subdivision.levels, subdivision.render_levels, subdivision.show_render = 0, 2, False
     bpy.data.objects["floor"].pass_index = 12

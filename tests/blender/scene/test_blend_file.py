@@ -12,6 +12,7 @@ import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+from curvrefl.curvrefl_addon.scene.render_depsgraph import with_render_depsgraph
 from extraction import add, empty_scene, link
 from mathutils import Vector
 
@@ -96,6 +97,19 @@ def test_finding_a_camera(scene: bpy.types.Scene) -> None:
     assert find_camera(scene) == eye
 
 
+def test_the_camera_of_a_marker(scene: bpy.types.Scene) -> None:
+    scene.camera = camera()
+    for frame in (10, 20, 30):
+        marker = scene.timeline_markers.new(f"at {frame}", frame=frame)
+        marker.camera = link(bpy.data.objects.new(f"from {frame}", bpy.data.cameras.new("eye")))
+    for frame, name in ((1, "from 10"), (10, "from 10"), (19, "from 10"), (20, "from 20"), (99, "from 30")):
+        scene.frame_current = frame
+        assert find_camera(scene).name == name
+        with_render_depsgraph(scene, bpy.context.view_layer, lambda _depsgraph: None, camera=find_camera(scene))
+        bpy.ops.render.render()
+        assert scene.camera.name == name, "Blender itself chooses another"
+
+
 def test_finding_reflectors(scene: bpy.types.Scene) -> None:
     ball, block = add("Mirror Ball"), add("Block")
     assert find_reflectors(scene, ["Block", "Mirror Ball", "Block"]) == [block, ball]
@@ -104,17 +118,11 @@ def test_finding_reflectors(scene: bpy.types.Scene) -> None:
         ("zzz", 'choose from "Block", "Mirror Ball"'),
         ("camera", "not a mesh but of type camera"),
         ("bare", "no faces"),
-        ("hidden", "is hidden"),
-        ("unrendered", "is hidden"),
     ):
         if name == "camera":
             camera()
         elif name == "bare":
             add("bare", [(0, 0, 0)], [])
-        elif name == "hidden":
-            add("hidden").hide_set(True)
-        elif name == "unrendered":
-            add("unrendered").hide_render = True
         with pytest.raises(InputError, match=said) as caught:
             find_reflectors(scene, [name])
         assert str(caught.value).endswith((".", "?"))

@@ -118,7 +118,8 @@ def test_the_map_active_for_rendering_and_a_named_map() -> None:
     named.uv_map = "gone"
     scene = extracted(square)
     assert mesh_of(scene, "square").corner_uv is None
-    assert any('UV map "gone"' in warning for warning in scene.warnings)
+    # Cycles shows the pixel at the image's corner all over, and so does a mesh without coordinates.
+    assert not scene.warnings
 
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])
@@ -146,7 +147,7 @@ def test_modifiers_and_polygons_of_many_sides() -> None:
     assert len(mesh.positions) == 24
     assert mesh.triangles.shape == (18, 3)
     np.testing.assert_allclose(face_normals(mesh), np.tile([0.0, 0.0, 1.0], (18, 1)), atol=1e-6)
-    array.show_viewport = False
+    array.show_render = False
     assert len(mesh_of(extracted(disk), "disk").positions) == 8
 
 

@@ -119,7 +119,9 @@ def test_what_the_viewport_hides() -> None:
     bpy.data.collections["hidden"].hide_viewport = True
     add("excluded", collection=collection("excluded"))
     bpy.context.view_layer.layer_collection.children["excluded"].exclude = True
-    assert names() == {"seen"}
+    shown = {instance.object_name for instance in extracted(for_render=False).instances}
+    assert shown == {"seen"}
+    assert names() == {"seen", "hidden", "closed eye", "in hidden collection"}
 
 
 def test_hidden_within_an_instanced_collection() -> None:
@@ -203,8 +205,10 @@ def test_a_flattened_object() -> None:
 def test_a_hidden_reflector(hide: str) -> None:
     cube = add("cube")
     setattr(cube, hide, True)
+    in_render = hide == "hide_viewport"
+    assert extracted(cube, for_render=in_render).reflectors
     with pytest.raises(InputError, match='"cube" is hidden'):
-        extracted(cube)
+        extracted(cube, for_render=not in_render)
 
 
 def test_a_reflector_that_modifiers_leave_nothing_of() -> None:

@@ -24,12 +24,12 @@ def texture_color(scene: SceneArrays, name: str, uv: np.ndarray) -> np.ndarray:
     """What the renderer's shader does (surface_color.glsl), for (h, w, 2) coordinates."""
     material = material_of(scene, name)
     image = scene.images[material.image]
-    place = uv * np.array(material.uv_scale) + np.array(material.uv_offset)
+    place = uv * np.array(material.uv_scale) + uv[..., ::-1] * np.array(material.uv_turn) + np.array(material.uv_offset)
     height, width = image.pixels.shape[:2]
     place = place * (width, height)
     if image.nearest:
         column, row = np.floor(place[..., 0]).astype(int), np.floor(place[..., 1]).astype(int)
-        found = _texel(image.pixels, column, row, image.repeat)
+        found = _texel(image.pixels, column, row, image.extension)
     else:
         place = place - 0.5
         low = np.floor(place).astype(int)
@@ -37,17 +37,25 @@ def texture_color(scene: SceneArrays, name: str, uv: np.ndarray) -> np.ndarray:
         found = sum(
             (part[..., 0:1] if dx else 1 - part[..., 0:1])
             * (part[..., 1:2] if dy else 1 - part[..., 1:2])
-            * _texel(image.pixels, low[..., 0] + dx, low[..., 1] + dy, image.repeat)
+            * _texel(image.pixels, low[..., 0] + dx, low[..., 1] + dy, image.extension)
             for dx in (0, 1)
             for dy in (0, 1)
         )
     return found[..., :3] * np.array(material.base_color)
 
 
-def _texel(pixels: np.ndarray, column: np.ndarray, row: np.ndarray, repeat: bool) -> np.ndarray:
+def _texel(pixels: np.ndarray, column: np.ndarray, row: np.ndarray, extension: str) -> np.ndarray:
     height, width = pixels.shape[:2]
-    if repeat:
+    if extension == "REPEAT":
         return pixels[row % height, column % width]
+    if extension == "MIRROR":
+        row, column = (
+            np.minimum(place % (2 * size), 2 * size - 1 - place % (2 * size))
+            for place, size in ((row, height), (column, width))
+        )
+    outside = (row < 0) | (row >= height) | (column < 0) | (column >= width)
+    if extension == "CLIP":
+        return np.where(outside[..., None], 0.0, pixels[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)])
     return pixels[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
 
 
@@ -93,6 +101,35 @@ def _extended(tree: Tree) -> Any:
     return texture.outputs["Color"]
 
 
+def _beyond(extension: str) -> BuildColor:
+    def build(tree: Tree) -> Any:
+        uv = node(tree, "ShaderNodeTexCoord").outputs["UV"]
+        inputs = {"Vector": uv, "Scale": (2.5, 2.5, 1.0), "Location": (-0.8, -0.7, 0.0)}
+        mapping = node(tree, "ShaderNodeMapping", inputs)
+        image = smooth_image()
+        return node(
+            tree, "ShaderNodeTexImage", {"Vector": mapping.outputs[0]}, image=image, extension=extension
+        ).outputs[0]
+
+    return build
+
+
+def _twice_mapped(tree: Tree) -> Any:
+    """By nodes of two kinds, about all axes."""
+    vector = node(tree, "ShaderNodeTexCoord").outputs["UV"]
+    for kind, turn in (("POINT", (0.4, -0.3, 0.7)), ("TEXTURE", (0.2, 0.5, -1.1))):
+        inputs = {"Vector": vector, "Rotation": turn, "Scale": (1.5, 0.8, 2.0)}
+        vector = node(tree, "ShaderNodeMapping", inputs, vector_type=kind).outputs[0]
+    return node(tree, "ShaderNodeTexImage", {"Vector": vector}, image=smooth_image()).outputs["Color"]
+
+
+def _turned_checker(tree: Tree) -> Any:
+    uv = node(tree, "ShaderNodeUVMap").outputs["UV"]
+    mapping = node(tree, "ShaderNodeMapping", {"Vector": uv, "Rotation": (0.0, 0.0, 0.5)})
+    inputs = {"Vector": mapping.outputs[0], "Scale": 5.0, "Color1": COLOR, "Color2": OTHER}
+    return node(tree, "ShaderNodeTexChecker", inputs).outputs["Color"]
+
+
 def _generated(tree: Tree) -> Any:
     place = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
     return node(tree, "ShaderNodeTexImage", {"Vector": place}, image=smooth_image()).outputs["Color"]
@@ -112,6 +149,11 @@ TEXTURES: dict[str, BuildColor] = {
     ],
     "mapped as point": _mapped("POINT"),
     "turned by half": _mapped("POINT", math.pi),
+    **{f"turned as {kind}": _mapped(kind, 0.6) for kind in ("POINT", "TEXTURE", "VECTOR")},
+    "mapped twice": _twice_mapped,
+    "turned checker": _turned_checker,
+    "clipped": _beyond("CLIP"),
+    "mirrored": _beyond("MIRROR"),
     "mapped as texture": _mapped("TEXTURE"),
     "mapped as vector": _mapped("VECTOR"),
     "extended": _extended,
@@ -147,9 +189,9 @@ def test_textures_are_those_of_cycles() -> None:
         theirs = picture[:, index * pixels : (index + 1) * pixels]
         # The pixel filter blurs sharp edges, and the neighbor comes in at the border.
         error = np.abs(ours - theirs)[2:-2, 2:-2].max(axis=-1)
-        quantile = 0.4 if name in ("closest", "checker") else 0.9
+        quantile = 0.4 if name in ("closest", "checker", "turned checker") else 0.9
         # Between the texels of byte images Cycles interpolates before it decodes.
-        limit = 0.035 if name == "byte sRGB" else 0.02
+        limit = 0.035 if name in ("byte sRGB", "turned as TEXTURE", "clipped", "mirrored") else 0.02
         assert np.quantile(error, quantile) < limit, (name, np.quantile(error, [0.4, 0.9, 1.0]))
 
 
@@ -198,7 +240,7 @@ def test_a_missing_image_is_magenta() -> None:
     tree.links.new(node(tree, "ShaderNodeTexImage", image=image).outputs[0], shader.inputs["Color"])
     scene = extracted()
     np.testing.assert_array_equal(scene.images[0].pixels, [[(1.0, 0.0, 1.0, 1.0)]])
-    assert any('"lost" has no pixels' in warning for warning in scene.warnings)
+    assert 'The pixels of image "lost" are missing: drawn magenta, as in Cycles.' in scene.warnings
 
 
 def test_a_packed_image(tmp_path: Any) -> None:

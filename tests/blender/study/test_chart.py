@@ -16,9 +16,8 @@ from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.compare import Comparison
-from curvrefl.curvrefl_addon.scene.blend_file import find_camera, view_of_camera
+from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.study.charts.chart import open_scene_steps
-from curvrefl.curvrefl_addon.study.charts.chart_data import read_scene
 from curvrefl.curvrefl_addon.study.charts.vertex_count import shell_positions
 from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth
 from curvrefl.operators.compare_with_cycles import TEXT_NAME
@@ -127,8 +126,7 @@ def test_vertices_are_judged_by_true_reflections() -> None:
     """Fewer steps of a fixed-step search end farther away, and a flat mirror for a ball far away."""
     build_scene()
     scene, layer = bpy.context.scene, bpy.context.view_layer
-    view = view_of_camera(scene, find_camera(scene), 640, 480)
-    truth = VertexTruth(read_scene(scene, layer, ["Mirror Ball"]), view)
+    truth = VertexTruth(*read_render_scene(scene, layer, ["Mirror Ball"], 640, 480))
     try:
         truth.prepare()
         few, many, flat = (

@@ -44,7 +44,8 @@ def repository(tmp_path: Path) -> Path:
     root = tmp_path / "a copy"
     (root / "tools").mkdir(parents=True)
     shutil.copy2(ROOT / "curvrefl", root)
-    shutil.copy2(ROOT / "tools" / "set_up.py", root / "tools")
+    for name in ("set_up.py", "supervise.py"):
+        shutil.copy2(ROOT / "tools" / name, root / "tools")
     (root / "tools" / "run_verb.py").write_text("import bpy, sys\nprint(bpy.VERSION, *sys.argv[1:])\nsys.exit(7)\n")
     (root / "requirements.txt").write_text("# Blender\nbpy==1.0\n")
     (root / "requirements-dev.txt").write_text("numpy==1.0\n")

@@ -23,29 +23,29 @@ def test_files_arrive_at_the_end_the_report_last(tmp_path: Path, monkeypatch: py
 
     monkeypatch.setattr(output.os, "replace", record)
     with folder_to_publish(target) as folder:
-        for name in ("report.json", "a.png", "z.png"):
+        for name in ("report.json", "a.txt", "z.txt"):
             (folder / name).write_text(name)
         assert not target.exists()
-    assert moved == ["a.png", "z.png", "report.json"]
-    assert sorted(path.name for path in target.iterdir()) == ["a.png", "report.json", "z.png"]
+    assert moved == ["a.txt", "z.txt", "report.json"]
+    assert sorted(path.name for path in target.iterdir()) == ["a.txt", "report.json", "z.txt"]
     assert [path.name for path in tmp_path.iterdir()] == ["new"]
 
 
 def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
-    (tmp_path / "a.png").write_text("old")
+    (tmp_path / "a.txt").write_text("old")
     with pytest.raises(ZeroDivisionError), folder_to_publish(tmp_path) as folder:
-        (folder / "a.png").write_text("half")
+        (folder / "a.txt").write_text("half")
         raise ZeroDivisionError
-    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
-    assert (tmp_path / "a.png").read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
+    assert (tmp_path / "a.txt").read_text() == "old"
 
 
 def test_older_results_are_replaced(tmp_path: Path) -> None:
-    (tmp_path / "a.png").write_text("old")
+    (tmp_path / "a.txt").write_text("old")
     (tmp_path / "mine.txt").write_text("kept")
     with folder_to_publish(tmp_path) as folder:
-        (folder / "a.png").write_text("new")
-    assert (tmp_path / "a.png").read_text() == "new"
+        (folder / "a.txt").write_text("new")
+    assert (tmp_path / "a.txt").read_text() == "new"
     assert (tmp_path / "mine.txt").read_text() == "kept"
 
 

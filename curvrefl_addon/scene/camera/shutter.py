@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shutter: at which moments the sub-frames of a picture with motion blur show the scene, and the scene then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import floor
+from operator import is_
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..arrays import Float64Array, SceneArrays
+from ..changes import Changes
+from ..view import View
+from .sampling import scattered_strata
+
+_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
+_CURVE_STEPS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What a sub-frame shows in place of what the frame itself does."""
+
+    scene: SceneArrays
+    view: View
+
+
+type ReadMoment = Callable[[Changes], tuple[SceneArrays, View]]
+"""What is there at the present time, of which only these changes are looked at"""
+
+
+def shutter_times(scene: bpy.types.Scene, samples: int) -> Float64Array:
+    """(samples,) frames after the present one at which sub-frames see the scene; each stands for as much light."""
+    render = scene.render
+    strata = scattered_strata(samples)
+    curve = render.motion_blur_shutter_curve
+    curve.initialize()
+    places = np.linspace(0.0, 1.0, _CURVE_STEPS + 1)
+    openness = np.array([max(curve.evaluate(curve.curves[0], place), 0.0) for place in places])
+    let_in = np.concatenate([[0.0], np.cumsum(0.5 * (openness[1:] + openness[:-1]))])
+    open_at = np.interp(strata, let_in / let_in[-1], places) if let_in[-1] > 0.0 else strata
+    return render.motion_blur_shutter * (open_at + _STARTS[render.motion_blur_position])
+
+
+def read_moments(
+    scene: bpy.types.Scene,
+    still: Moment,
+    samples: int,
+    read: ReadMoment,
+    go_to: Callable[[int, float], None] | None = None,
+) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
+    """What each of `samples` sub-frames shows of the scene, and what of it is not as in Cycles, one sentence each.
+
+    No moments where the file has no motion blur or nothing moves. `still`: at the present frame. `go_to(frame,
+    subframe)` shows the scene at another time, by `Scene.frame_set` if not given; the
+    present one is shown again at the end. As in Cycles lamps, world and
+    materials stay as at the frame.
+    """
+    if not scene.render.use_motion_blur:
+        return (), ()
+    if samples == 1:
+        return (), ("Motion blur is left out: it takes more than one sample.",)
+    times = shutter_times(scene, samples)
+    now = scene.frame_current + scene.frame_subframe
+    go_to = go_to or (lambda frame, subframe: scene.frame_set(frame, subframe=subframe))
+    moments: dict[int, Moment] = {}
+    try:
+        for index in np.argsort(times).tolist():
+            frame = floor(now + times[index])
+            go_to(frame, float(now + times[index] - frame))
+            arrays, view = read(_all_that_moves())
+            arrays = replace(arrays, lights=still.scene.lights, world=still.scene.world)
+            moments[index] = Moment(arrays, view)
+    finally:
+        go_to(floor(now), float(now - floor(now)))
+    found = tuple(moments[index] for index in range(samples))
+    if all(_is_same(moment, still) for moment in found):
+        return (), ()
+    return found, tuple(_untold(scene, still, found))
+
+
+def _all_that_moves() -> Changes:
+    """Places and shapes of all objects, but not what they are made of."""
+    data: Any = bpy.data
+    blocks = (data.objects, data.meshes, data.curves, data.metaballs)
+    return Changes(instances=True, geometry={block.session_uid for group in blocks for block in group})
+
+
+def _is_same(one: Moment, other: Moment) -> bool:
+    return (
+        len(one.scene.instances) == len(other.scene.instances)
+        and all(map(is_, one.scene.instances, other.scene.instances))
+        and [mesh.signature for mesh in one.scene.meshes] == [mesh.signature for mesh in other.scene.meshes]
+        and np.array_equal(one.view.world_to_clip, other.view.world_to_clip)
+        and one.view.lens == other.view.lens
+    )
+
+
+def _untold(scene: bpy.types.Scene, still: Moment, found: tuple[Moment, ...]) -> list[str]:
+    """What moves otherwise than in Cycles."""
+    moving = {
+        there.object_name
+        for moment in found
+        for here, there in zip(still.scene.instances, moment.scene.instances, strict=False)
+        if here is not there
+    }
+    cycles: Any = getattr(scene, "cycles", None)
+    sentences = [
+        f'"{name}" is blurred by its motion, though its Motion Blur is off.'
+        for name in sorted(moving)
+        if name in scene.objects and not getattr(scene.objects[name], "cycles", cycles).use_motion_blur
+    ]
+    if cycles is not None and cycles.rolling_shutter_type != "NONE":
+        sentences.append("The rolling shutter is left out: all rows of the picture are exposed at once.")
+    return sentences
