@@ -72,7 +72,8 @@ class Preparation:
             shown.append(self._show(stage, mirror, view, mine, old, at_rest, warnings))
             if item is not None and isinstance(shown[-1], ShownVertices):
                 warnings += shown[-1].shape.warnings
-        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice)
+        coarse = stage.lighting.too_coarse(view)
+        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice, coarse, at_rest)
 
     def _choose(
         self,

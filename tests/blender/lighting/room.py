@@ -98,7 +98,7 @@ def our_room(mirrors: tuple[str, ...] = ("mirror",), method: str = "exact") -> t
     """Picture and warnings of the open scene as a render shows it."""
     scene: Any = bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors], for_render=True)
+    arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors])
     renderer = Renderer(arrays, Settings(method=method, samples=16))
     size = (scene.render.resolution_x, scene.render.resolution_y)
     frame = renderer.render(view_of_camera(scene, scene.camera, *size, depsgraph))
