@@ -89,6 +89,16 @@ def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
 
 
+def mirrors_in(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
+    """Objects marked as mirrors that a depsgraph shows, themselves or by instances, once each."""
+    found: dict[int, bpy.types.Object] = {}
+    for instance in depsgraph.object_instances:
+        obj: Any = instance.object.original
+        if instance.show_self and obj.curvrefl.is_mirror and obj.type in SURFACE_TYPES:
+            found[obj.session_uid] = obj
+    return list(found.values())
+
+
 def overrides_of(mirrors: Iterable[bpy.types.Object]) -> dict[int, MaterialArrays]:
     """By session_uid, the materials that mirrors' settings put in place of their own."""
     return {mirror.session_uid: material for mirror in mirrors if (material := _override_of(mirror)) is not None}

@@ -9,13 +9,13 @@ import os
 import shutil
 import tempfile
 import uuid
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from .errors import InputError
 from .supervised import publishing, removed_at_end
-from .written_files import BROKEN_OFF, UNWRITABLE, require_whole
+from .written_files import BROKEN_OFF, NO_ROOM, UNWRITABLE, require_whole
 
 LONGEST_NAME = 255
 """Bytes that file systems give a name"""
@@ -65,8 +65,7 @@ def folder_to_publish(folder: Path) -> Iterator[Path]:
     with removed_at_end(_existing_base(folder) / f".curvrefl-{uuid.uuid4().hex}") as part:
         with _said(folder):
             part.mkdir(0o700)
-        with _said(folder, BROKEN_OFF):
-            # (where something cannot be read, that is another matter)
+        with _said(folder, inside=part):
             yield part
         with _said(folder):
             paths = sorted(part.iterdir(), key=lambda path: (path.name.startswith("report"), path.name))
@@ -152,19 +151,27 @@ def _move(path: Path, target: Path) -> None:
 
 
 @contextmanager
-def _said(place: Path, numbers: Collection[int] = UNWRITABLE) -> Iterator[None]:
-    """Errors that mean that a place cannot be written to, as a sentence."""
+def _said(place: Path, inside: Path | None = None) -> Iterator[None]:
+    """Errors that mean that a place cannot be written to, as a sentence.
+
+    With `inside` only those of files in that folder, and those that can only come of writing.
+    """
     try:
         yield
     except OSError as error:
-        if error.errno not in numbers:
+        name = error.filename
+        is_here = inside is None or (name is not None and Path(os.fsdecode(name)).is_relative_to(inside))
+        if error.errno not in (UNWRITABLE if is_here else NO_ROOM):
             raise
         raise unwritable(place, error) from error
 
 
 def _target(path: Path) -> Path:
     """What is written instead of `path`: the end of its links where it is one."""
-    return Path(os.path.realpath(path)) if path.is_symlink() else path
+    target = Path(os.path.realpath(path)) if path.is_symlink() else path
+    if target.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
+    return target
 
 
 def _require_length(path: Path) -> None:

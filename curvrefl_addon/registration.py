@@ -15,8 +15,11 @@ from .gpu_caches import clear_gpu_caches
 
 OPERATORS = ("bake_reflector", "compare_with_cycles", "mirror_settings", "save_preview", "trace_at_cursor")
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "menus")
+INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
+
+ENGINE = "engine.engine"
+"""The module of `curvrefl_addon` that is a render engine; as those of INTERFACE"""
 
 _PACKAGE = __package__.rpartition(".")[0]
 _classes: list[type] = []
@@ -28,6 +31,7 @@ def register() -> None:
     try:
         modules = [_module(f"operators.{name}") for name in OPERATORS]
         modules += [_module(f"curvrefl_addon.ui.{name}") for name in INTERFACE]
+        modules.append(_module(f"curvrefl_addon.{ENGINE}"))
         for module in modules:
             for cls in module.CLASSES:
                 bpy.utils.register_class(cls)
@@ -47,8 +51,8 @@ def unregister() -> None:
         tracing.clear()
     if (viewport := sys.modules.get(f"{__package__}.viewport.handlers")) is not None:
         viewport.unregister()
-    for name in reversed(INTERFACE):
-        module = sys.modules.get(f"{__package__}.ui.{name}")
+    for name in (ENGINE, *(f"ui.{name}" for name in reversed(INTERFACE))):
+        module = sys.modules.get(f"{__package__}.{name}")
         if module is not None and hasattr(module, "remove"):
             module.remove()
     while _commands:

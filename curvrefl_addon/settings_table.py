@@ -77,7 +77,7 @@ class Settings:
         choices=METHOD_CHOICES,
         panel="Quality",
         preference=True,
-        flags=(Flag("render", "--method", "how to reflect", default="auto", metavar="M"),),
+        flags=(Flag("render", "--method", "how to reflect", metavar="M"),),
     )
     pixel_tolerance: float = setting(
         0.5,
@@ -102,7 +102,7 @@ class Settings:
         panel="Quality",
         preference=True,
         flags=(
-            Flag("render", "--samples", "for anti-aliasing", default=STILL_SAMPLES),
+            Flag("render", "--samples", "for anti-aliasing"),
             Flag("compare", "--sub-frames", "of our pictures; at least 16 where the file blurs"),
         ),
         said="{} samples are",
@@ -111,7 +111,7 @@ class Settings:
     bounces: int = setting(
         4,
         label="Bounces",
-        text="Mirrors seen in mirrors, and in themselves, one after the other",
+        text="Mirrors seen in mirrors, and in themselves, one after the other; no more than the scene's glossy bounces",
         hard=(1, 64),
         soft=(1, 32),
         panel="Quality",
@@ -206,6 +206,16 @@ class SceneSettings:
         panel="Quality",
         preference=True,
     )
+    render_samples: int = setting(
+        STILL_SAMPLES,
+        label="Render Samples",
+        text="Pictures that are averaged against jagged edges in a render (F12)",
+        hard=(1, 1024),
+        soft=(1, 64),
+        panel="Quality",
+        preference=True,
+        said="{} samples are",
+    )
     environment: str = setting(
         "VIEWPORT",
         label="Environment",
@@ -243,6 +253,37 @@ class SceneSettings:
         text="Axis that the stripes lie around and the line lights run along",
         unit="direction",
         panel="Diagnostic View",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ViewLayerSettings:
+    """Properties of `ViewLayer.curvrefl`."""
+
+    use_pass_mirror: bool = setting(
+        False,
+        label="Mirror",
+        text="What the mirrors show and nothing else, with the mirrors' coverage as alpha; it is drawn on its own",
+        panel="Passes",
+    )
+    use_pass_position: bool = setting(
+        False,
+        label="Position",
+        text="Where in the world that is what the mirrors show at the pixels' centers (W is 1), or in which direction "
+        "its background (W is 0)",
+        panel="Passes",
+    )
+    use_pass_object: bool = setting(
+        False,
+        label="Object",
+        text="The number of the object that the mirrors show there, 0 for the background",
+        panel="Passes",
+    )
+    use_pass_iterations: bool = setting(
+        False,
+        label="Iterations",
+        text="How many steps the search for the reflection point took there",
+        panel="Passes",
     )
 
 
@@ -307,7 +348,9 @@ OF_SCENES = tuple(item for item in (*RENDERER, *settings_in(SceneSettings)) if i
 """Properties of `Scene.curvrefl`"""
 OF_OBJECTS = settings_in(ObjectSettings)
 """Properties of `Object.curvrefl`"""
+OF_VIEW_LAYERS = settings_in(ViewLayerSettings)
+"""Properties of `ViewLayer.curvrefl`"""
 OF_NEW_SCENES = tuple(item for item in OF_SCENES if item.preference)
 """Properties of `Scene.curvrefl` whose first values are preferences"""
 OF_PREFERENCES = settings_in(OwnPreferences)
-NAMED = {item.name: item for item in (*RENDERER, *OF_SCENES, *OF_OBJECTS, *OF_PREFERENCES)}
+NAMED = {item.name: item for item in (*RENDERER, *OF_SCENES, *OF_VIEW_LAYERS, *OF_OBJECTS, *OF_PREFERENCES)}

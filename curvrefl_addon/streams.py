@@ -31,3 +31,8 @@ def dropped(descriptor: int) -> Iterator[TextIO]:
             if stream is not None:
                 stream.flush()
             os.dup2(kept, descriptor)
+
+
+def readable(name: str) -> str:
+    """A name of a file as text that can be written everywhere: bytes that are no UTF-8 become question marks."""
+    return os.fsencode(name).decode("utf-8", "replace")

@@ -18,6 +18,7 @@ import signal
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 
 RUN_FOLDER = "CURVREFL_RUN"
 LEFTOVERS, PUBLISHING, SOFTLY, STAGE = "leftovers", "publishing", "softly", "stage"
@@ -33,6 +34,7 @@ PR_SET_PDEATHSIG = 1
 def main(command: list[str]) -> int:
     """Run the command; returns its exit code."""
     signal.pthread_sigmask(signal.SIG_BLOCK, WAITED_FOR)
+    _open_closed_streams()
     parent = os.getppid()
     _end_with_parent(signal.SIGTERM, parent)
     try:
@@ -86,6 +88,9 @@ def _start(command: list[str], run: str) -> int:
         # (Blender reads TEMP first)
         for name in ("TMPDIR", "TEMP", "TMP"):
             os.environ[name] = temporary
+        # Without a home of its own Blender complains of its caches.
+        if not os.access(os.environ.get("HOME") or "/", os.W_OK | os.X_OK):
+            os.environ["HOME"] = temporary
         os.execvp(command[0], command)
     except OSError as error:
         _say(f"cannot start {command[0]} ({error.strerror}).")
@@ -185,7 +190,7 @@ def _signal(process: int, number: int) -> None:
         os.kill(process, number)
 
 
-def _wait_for(is_done) -> None:
+def _wait_for(is_done: Callable[[], bool]) -> None:
     """At most for the grace."""
     end = time.monotonic() + GRACE
     while not is_done() and time.monotonic() < end:
@@ -213,6 +218,16 @@ def _remove_leftovers(run: str) -> None:
     shutil.rmtree(run, ignore_errors=True)
 
 
+def _open_closed_streams() -> None:
+    """Of those that are closed, nothing comes in and nothing goes out: other files must not take their numbers."""
+    for descriptor in (0, 1, 2):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+            os.set_inheritable(descriptor, True)
+
+
 def _end_with_parent(number: int, parent: int) -> None:
     """Get that signal when the parent ends, also when it is killed, where the system can do that."""
     if not sys.platform.startswith("linux"):
@@ -225,7 +240,8 @@ def _end_with_parent(number: int, parent: int) -> None:
 
 
 def _say(text: str) -> None:
-    print(f"curvrefl: {text}", file=sys.stderr, flush=True)
+    if sys.stderr is not None:
+        print(f"curvrefl: {text}", file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

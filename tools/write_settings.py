@@ -20,6 +20,7 @@ from curvrefl.curvrefl_addon.settings_table import (  # noqa: E402
     OF_OBJECTS,
     OF_PREFERENCES,
     OF_SCENES,
+    OF_VIEW_LAYERS,
     RENDERER,
 )
 
@@ -42,6 +43,11 @@ GROUPS = (
         "Properties of `Scene.curvrefl`, saved in the .blend file. The preferences hold what new scenes start with\n"
         "where *preference* is said.",
         OF_SCENES,
+    ),
+    (
+        "Of view layers",
+        "Properties of `ViewLayer.curvrefl`, saved in the .blend file: passes of renders by the engine *Curvrefl*.",
+        OF_VIEW_LAYERS,
     ),
     ("Of mirrors", "Properties of `Object.curvrefl`, saved in the .blend file.", OF_OBJECTS),
     (

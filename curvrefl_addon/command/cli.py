@@ -22,6 +22,7 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
+from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
 from . import verbs
@@ -114,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         "layers",
         nargs="*",
         metavar="LAYER",
-        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD}, with names of its scenes",
+        help=f"{', '.join(verbs.LAYERS)}; all of them where none is named; or {verbs.AWKWARD} with names of scenes",
     )
     test.add_argument("--keep", metavar="DIR", help=f"keep the pictures of {verbs.AWKWARD} scenes in this folder")
 
@@ -238,7 +239,7 @@ def _parser() -> argparse.ArgumentParser:
 def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE.blend")
     parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
-    parser.add_argument("--camera", metavar="C", help="name of a camera object (the scene's)")
+    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument(
         "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )
@@ -246,19 +247,20 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
-    """The verb's arguments that the table of settings knows."""
+    """The verb's arguments that the table of settings knows. What `render` is not told is as the file has it."""
     for item in RENDERER:
         for flag in item.flags:
             if flag.verb == verb:
-                _add_setting(parser, item, flag)
+                _add_setting(parser, item, flag, is_of_file=verb == "render")
 
 
-def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> None:
-    default = item.flag_value(flag)
+def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag, is_of_file: bool) -> None:
+    value = item.flag_value(flag)
     dest = f"{SETTING}{item.name}"
-    if isinstance(default, bool):
-        action = "store_false" if default else "store_true"
-        parser.add_argument(flag.spelling, dest=dest, action=action, help=flag.text)
+    default = argparse.SUPPRESS if is_of_file else value
+    if isinstance(value, bool):
+        action = "store_false" if value else "store_true"
+        parser.add_argument(flag.spelling, dest=dest, action=action, default=default, help=flag.text)
         return
     parser.add_argument(
         flag.spelling,
@@ -266,7 +268,7 @@ def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag) -> 
         type=_value_of(item),
         default=default,
         metavar=flag.metavar,
-        help=f"{flag.text} (%(default)s)",
+        help=f"{flag.text} ({"the scene's" if is_of_file else value})",
     )
 
 

@@ -5,16 +5,19 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib.util
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..settings_table import Settings
-from ..streams import STDERR, STDOUT, dropped
+from ..memory import require_memory
+from ..settings_table import LARGEST_SIDE, Settings
+from ..streams import STDERR, STDOUT, dropped, readable
+from ..supervised import stage
 
 if TYPE_CHECKING:
     import bpy
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 """Of the source tree"""
+PICTURE_BYTES = 350
+"""For a pixel of a picture with all its passes, measured on a software renderer"""
 SETTING = "setting_"
 """Before the names of settings among the parsed options"""
 
@@ -40,7 +45,7 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
 
     from ..scene.blend_file import open_blend
 
-    with dropped(STDOUT):
+    with dropped(STDOUT), stage(f'read "{file}"'):
         open_blend(file)
     scene = bpy.context.scene
     assert scene is not None, "an open file has a scene"
@@ -50,11 +55,21 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
 
 
 def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:
-    """The chosen width and height, or those that the scene renders with."""
-    if options.resolution:
-        return options.resolution
+    """The chosen width and height, or those that the scene renders with.
+
+    Raises InputError for a picture that is too large, also for the memory that is free.
+    """
     scale = scene.render.resolution_percentage / 100.0
-    return max(int(scene.render.resolution_x * scale), 1), max(int(scene.render.resolution_y * scale), 1)
+    width, height = options.resolution or (
+        max(int(scene.render.resolution_x * scale), 1),
+        max(int(scene.render.resolution_y * scale), 1),
+    )
+    if max(width, height) > LARGEST_SIDE:
+        raise InputError(
+            f"The scene renders with {width}x{height} pixels, more than {LARGEST_SIDE} a side: choose a --resolution."
+        )
+    require_memory(PICTURE_BYTES * width * height, f"A picture of {width}x{height}", "choose a smaller --resolution")
+    return width, height
 
 
 def view_layer_of(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
@@ -70,22 +85,58 @@ def read_scene(
 ) -> tuple[SceneArrays, View]:
     """The open scene at its frame as it renders, with these mirrors, and what the chosen camera sees of it in the
     chosen resolution."""
+    import bpy
+
     from ..scene.render_depsgraph import read_render_scene
 
     size = resolution_of(options, scene)
-    return read_render_scene(scene, view_layer_of(scene), reflectors, *size, options.camera)
+    with stage(f'read "{bpy.data.filepath}"'):
+        return read_render_scene(scene, view_layer_of(scene), reflectors, *size, options.camera)
 
 
 def chosen_settings(options: argparse.Namespace) -> Settings:
     """Those that the verb's arguments set; the others are as by default."""
-    return Settings(
-        **{name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
-    )
+    return Settings(**_given(options))
+
+
+def settings_of_file(options: argparse.Namespace, scene: Any) -> Settings:
+    """Those that the verb's arguments set; the others are the scene's, as for F12. The extension is registered."""
+    from dataclasses import replace
+
+    from ..options import settings_of
+
+    chosen: Any = scene.curvrefl
+    return replace(settings_of(chosen, chosen.render_samples), **_given(options))
+
+
+def _given(options: argparse.Namespace) -> dict[str, Any]:
+    """By the settings' names, what arguments set."""
+    return {name.removeprefix(SETTING): value for name, value in vars(options).items() if name.startswith(SETTING)}
+
+
+@contextlib.contextmanager
+def registered() -> Iterator[None]:
+    """The extension's properties and its engine are Blender's for the time being.
+
+    Where it is installed they are so already; a plain Python's Blender does not know them yet.
+    """
+    import bpy
+
+    from .. import registration
+
+    if hasattr(bpy.types.Object, "curvrefl"):
+        yield
+        return
+    registration.register()
+    try:
+        yield
+    finally:
+        registration.unregister()
 
 
 def read_names(text: str, what: str) -> list[str]:
     """The parts of a list with commas, once each. Raises InputError when there are none."""
-    names = list(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    names = list(dict.fromkeys(name.strip() for name in readable(text).split(",") if name.strip()))
     if not names:
         raise InputError(f"Name at least one {what}.")
     return names

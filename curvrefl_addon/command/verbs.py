@@ -17,16 +17,18 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
-from ..streams import STDOUT, dropped
+from ..streams import STDOUT, dropped, readable
 from ..supervised import ended_softly
 from .inputs import (
     chosen_settings,
     open_scene,
     read_names,
     read_scene,
+    registered,
     repository_tool,
     require_known,
     resolution_of,
+    settings_of_file,
     start_gpu,
     view_layer_of,
     warn_of,
@@ -47,41 +49,35 @@ PASSES = ("color", "position", "object", "iterations")
 
 
 def render(options: argparse.Namespace) -> int:
-    """Render the file's picture, and what is behind it as passes."""
+    """Render the file's picture by the engine of F12, and what is behind it as passes."""
     passes = read_names(options.passes, "pass")
     require_known(passes, PASSES, "pass")
     reflectors = read_names(options.reflector, "reflector")
     output = checked_file(options.output, (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
-    arrays, view = read_scene(options, scene, reflectors)
 
-    from ..renderer.renderer import Renderer
-    from ..report.images import save_exr, save_png
+    from ..engine.job import Job
+    from ..engine.still import render_still
+    from ..report.images import save_exr
+    from ..scene.blend_file import find_reflectors
 
-    renderer = Renderer(arrays, chosen_settings(options))
-    try:
-        frame = renderer.render(view)
-        warn_of(frame.warnings)
-        if not frame.mask().any():
-            warn_of(["No reflector is in view: the picture has no reflections."])
-        with folder_to_publish(output.parent) as folder:
-            if "color" in passes:
-                save = save_png if output.suffix.lower() == ".png" else save_exr
-                save(folder / output.name, frame.color())
-            arrays_of = {
-                "position": frame.reflected_position,
-                "object": lambda: frame.reflected_object().astype("float32"),
-                "iterations": frame.iterations,
-            }
-            for name in passes:
-                if name != "color":
-                    save_exr(folder / f"{output.stem}_{name}.exr", arrays_of[name]())
-    finally:
-        renderer.free()
+    find_reflectors(scene, reflectors)
+    with registered(), folder_to_publish(output.parent) as folder:
+        job = Job(
+            reflectors=tuple(reflectors),
+            settings=settings_of_file(options, scene),
+            passes=tuple(name for name in passes if name != "color"),
+        )
+        with dropped(STDOUT):
+            render_still(scene, job, *resolution_of(options, scene), folder / output.name, options.camera)
+        warn_of(job.warnings)
+        if "color" not in passes:
+            (folder / output.name).unlink()
+        for name, pixels in job.arrays.items():
+            save_exr(folder / f"{output.stem}_{name}.exr", pixels)
     if "object" in passes:
-        names = {instance.object_id: instance.object_name for instance in arrays.instances}
-        print("\n".join(f"object {number}: {name}" for number, name in sorted(names.items())))
+        print("\n".join(f"object {number}: {name}" for number, name in sorted(job.object_names.items())))
     return 0
 
 
@@ -200,25 +196,15 @@ def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: S
             f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
         )
     find_reflectors(scene, chosen)
-    return ChartFile(name, Path(file), tuple(chosen), *resolution_of(options, scene))
+    return ChartFile(readable(name), Path(file), tuple(chosen), *resolution_of(options, scene))
 
 
 def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
     """Names of the objects whose Mirror switch is on."""
-    import bpy
-
-    from .. import registration
     from ..options import marked_mirrors
 
-    # In the installed extension the switch is there already; in a plain Python Blender does not know it yet.
-    is_known = hasattr(bpy.types.Object, "curvrefl")
-    if not is_known:
-        registration.register()
-    try:
+    with registered():
         return [mirror.name for mirror in marked_mirrors(scene)]
-    finally:
-        if not is_known:
-            registration.unregister()
 
 
 def bake(options: argparse.Namespace) -> int:

@@ -115,7 +115,7 @@ def mirror_pixels(mirror: Mirror, view: View, scenery: Scenery) -> float:
     probes = np.stack(np.meshgrid(x + width * steps, y + height * steps), axis=-1).reshape(-1, 2)
     covered = ~behind_others(mirror, view, scenery, probes)
     # (One that reaches behind the eye fills its window.)
-    if (clip[:, 3] > 1e-6).all():
+    if (clip[:, 3] > 1e-6 * np.abs(clip[:, 3]).max()).all():
         seen = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
         turn = np.arange(SILHOUETTE_SIDES) * (2.0 * np.pi / SILHOUETTE_SIDES)
         sides = np.stack([np.cos(turn), np.sin(turn)])

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -29,21 +29,30 @@ def through_lens(renderer: Renderer, reflection: Reflection, index: int) -> Refl
 
 
 def expose(
-    renderer: Renderer, canvas: Canvas, reflection: Reflection, still: Moment, moments: Sequence[Moment] = ()
+    renderer: Renderer,
+    canvas: Canvas,
+    reflection: Reflection,
+    still: Moment,
+    moments: Sequence[Moment] = (),
+    mirrors_alone: Canvas | None = None,
+    before_sub_frame: Callable[[int], None] | None = None,
 ) -> Reflection:
     """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`.
 
-    The renderer shows that scene before and after.
+    The renderer shows that scene before and after. `mirrors_alone` and `before_sub_frame` as for `Renderer.render`.
     """
     samples = renderer.settings.samples
-    if not moments:
-        for index in range(samples):
-            renderer.add_sub_frame(canvas, reflection, index, 1.0 / samples)
-        return reflection
     shown = reflection
-    for index, moment in enumerate(moments):
-        renderer.update(moment.scene)
-        shown = renderer.reflect(moment.view, last=shown, at_rest=True)
+    for index in range(samples):
+        if before_sub_frame is not None:
+            before_sub_frame(index)
+        if moments:
+            renderer.update(moments[index].scene)
+            shown = renderer.reflect(moments[index].view, last=shown, at_rest=True)
         renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
+        if mirrors_alone is not None:
+            renderer.add_sub_frame(mirrors_alone, shown, index, 1.0 / samples, mirrors_only=True)
+    if not moments:
+        return reflection
     renderer.update(still.scene)
     return renderer.reflect(still.view, last=shown, at_rest=True)

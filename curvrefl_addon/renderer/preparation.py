@@ -25,8 +25,8 @@ from .shown.shown import Shown, Stage
 from .shown.vertices import ShownVertices
 from .vertices.mirror_solver import MirrorSolver
 
+EYE_INSIDE = 'The eye is inside of "{}", which shows itself there: choose Automatic or Exact, else it is black.'
 SHARP = "Depth of field is left out: it takes more than one sample."
-EYE_INSIDE = "The eye is inside a reflector, which shows only itself there: its reflection is black."
 
 
 class Preparation:
@@ -130,7 +130,7 @@ class Preparation:
         if mirror.holds_eye(view, mirror.shape(settings.map_resolution)):
             black_cube = cube_texture(np.zeros((6, 1, 1, 4), np.float32))
             black = Environment("environment_cube", black_cube, lambda: black_cube, mirror=mirror.number)
-            warnings.append(EYE_INSIDE)
+            warnings.append(EYE_INSIDE.format(mirror.object_name))
             return ShownEnvironment(mirror, settings, black)
         if method.is_environment:
             cube = self.environment_cubes(stage, settings)[mirror.number - 1]

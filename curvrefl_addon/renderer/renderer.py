@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
@@ -14,12 +14,15 @@ import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
+from ..scene.remarks import Remark, sentences
 from ..scene.view import View
 from .device.context import require_gpu
+from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
 from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
+from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -29,7 +32,6 @@ from .reflection import Diagnostic, Reflection
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
-from .shown.nothing import ShownNothing
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
@@ -164,10 +166,8 @@ class Renderer:
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         if self.settings.entry.solves_vertices:
-            found += [
-                f'"{name}" is drawn without its bumps: choose Automatic, Exact or an environment method to see them.'
-                for name in self._bumpy_mirrors()
-            ]
+            cause = "Bumps {of} are left out: choose Automatic, Exact or an environment method to see them."
+            found += sentences(Remark(cause, "mirror", name) for name in self._bumpy_mirrors())
         found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._rays is not None:
             found += self._rays.warnings
@@ -182,14 +182,26 @@ class Renderer:
             if any(self.scene.materials[index].relief is not None for index in instance.materials)
         ]
 
-    def render(self, view: View, last: Reflection | None = None, moments: Sequence[Moment] = ()) -> Frame:
-        """Draw the picture; times have the GPU's work in them. `last`: see `reflect`; `moments`: one per sub-frame."""
+    def render(
+        self,
+        view: View,
+        last: Reflection | None = None,
+        moments: Sequence[Moment] = (),
+        mirrors_alone: Canvas | None = None,
+        before_sub_frame: Callable[[int], None] | None = None,
+    ) -> Frame:
+        """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
+
+        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
+        `before_sub_frame` is called with the number of each sub-frame; what it raises ends the picture.
+        """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
         reflection = self.reflect(view, last=last, is_still=not (view.lens or moments), at_rest=True)
         reflection.wait()
         solved = perf_counter()
-        reflection = expose(self, canvas, reflection, Moment(self._given, view), moments)
+        still = Moment(self._given, view)
+        reflection = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -199,6 +211,9 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
+        if is_lit_indirectly(self.scene):
+            # (Of a picture that is kept: a viewport would say so all the time.)
+            reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
         return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
 
     def reflect(
@@ -254,7 +269,10 @@ class Renderer:
         sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
         groups = reflection.groups
         if diagnostic is not None:
-            self._add_diagnostic(canvas, reflection, sub_frame, weight, diagnostic)
+            if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
+                self._diagnostics = DiagnosticPass(diagnostic.colors)
+            methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
+            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic, methods)
             return
         self._lighting.prepare(index)
         if not groups:
@@ -264,31 +282,6 @@ class Renderer:
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
             kind.add_light(members, sub_frame, light)
-
-    def _add_diagnostic(
-        self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic
-    ) -> None:
-        if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
-            self._diagnostics = DiagnosticPass(diagnostic.colors)
-        groups = reflection.groups
-        methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
-        for kind, members in groups or [(ShownNothing, [])]:
-            shown = kind.draw(members, sub_frame, of_positions=diagnostic.needs_solve)
-            if shown is None:
-                sub_frame.targets.reflected.clear()
-                shown = sub_frame.targets.reflected
-            self._diagnostics.add(
-                canvas.frame_buffer,
-                sub_frame.targets.seen,
-                shown,
-                sub_frame.uniforms,
-                weight,
-                diagnostic.mode,
-                diagnostic.options,
-                methods,
-                [one.parts if one in members else () for one in reflection.shown],
-                chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None,
-            )
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -336,6 +329,7 @@ class Renderer:
             lambda chunk: self.geometry.hidden_faces(chunk, view),
             with_reliefs=lambda chunk: id(chunk) not in smooth,
             depths=depths_of(view),
+            mirrored=view.is_mirrored,
         )
         return sub_frame
 

@@ -5,22 +5,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import bpy
-import numpy as np
 
 from ..scene.arrays import Float32Array
 from ..scene.temporary_settings import temporary_settings
+from ..streams import STDERR, dropped
+from ..written_files import error_in, require_whole
 from .images import to_image_datablock
-
-
-def on_film(pixels: Float32Array, scene: bpy.types.Scene) -> Float32Array:
-    """A scene-linear picture (h, w, 4) times the film exposure of Cycles, which alpha does not follow."""
-    cycles: Any = getattr(scene, "cycles", None)
-    if cycles is None or cycles.film_exposure == 1.0:
-        return pixels
-    return pixels * np.array([*[cycles.film_exposure] * 3, 1.0], np.float32)
 
 
 def save_as_shown(path: Path, pixels: Float32Array, scene: bpy.types.Scene) -> None:
@@ -28,7 +20,7 @@ def save_as_shown(path: Path, pixels: Float32Array, scene: bpy.types.Scene) -> N
 
     .exr in 32 bits, in the working space, which the file names; .png in 8 bits through the scene's display, view
     transform, look, exposure, gamma, curves and white balance, with alpha where the scene's film is transparent.
-    Raises OSError when the file cannot be written.
+    Raises OSError when the file cannot be written, or not whole.
     """
     is_exr = path.suffix.lower() == ".exr"
     image = to_image_datablock("curvrefl picture", pixels)
@@ -44,8 +36,11 @@ def save_as_shown(path: Path, pixels: Float32Array, scene: bpy.types.Scene) -> N
                 color_depth="32" if is_exr else "8",
                 **({"exr_codec": "NONE"} if is_exr else {}),
             )
-            image.save_render(str(path.absolute()), scene=scene)
+            # (it says more on stderr than the error does)
+            with dropped(STDERR):
+                image.save_render(str(path.absolute()), scene=scene)
     except RuntimeError as error:
-        raise OSError(f"cannot write {path}: {' '.join(str(error).split())}") from error
+        raise error_in(str(error), path) from error
     finally:
         bpy.data.images.remove(image)
+    require_whole(path)

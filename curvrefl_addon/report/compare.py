@@ -26,14 +26,16 @@ from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
-from ..scene.arrays import SceneArrays
+from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..scene.blend_file import find_camera, open_blend
+from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
 from ..scene.materials.color_spaces import scene_to_rec709
 from ..scene.render_depsgraph import read_render_moments
 from ..scene.view import View
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, STILL_SAMPLES
-from .as_shown import on_film, save_as_shown
+from ..streams import readable
+from .as_shown import save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
 from .direct_light import mirrors_met
 from .display import inverse_display_transform
@@ -198,6 +200,9 @@ def compare_steps(
             untold = (*untold, f"Depth of field and motion blur take {blur_samples} sub-frames here, and their time.")
         comparison = replace(comparison, settings=settings)
         arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
+        if comparison.light == "direct":
+            arrays = _in_direct_light(arrays)
+            moments = tuple(replace(moment, scene=_in_direct_light(moment.scene)) for moment in moments)
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
@@ -220,7 +225,7 @@ def compare_steps(
                 yield Step(label, done / count)
                 done += 1
             report = {
-                "scene": scene_name or Path(bpy.data.filepath).name or scene.name,
+                "scene": scene_name or readable(Path(bpy.data.filepath).name) or scene.name,
                 "reflectors": list(reflector_names),
                 **report,
             }
@@ -229,6 +234,11 @@ def compare_steps(
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
     yield Step("Wrote report.html", 1.0)
     return report
+
+
+def _in_direct_light(scene: SceneArrays) -> SceneArrays:
+    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
+    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
 
 
 def _run(

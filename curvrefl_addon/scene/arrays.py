@@ -9,6 +9,7 @@ Everything is right-handed Blender world space in meters unless a field says "ob
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +19,8 @@ type Float32Array = NDArray[np.float32]
 type Float64Array = NDArray[np.float64]
 type Int32Array = NDArray[np.int32]
 
+UNLIMITED_BOUNCES = 1 << 30
+"""More than any ray is followed"""
 LARGEST_COORDINATE = 1e18
 """Squares of larger ones overflow in single precision"""
 
@@ -109,7 +112,7 @@ class MaterialArrays:
 class LightArrays:
     """A lamp.
 
-    `color` is scene-linear with exposure, temperature and texture-free strength applied:
+    `color` is scene-linear with exposure, temperature and texture-free strength applied; below 0 it takes light away:
     POINT, SPOT: radiant power in W; SUN: irradiance in W/m2; AREA: radiant power in W.
     """
 
@@ -130,9 +133,19 @@ class LightArrays:
     """AREA: full width and height in meters, world scale applied"""
     ellipse: bool = False
     """AREA: disk or ellipse instead of a rectangle"""
+    spread: float = math.pi
+    """AREA: full angle in radians of the cone into which it shines from each of its points"""
+    is_ball: bool = False
+    """POINT, SPOT: a ball without soft falloff, else a disk that faces whatever it lights"""
     casts_shadow: bool = True
+    visible_camera: bool = True
+    """The lamp itself is seen by the camera"""
     visible_glossy: bool = True
     """The lamp itself is seen in mirrors"""
+    lights_diffuse: bool = True
+    """Diffuse parts of surfaces"""
+    lights_glossy: bool = True
+    """Highlights of surfaces"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +158,12 @@ class WorldArrays:
     """(height, width, 3) scene-linear, row 0 at the bottom, Blender's equirectangular mapping"""
     rotation: Float64Array = field(default_factory=lambda: np.eye(3))
     """(3, 3): image direction = rotation @ world direction"""
+    visible_camera: bool = True
+    """Behind all that the camera sees, else black"""
+    visible_diffuse: bool = True
+    """Lights diffuse parts of surfaces"""
+    visible_glossy: bool = True
+    """Seen in mirrors, and lights glossy parts of surfaces"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +180,7 @@ class InstanceArrays:
     materials: tuple[int, ...]
     """Per slot, index into `SceneArrays.materials`; never empty"""
     visible_camera: bool = True
+    visible_diffuse: bool = True
     visible_glossy: bool = True
     visible_shadow: bool = True
     holdout: bool = False
@@ -181,3 +201,7 @@ class SceneArrays:
     """object_id of the chosen reflectors"""
     warnings: tuple[str, ...] = ()
     """What could not be represented, one sentence each"""
+    mirror_bounces: int = UNLIMITED_BOUNCES
+    """Mirrors one after the other that the file's own renders follow; the last shows only what shines by itself"""
+    diffuse_bounces: int = 0
+    """Surfaces one after the other from which they follow scattered light"""

@@ -31,15 +31,15 @@ def open_blend(path: str | Path) -> None:
     missing or that Blender cannot read; what was open before may then be gone.
     """
     path = Path(path)
-    if not path.exists():
-        raise InputError(f'There is no file "{path}": check the path of the .blend file.')
-    if not path.is_file():
-        raise InputError(f'"{path}" is not a file: name a .blend file.')
     try:
+        if not path.exists():
+            raise InputError(f'There is no file "{path}": check the path of the .blend file.')
+        if not path.is_file():
+            raise InputError(f'"{path}" is not a file: name a .blend file.')
         with path.open("rb") as file:
             start = file.read(8)
     except OSError as error:
-        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its permissions.') from error
+        raise InputError(f'Cannot read "{path}" ({error.strerror}): check its path and permissions.') from error
     if not start.startswith(_FILE_STARTS):
         raise InputError(f'"{path}" is not a .blend file: choose one that Blender saved.')
     trust = bpy.context.preferences.filepaths.use_scripts_auto_execute

@@ -18,6 +18,8 @@ class Changes:
     """Sets hold `session_uid`s of original data-blocks."""
 
     everything: bool = False
+    frame: bool = False
+    """Another frame of the same file: all but images, with nothing listed"""
     instances: bool = False
     """Instances have to be gone through, whoever they are"""
     listing: bool = False
@@ -36,6 +38,7 @@ class Changes:
     def __bool__(self) -> bool:
         return (
             self.everything
+            or self.frame
             or self.instances
             or self.listing
             or self.all_materials

@@ -28,6 +28,7 @@ from .reads import (
     SURELY_REGULAR,
     PlainObject,
     ShownInstance,
+    bounces_of,
     is_diced,
     is_same_light,
     is_singular,
@@ -85,6 +86,11 @@ class SceneReader:
         self._last: SceneArrays | None = None
 
     @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) that another frame may change."""
+        return self._images.sequences
+
+    @property
     def reads(self) -> dict[str, int]:
         """How often what was read."""
         return {
@@ -120,9 +126,10 @@ class SceneReader:
             changes.everything = True
         if changes.everything:
             self._images.forget_all()
+        if changes.everything or changes.frame:
             self._materials.forget_all()
             self._meshes.forget_all()
-        if self._last is None or changes.everything:
+        if self._last is None or changes.everything or changes.frame:
             changes.world = changes.instances = True
         if changes.images:
             self._images.forget(changes.images)
@@ -147,7 +154,7 @@ class SceneReader:
         world = view_layer.world_override or scene.world
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
-        self._last = self._arrays(reflectors)
+        self._last = self._arrays(reflectors, *bounces_of(scene))
         return self._last
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
@@ -226,7 +233,7 @@ class SceneReader:
         obj = instance.object
         warnings: list[str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj.data, obj.name, matrix, rays_of(instance, view_layer).glossy, warnings)
+        light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
             light = before.light
         return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
@@ -296,6 +303,7 @@ class SceneReader:
                 matrix=matrix,
                 materials=materials,
                 visible_camera=rays.camera,
+                visible_diffuse=rays.diffuse,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
                 holdout=rays.holdout,
@@ -313,7 +321,7 @@ class SceneReader:
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
-    def _arrays(self, reflectors: Sequence[bpy.types.Object]) -> SceneArrays:
+    def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         self._check(chosen)
         instances = [
@@ -331,6 +339,8 @@ class SceneReader:
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
             warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
+            mirror_bounces=mirror_bounces,
+            diffuse_bounces=diffuse_bounces,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
 

@@ -19,6 +19,8 @@ from .arrays import Float32Array, Float64Array, ImageArrays, MaterialArrays, Wor
 LARGEST_LIGHT = 1e15
 """Of colors, strengths and powers: light has a few of them and the inverse square of a distance as factors, and its sum
 must stay in single precision"""
+LARGEST_POWER = 1e20
+"""Of lamps, whose light thins out with the square of a scene's scale"""
 LARGEST_COLOR = 6e4
 """Of what reflects: the product of a ray's mirrors is kept in half precision"""
 LARGEST_PLACE = 1e12

@@ -5,24 +5,31 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import bpy
 import numpy as np
 
 from .arrays import Float64Array, LightArrays
-from .finite import LARGEST_PLACE, is_usable, problem_of_place
+from .finite import LARGEST_PLACE, LARGEST_POWER, is_usable, problem_of_place
 from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
+from .visibility import RayVisibility
+
+FEW_BOUNCES = 4
+"""A lamp that lights what is seen after so many mirrors or more is as good as one without a limit"""
 
 
 def read_light(
-    light: bpy.types.Light, name: str, matrix: Float64Array, visible_glossy: bool, warnings: list[str]
+    obj: bpy.types.Object, matrix: Float64Array, rays: RayVisibility, warnings: list[str]
 ) -> LightArrays | None:
-    """The lamp `light` of the object called `name` placed by `matrix` (4, 4); None for one without light or place.
+    """The lamp of `obj` placed by `matrix` (4, 4) and seen by `rays`; None for one without light or place.
 
     As in Cycles, sizes of area lamps follow the object's scale but their power does not, and balls keep their radius.
-    An area lamp without area gives no light.
+    An area lamp without area gives no light, nor does a portal.
     """
+    light, name = obj.data, obj.name
+    assert isinstance(light, bpy.types.Light)
     if problem := problem_of_place(matrix, 0.0):
         warnings.append(f'Lamp "{name}" {problem} and is left out.')
         return None
@@ -36,14 +43,21 @@ def read_light(
     if light.use_temperature:
         color *= np.array(light.temperature_color, np.float64)
     color *= _node_color(light, name, warnings)
-    if not is_usable(color):
+    if not is_usable(color, LARGEST_POWER):
         warnings.append(f'Lamp "{name}" is left out: its color or power is not a usable number.')
         return None
-    if not color.any():
+    # Cycles is an add-on, and may be off. What it has of a lamp does not get into evaluated copies by itself.
+    cycles = getattr(obj.original.data, "cycles", None)
+    is_portal = light.type == "AREA" and cycles is not None and cycles.is_portal
+    if is_portal or not color.any() or not (rays.camera or rays.diffuse or rays.glossy):
         return None
+    _warn_of_limits(obj, cycles, warnings)
+    is_seen = cycles is None or cycles.use_multiple_importance_sampling
 
     kind = str(light.type)
     radius = angle = spot_angle = spot_blend = 0.0
+    spread = math.pi
+    is_ball = False
     size = (0.0, 0.0)
     ellipse = False
     area = 1.0
@@ -58,10 +72,10 @@ def read_light(
         area = size[0] * size[1] * (math.pi / 4.0 if ellipse else 1.0)
         if area == 0.0:
             return None
-        if light.spread < math.pi - 1e-4:
-            warnings.append(f'The spread of area lamp "{name}" is left out: it shines to all sides.')
+        spread = light.spread
     elif isinstance(light, (bpy.types.PointLight, bpy.types.SpotLight)):
         radius = light.shadow_soft_size
+        is_ball = radius > 0.0 and not light.use_soft_falloff
         area = 4.0 * math.pi * radius**2 if radius > 0.0 else 4.0
         if isinstance(light, bpy.types.SpotLight):
             spot_angle, spot_blend = light.spot_size, light.spot_blend
@@ -71,7 +85,9 @@ def read_light(
         # The energy is then that of a square meter; Cycles counts a point as four.
         color *= area
     if not (
-        is_usable((radius, *size), LARGEST_PLACE) and is_usable((angle, spot_angle, spot_blend)) and is_usable(color)
+        is_usable((radius, *size), LARGEST_PLACE)
+        and is_usable((angle, spot_angle, spot_blend))
+        and is_usable(color, LARGEST_POWER)
     ):
         warnings.append(f'Lamp "{name}" is left out: its size is not a usable number.')
         return None
@@ -87,9 +103,29 @@ def read_light(
         spot_blend=spot_blend,
         size=size,
         ellipse=ellipse,
+        spread=spread,
+        is_ball=is_ball,
         casts_shadow=light.use_shadow,
-        visible_glossy=visible_glossy,
+        visible_camera=rays.camera and is_seen,
+        visible_glossy=rays.glossy and is_seen,
+        lights_diffuse=rays.diffuse,
+        lights_glossy=rays.glossy,
     )
+
+
+def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[str]) -> None:
+    """What limits the reach of a lamp in Cycles and is not followed."""
+    linking = obj.original.light_linking
+    for collection, what in (
+        (linking.receiver_collection, "lights all objects: its light linking"),
+        (linking.blocker_collection, "is shadowed by all objects: its shadow linking"),
+    ):
+        if collection is not None:
+            warnings.append(f'Lamp "{obj.name}" {what} is left out.')
+    if cycles is not None and cycles.max_bounces < FEW_BOUNCES:
+        warnings.append(
+            f'Lamp "{obj.name}" lights all that mirrors show: its limit of {cycles.max_bounces} bounces is left out.'
+        )
 
 
 def _node_color(light: bpy.types.Light, name: str, warnings: list[str]) -> Float64Array:

@@ -12,9 +12,9 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .arrays import Float64Array, InstanceArrays, LightArrays, SceneArrays
+from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .materials.materials import ReadMaterial
-from .meshes.meshes import MeshNeeds
+from .meshes.meshes import GENERATED, MeshNeeds
 from .remarks import Remark
 
 SMALLEST_STRETCH = 1e-6
@@ -25,6 +25,16 @@ SMALLEST_SIZE = 1e-12
 """Greatest stretch under which nothing is left of a mesh"""
 SURELY_REGULAR = 1e-4
 """Determinant over the cube of the matrix's norm, above which it cannot be singular; half of single precision"""
+
+
+# fmt: off
+DEFORMING = frozenset((
+    "ARMATURE", "CAST", "CLOTH", "CORRECTIVE_SMOOTH", "CURVE", "DISPLACE", "HOOK", "LAPLACIANDEFORM",
+    "LAPLACIANSMOOTH", "LATTICE", "MESH_CACHE", "MESH_DEFORM", "MESH_SEQUENCE_CACHE", "NODES", "SHRINKWRAP",
+    "SIMPLE_DEFORM", "SMOOTH", "SOFT_BODY", "SURFACE_DEFORM", "WARP", "WAVE",
+))
+# fmt: on
+"""Modifiers that move vertices and leave their generated coordinates where they were"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +74,18 @@ def object_of(uid: int, name: str) -> bpy.types.Object | None:
     return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
 
 
+def bounces_of(scene: bpy.types.Scene) -> tuple[int, int]:
+    """`SceneArrays.mirror_bounces` and `diffuse_bounces`."""
+    # Cycles is an add-on, and may be off.
+    cycles = getattr(scene, "cycles", None)
+    if cycles is None:
+        return UNLIMITED_BOUNCES, 0
+    return min(cycles.max_bounces, cycles.glossy_bounces), min(cycles.max_bounces, cycles.diffuse_bounces)
+
+
 def uid_of_block(block: bpy.types.ID | None) -> int:
     """Its `session_uid`; 0 for none."""
-    return 0 if block is None else block.session_uid
+    return 0 if block is None else block.original.session_uid
 
 
 def listing_of(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> tuple[Any, ...]:
@@ -112,7 +131,11 @@ def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: lis
     uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
     colors = [slot.colors for slot in slots if slot.colors is not None]
     if len({uv_map or default for uv_map in uv_maps}) > 1:
-        warnings.append(Remark("Textures {of} are all drawn on one of the UV maps they use.", "object", obj.name))
+        warnings.append(Remark("Textures {of} are drawn on one UV map, though they use several.", "object", obj.name))
+    if GENERATED in uv_maps and any(modifier.type in DEFORMING for modifier in obj.original.modifiers):
+        warnings.append(
+            Remark("Generated coordinates {of} are taken of its deformed shape, not of its own.", "object", obj.name)
+        )
     if len(set(colors)) > 1:
         warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
     hidden = tuple(slot.is_hidden for slot in slots)
@@ -146,6 +169,8 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.lights is last.lights
         and result.world is last.world
         and result.reflectors == last.reflectors
+        and result.mirror_bounces == last.mirror_bounces
+        and result.diffuse_bounces == last.diffuse_bounces
         and result.warnings == last.warnings
     )
     return last if same else result

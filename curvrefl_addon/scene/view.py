@@ -56,6 +56,11 @@ class View:
         return bool(self.view_to_clip[3, 3] != 0.0)
 
     @cached_property
+    def is_mirrored(self) -> bool:
+        """Whether left and right are swapped, as by a camera with a negative scale."""
+        return bool(np.linalg.det(self.world_to_view[:3, :3]) < 0.0)
+
+    @cached_property
     def eye(self) -> Float64Array:
         """(4,) homogeneous eye: a point with w = 1, or the unit direction towards an infinite eye with w = 0."""
         view_to_world = np.linalg.inv(self.world_to_view)
@@ -68,6 +73,12 @@ class View:
     def place(self) -> Float64Array:
         """(3,) where the view's own origin is in the world."""
         return np.asarray(np.linalg.inv(self.world_to_view)[:3, 3], np.float64)
+
+    @cached_property
+    def start(self) -> Float64Array:
+        """(4,) homogeneous, the point straight ahead where the lines of sight of a perspective view begin."""
+        ahead = -self.world_to_view[2, :3]
+        return np.append(self.place + self.clip_range[0] * ahead / np.linalg.norm(ahead), 1.0)
 
     def about(self, origin: Float64Array) -> View:
         """The same view of a world whose origin is at the point (3,) of this one."""

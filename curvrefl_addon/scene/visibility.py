@@ -16,6 +16,7 @@ class RayVisibility:
     """What of an instance sees it."""
 
     camera: bool
+    diffuse: bool
     glossy: bool
     shadow: bool
     holdout: bool
@@ -31,13 +32,15 @@ def rays_of(instance: Any, view_layer: bpy.types.ViewLayer) -> RayVisibility:
 
     `view_layer`: the original, not an evaluated copy.
     """
-    objects = [instance.object.original]
+    # (Evaluated ones: these switches may be animated.)
+    objects = [instance.object]
     if instance.is_instance:
-        objects.append(instance.parent.original)
-    holder = objects[-1]
+        objects.append(instance.parent)
+    holder = objects[-1].original
     return RayVisibility(
         camera=all(obj.visible_camera for obj in objects) and not holder.indirect_only_get(view_layer=view_layer),
+        diffuse=all(obj.visible_diffuse for obj in objects),
         glossy=all(obj.visible_glossy for obj in objects),
         shadow=all(obj.visible_shadow for obj in objects),
-        holdout=bool(holder.is_holdout or holder.holdout_get(view_layer=view_layer)),
+        holdout=bool(objects[-1].is_holdout or holder.holdout_get(view_layer=view_layer)),
     )

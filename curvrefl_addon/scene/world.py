@@ -60,6 +60,15 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
     """Background color or environment texture with its mapping; the nearest color and a remark for the rest."""
     if world is None:
         return WorldArrays()
+    found = _background(world, images, warnings)
+    # Cycles is an add-on, and may be off.
+    rays = getattr(world, "cycles_visibility", None)
+    if rays is None:
+        return found
+    return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
+
+
+def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
     notes: list[str] = []
     if output_source(world.node_tree, "Volume") is not None:
         notes.append("The volume {of} is not shown.")

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import BoolProperty, IntProperty, PointerProperty
 
 from ..options import SETTINGS_VERSION, current_options
-from ..settings_table import OF_OBJECTS, OF_SCENES
+from ..settings_table import OF_OBJECTS, OF_SCENES, OF_VIEW_LAYERS
 from .table_properties import properties_of
 
 
@@ -35,6 +35,11 @@ def _settings_changed(_self: Any, _context: bpy.types.Context | None) -> None:
     viewport.settings_changed()
 
 
+def _passes_changed(self: Any, _context: bpy.types.Context | None) -> None:
+    for view_layer in self.id_data.view_layers:
+        view_layer.update_render_passes()
+
+
 class CurvreflObject(bpy.types.PropertyGroup):
     """Settings of one object"""
 
@@ -50,7 +55,13 @@ class CurvreflScene(bpy.types.PropertyGroup):
     }
 
 
-CLASSES = (CurvreflObject, CurvreflScene)
+class CurvreflViewLayer(bpy.types.PropertyGroup):
+    """Settings of one view layer"""
+
+    __annotations__ = properties_of(OF_VIEW_LAYERS, _passes_changed)
+
+
+CLASSES = (CurvreflObject, CurvreflScene, CurvreflViewLayer)
 
 
 def use_defaults() -> None:
@@ -70,6 +81,7 @@ def add() -> None:
     """Attach the groups to Blender's types; the classes are registered."""
     bpy.types.Object.curvrefl = PointerProperty(type=CurvreflObject)
     bpy.types.Scene.curvrefl = PointerProperty(type=CurvreflScene)
+    bpy.types.ViewLayer.curvrefl = PointerProperty(type=CurvreflViewLayer)
     bpy.types.WindowManager.curvrefl_enabled = BoolProperty(
         name="Curved Reflections",
         description="Show what the mirrors reflect in all 3D viewports",
@@ -84,6 +96,7 @@ def remove() -> None:
     for owner, name in (
         (bpy.types.Object, "curvrefl"),
         (bpy.types.Scene, "curvrefl"),
+        (bpy.types.ViewLayer, "curvrefl"),
         (bpy.types.WindowManager, "curvrefl_enabled"),
     ):
         if hasattr(owner, name):

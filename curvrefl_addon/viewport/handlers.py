@@ -215,7 +215,7 @@ def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None
         return
     known = _state.scenes.get((scene.session_uid, depsgraph.view_layer.name))
     if known is not None:
-        known.note(depsgraph.updates)
+        known.note(depsgraph.updates, scene.frame_current)
 
 
 @persistent

@@ -45,6 +45,7 @@ class ViewportScene:
         """The one used last comes last"""
         self._reader = SceneReader()
         self._lights = LightReader()
+        self._frame: int | None = None
         self._arrays: SceneArrays | None = None
         self._refused: dict[int, str] = {}
         """Objects (session_uid) that cannot be mirrors as they are, and why"""
@@ -67,9 +68,13 @@ class ViewportScene:
         self._refused.clear()
         self.changes.listing = True
 
-    def note(self, updates: Any) -> None:
-        """Remember what a depsgraph updated."""
+    def note(self, updates: Any, frame: int) -> None:
+        """Remember what a depsgraph updated, which is at this frame."""
         self.changes.add(updates)
+        if frame != self._frame:
+            # (Images that show another file are not among the updates.)
+            self._frame = frame
+            self.changes.images |= self._reader.sequences
         if self.changes.listing:
             self._mirrors = None
 

@@ -84,8 +84,10 @@ def trace(
     normal = _shading_normal(evaluated, face, np.array(matrix.inverted() @ point, np.float64))
     world_normal = normal @ np.linalg.inv(np.array(matrix)[:3, :3])
     ray = reflect_ray(np.asarray(direction, np.float64), np.array(point, np.float64), world_normal)
-    size = max(evaluated.dimensions.length, 1e-6)
-    start = Vector((ray.point + SELF_HIT * size * ray.normal).tolist())
+    size = max(evaluated.dimensions.length, float(np.finfo(np.float32).tiny))
+    # (Blender casts rays in single precision, from places that are rounded.)
+    off = max(SELF_HIT * size, 4.0 * float(np.spacing(np.float32(np.abs(ray.point).max()))))
+    start = Vector((ray.point + off * ray.normal).tolist())
     again, seen_at, _, _, seen, _ = scene.ray_cast(depsgraph, start, Vector(ray.direction.tolist()))
     return Trace(
         eye=np.array(origin, np.float64),

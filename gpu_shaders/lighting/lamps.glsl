@@ -3,11 +3,14 @@
 // Lamps of renderer/lighting/lamps.py. Records of a lamp:
 //   0: place of this sub-frame's sample (sun: direction to it), kind
 //   1: intensity (sun: irradiance; area: radiance times area), width of the sample for highlights
-//   2: middle (sun: direction to it), radius
-//   3: direction in which it shines, cosine of the cone's or the sun's half angle
-//   4, 5: half axes of an area lamp (else unit), with: ellipse or smoothness of a spot's edge; seen in mirrors
+//   2: middle (sun: direction to it), radius (area, with a spread: 1 over what its cone lets through)
+//   3: direction in which it shines, cosine of the cone's or the sun's half angle (area: tangent of the half spread, 0
+//      for all sides)
+//   4, 5: half axes of an area lamp (else unit; but 5.x of a ball or spot: 1 without soft falloff), with: ellipse or
+//      smoothness of a spot's edge; seen in mirrors
 //   6: radiance of its body, kind of shadow (0 none, 1 one map, 2 cube)
-//   7..10: one map: rows that give texel x, texel y, depth and w; 11: its layer
+//   7..10: one map: rows that give texel x, texel y, depth and w
+//   11: layer of that map; whether it lights diffuse parts of surfaces, and glossy ones; seen by the camera
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
 // Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py),
 // as many drivers run all branches.
@@ -24,6 +27,16 @@ float spot_share(int base, vec3 from_lamp)
   float t = clamp((cosine - lighting_data[base + 3].w) * lighting_data[base + 4].w, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
+
+#ifdef LIGHTING_SPREAD
+// Share of an area lamp's radiance that leaves it at this cosine to its normal.
+float spread_share(int base, float cosine)
+{
+  float half_spread = lighting_data[base + 3].w;
+  float tangent = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 1e-6);
+  return half_spread == 0.0 ? 1.0 : max(half_spread - tangent, 0.0) * lighting_data[base + 2].w;
+}
+#endif
 
 float lamp_shadow(int base, vec3 position)
 {
@@ -101,11 +114,21 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       if (kind != LAMP_AREA) {
         // a ball shines as a disk that faces the surface: the sample moved into that disk
         vec3 middle = lighting_data[base + 2].xyz - s.position;
-        float away2 = max(dot(middle, middle), 1e-12);
+        float away2 = max(dot(middle, middle), 1e-30);
         to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
-        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-12));
+#ifdef LIGHTING_BALLS
+        if (lighting_data[base + 5].x > 0.5) {
+          // of a ball the disk inside the cone that touches it is as bright
+          float radius = lighting_data[base + 2].w;
+          float share = max(1.0 - radius * radius / away2, 0.0);
+          to_light = middle * share + (to_light - middle) * sqrt(share);
+          irradiance *= share;
+          away2 *= share * share;
+        }
+#endif
+        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-30));
       }
-      float distance2 = max(dot(to_light, to_light), 1e-12);
+      float distance2 = max(dot(to_light, to_light), 1e-30);
       range = sqrt(distance2);
       to_light *= inversesqrt(distance2);
       width *= inversesqrt(distance2);
@@ -113,25 +136,36 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
         facing = max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
         // no closer than a share of its own size: a point stands for its surroundings
         distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
+#ifdef LIGHTING_SPREAD
+        irradiance *= spread_share(base, facing);
+#endif
       }
       else if (kind == LAMP_SPOT) {
         irradiance *= spot_share(base, -to_light);
       }
-      irradiance *= facing / distance2;
+      // (Not endless at the lamp's own place.)
+      irradiance = clamp(irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
     }
 #endif
     float cos_light = dot(s.normal, to_light);
-    if (cos_light > 0.0 && irradiance.r + irradiance.g + irradiance.b > 0.0) {
+    if (cos_light > 0.0 && irradiance != vec3(0.0)) {
 #ifdef RAY_SHADOWS
       irradiance *= lamp_shadow_by_ray(base, s, to_light, range);
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif
       vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
+#ifdef LIGHTING_PARTS
+      scattered *= lighting_data[base + 11].y;
+#endif
       // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
       float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
       if (alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
-        scattered += glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
+        vec3 glossy = glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
+#ifdef LIGHTING_PARTS
+        glossy *= lighting_data[base + 11].z;
+#endif
+        scattered += glossy;
       }
       sum += scattered * irradiance;
     }
@@ -142,8 +176,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 }
 
 // Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
-// through lamps in Cycles); alpha 1 where any is hit.
-vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
+// through lamps in Cycles); alpha 1 where any is hit. `by_camera`: those that the camera sees, else those in mirrors.
+vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
 {
   vec4 sum = vec4(0.0);
 #ifdef LIGHTING_LAMPS
@@ -171,6 +205,9 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
         bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
                                                        max(abs(across.x), abs(across.y)) <= 1.0;
         hit = facing < 0.0 && t > 0.0 && t < distance && inside;
+#ifdef LIGHTING_SPREAD
+        radiance *= spread_share(base, -facing);
+#endif
       }
       else {
         // a disk that faces the ray's origin
@@ -181,13 +218,21 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance)
         vec3 place = t * direction - middle;
         float radius = lighting_data[base + 2].w;
         hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
+#ifdef LIGHTING_BALLS
+        if (lighting_data[base + 5].x > 0.5) {
+          float nearest = away * facing;
+          float deep2 = radius * radius - (away * away - nearest * nearest);
+          hit = nearest > 0.0 && deep2 >= 0.0 && nearest - sqrt(max(deep2, 0.0)) < distance;
+        }
+#endif
         if (kind == LAMP_SPOT) {
           radiance *= spot_share(base, -direction);
         }
       }
     }
 #endif
-    if (hit && lighting_data[base + 5].w > 0.5 && radiance.r + radiance.g + radiance.b > 0.0) {
+    float is_visible = by_camera ? lighting_data[base + 11].w : lighting_data[base + 5].w;
+    if (hit && is_visible > 0.5 && radiance != vec3(0.0)) {
       sum += vec4(radiance, 1.0);
     }
     i++;

@@ -6,8 +6,9 @@
 // lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
 //   0: number of lamps, number of world directions, 1 for a world image; 1: world color, brightest that
 //   is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of each direction where there is
-//   no image. Without lamps or directions the first record is dark: the loops over them run at
-//   least once, as a software renderer runs the body of a `for` once more than it needs.
+//   no image; 6: with LIGHTING_PARTS, whether the camera, diffuse and glossy parts of surfaces see the world. Without
+//   lamps or directions the first record is dark: the loops over them run at least once, as a software renderer runs
+//   the body of a `for` once more than it needs.
 
 struct Surface {
   vec3 position;   // world space

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light for every pixel of one class: of the surface or background seen there or, on a mirror, of what the mirror
 // shows. A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND,
-// SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined.
+// SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined. With
+// MIRRORS_END surfaces that mirrors show have their own light alone. With SEEN_BY_MIRROR what sees all this is no
+// camera but a mirror.
 #if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
 #define QUADS
 #endif
@@ -10,6 +12,11 @@
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "lighting/mirror_tint.glsl"
+#ifdef SEEN_BY_MIRROR
+#define BY_CAMERA false
+#else
+#define BY_CAMERA true
+#endif
 
 // As shade_surface turns it: neighbors that turn apart share nothing.
 vec3 facing(vec3 normal, vec3 direction)
@@ -25,10 +32,10 @@ void main()
 #ifdef SHADES_BACKGROUND
 #ifdef FILM_TRANSPARENT
   // As in Cycles: lamps add their light and cover nothing.
-  color = vec4(lamps_seen(origin, direction, 2e30).rgb, 0.0) * weight;
+  color = vec4(lamps_seen(origin, direction, 2e30, BY_CAMERA).rgb, 0.0) * weight;
   return;
 #endif
-  vec3 radiance = world_radiance(direction) + lamps_seen(origin, direction, 2e30).rgb;
+  vec3 radiance = world_seen(direction, BY_CAMERA) + lamps_seen(origin, direction, 2e30, BY_CAMERA).rgb;
 #else
   vec4 position = texelFetch(seen_position, pixel, 0);
   vec4 normal = texelFetch(seen_normal, pixel, 0);
@@ -51,7 +58,7 @@ void main()
   vec3 radiance = tint * environment_at(origin, direction).rgb;
 #endif
 #ifdef SHADES_MIRROR
-  vec3 radiance = tint * (world_radiance(direction) + lamps_seen(origin, direction, 2e30).rgb);
+  vec3 radiance = tint * (world_seen(direction, false) + lamps_seen(origin, direction, 2e30, false).rgb);
 #endif
 #if defined(SHADES_MIRROR_OF_SURFACE) || defined(SHADES_MIRROR_OF_MIRROR)
   position = texelFetch(reflected_position, pixel, 0);
@@ -60,7 +67,9 @@ void main()
   // What is shown stands where it is, not where this pixel's own ray would have met it.
   direction = normalize(position.xyz - origin);
   Surface shown = surface_of(position, normal, base.rgb);
-#ifdef SHADES_MIRROR_OF_MIRROR
+#if defined(MIRRORS_END)
+  vec3 radiance = shown.emission;
+#elif defined(SHADES_MIRROR_OF_MIRROR)
   // What is seen in that one comes in passes of its own.
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else
@@ -69,7 +78,7 @@ void main()
   vec3 radiance = shade_surface(shown, -direction);
 #endif
 #ifdef LIGHTING_NEAR_LAMPS
-  radiance += lamps_seen(origin, direction, distance(position.xyz, origin)).rgb;
+  radiance += lamps_seen(origin, direction, distance(position.xyz, origin), false).rgb;
 #endif
   radiance *= tint;
 #endif

@@ -4,6 +4,11 @@
 // and lamps seen before surfaces.
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
+#ifdef SEEN_BY_MIRROR
+#define BY_CAMERA false
+#else
+#define BY_CAMERA true
+#endif
 
 void main()
 {
@@ -11,7 +16,7 @@ void main()
   vec4 position = texelFetch(seen_position, pixel, 0);
   vec3 origin, direction;
   pixel_ray(textureSize(seen_position, 0), origin, direction);
-  vec3 radiance = lamps_seen(origin, direction, distance(position.xyz, origin)).rgb;
+  vec3 radiance = lamps_seen(origin, direction, distance(position.xyz, origin), BY_CAMERA).rgb;
 #ifdef MIRROR_BASE
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);

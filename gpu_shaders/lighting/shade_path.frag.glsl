@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light of what a ray off a mirror seen in a mirror has hit (exact.frag.glsl), times the mirrors' reflectance on its
 // way. With GOES_ON a mirror that was hit adds only its own light, as the ray goes on from it in the next pass.
+// With MIRRORS_END all that was hit does.
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 
@@ -15,12 +16,14 @@ void main()
   vec3 radiance = vec3(0.0);
   if (position.w == 0.0) {
     range = 2e30;
-    radiance = world_radiance(direction);
+    radiance = world_seen(direction, false);
   }
   else {
     vec4 base = texelFetch(reflected_color, pixel, 0);
     Surface surface = surface_of(position, texelFetch(reflected_normal, pixel, 0), base.rgb);
-#ifdef GOES_ON
+#if defined(MIRRORS_END)
+    radiance = surface.emission;
+#elif defined(GOES_ON)
     if (base.w > 0.5) {
       radiance = shade_under_mirror(surface, -direction);
     }
@@ -31,7 +34,7 @@ void main()
     radiance = shade_surface(surface, -direction);
 #endif
   }
-  radiance += lamps_seen(origin.xyz, direction, range).rgb;
+  radiance += lamps_seen(origin.xyz, direction, range, false).rgb;
   vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
   // (The picture's alpha has come with the first mirror.)
   color = vec4(throughput * radiance * weight, 0.0);

@@ -29,6 +29,16 @@ vec3 world_radiance(vec3 direction)
 #endif
 }
 
+// The same as the camera sees it, or as mirrors do.
+vec3 world_seen(vec3 direction, bool by_camera)
+{
+#ifdef LIGHTING_PARTS
+  return world_radiance(direction) * (by_camera ? lighting_data[6].x : lighting_data[6].z);
+#else
+  return world_radiance(direction);
+#endif
+}
+
 vec2 octahedral_place(vec3 direction)
 {
   vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
@@ -145,6 +155,10 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
     vec3 seen = world_irradiance(place) - world_map(place, 1).rgb * lost;
     vec4 lobe = world_lobe(middle, shape.y);
+#ifdef LIGHTING_PARTS
+    seen *= lighting_data[6].y;
+    lobe.rgb *= lighting_data[6].z;
+#endif
     sum = lobes.diffuse * seen / LIGHTING_PI +
           lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));
   }

@@ -19,11 +19,14 @@ void main()
   vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
 #else
   vec3 incoming = normalize(mirror_place.xyz * view.eye.w - view.eye.xyz);
-  own *= eye_side;
 #endif
   vec3 normal = mirror_facing.xyz;
   vec3 direction = reflect(incoming, normal);
-  Hit hit = walk(mirror_place.xyz, direction, 3e38, SEEN_IN_MIRRORS, own, false);
+  // `enclosing`: number of the mirror that holds the eye, how far in rays start, 1 in the last pass. Inside of a
+  // mirror rays start a little off its surface, and do not get out.
+  bool is_enclosed = abs(own - enclosing.x) < 0.5;
+  vec3 origin = is_enclosed ? mirror_place.xyz + enclosing.y * normal : mirror_place.xyz;
+  Hit hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, is_enclosed ? 0.0 : own, false);
 
 #ifdef KEEPS_WAY
 #ifdef WITH_COUNTS
@@ -47,7 +50,13 @@ void main()
 #endif
     return;
   }
-  RaySurface surface = surface_of_hit(hit, mirror_place.xyz, direction);
+  RaySurface surface = surface_of_hit(hit, origin, direction);
+#ifdef KEEPS_WAY
+  // Nor does light get in, however coarse its shadows are.
+  if (is_enclosed && enclosing.z > 0.5 && abs(surface.mirror - enclosing.x) < 0.5) {
+    throughput_out.rgb = vec3(0.0);
+  }
+#endif
   vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
   surface_position = vec4(surface.position, surface.object_id);
   surface_normal = vec4(surface.normal, float(surface.material));

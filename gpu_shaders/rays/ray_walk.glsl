@@ -64,9 +64,9 @@ int packed_child(float link, float count)
   return (int(link) << 4) + int(count) + 1;
 }
 
-// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, unless `own` is
-// negative: a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which
-// instances count. With `any_hit` whatever is nearer than `farthest` ends the walk.
+// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, as a ray below the
+// facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With
+// `any_hit` whatever is nearer than `farthest` ends the walk.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
   Hit hit;
@@ -138,7 +138,7 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
       int record = rays_top.y + INSTANCE_RECORDS * link;
       vec4 about = fetch_record(rays, record + 3);
       int flags = int(about.z);
-      bool is_own = about.y > 0.5 && abs(about.y - abs(own)) < 0.5;
+      bool is_own = about.y > 0.5 && abs(about.y - own) < 0.5;
       link = NOWHERE;
       if ((flags & seen_by) != 0 && !(is_own && (flags & NEVER_SEES_ITSELF) != 0)) {
 #ifdef WITH_COUNTS
@@ -152,7 +152,7 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         ray = ray_along(vec3(dot(x, start), dot(y, start), dot(z, start)),
                         vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction)));
         nearest = is_own ? about.w : 0.0;
-        bool one_sided = is_own && own > 0.0 && (flags & IS_CLOSED) != 0;
+        bool one_sided = is_own && (flags & IS_CLOSED) != 0;
         facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
         instance = record;
         nodes = REGION_UNIT * int(regions.x);

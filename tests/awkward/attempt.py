@@ -36,7 +36,7 @@ from curvrefl.curvrefl_addon.command import cli  # noqa: E402
 from curvrefl.curvrefl_addon.command.inputs import STDERR, STDOUT, dropped  # noqa: E402
 from curvrefl.curvrefl_addon.errors import InputError  # noqa: E402
 from curvrefl.curvrefl_addon.gpu_caches import clear_gpu_caches  # noqa: E402
-from curvrefl.curvrefl_addon.scene.exr_files import load_exr  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.frame import Frame  # noqa: E402
 from scenes.awkward import SCENES, Awkward  # noqa: E402
 
 REFERENCES = ROOT / "build" / "awkward" / "references"
@@ -47,15 +47,16 @@ SEED = 1
 
 
 def main(folder: Path, names: list[str]) -> None:
+    all_finite = watch_frames()
     with (folder / "attempts.jsonl").open("a", encoding="utf-8") as file:
         for name in names:
             print(json.dumps({"name": name}), file=file, flush=True)
-            result = attempt(SCENES[name], folder)
+            result = attempt(SCENES[name], folder, all_finite)
             print(json.dumps({"name": name} | result), file=file, flush=True)
     clear_gpu_caches()
 
 
-def attempt(scene: Awkward, folder: Path) -> dict[str, Any]:
+def attempt(scene: Awkward, folder: Path, all_finite: Callable[[], bool]) -> dict[str, Any]:
     """What comes of a scene: warnings, an error, the share of blocks that are off, whether all is finite."""
     files = folder / "files" / scene.name
     files.mkdir(parents=True, exist_ok=True)
@@ -71,9 +72,7 @@ def attempt(scene: Awkward, folder: Path) -> dict[str, Any]:
     result: dict[str, Any] = {"reference": str(reference), "picture": str(ours)}
     try:
         result["warnings"] = verb_says(scene, blend, ours)
-        small = files / "small.exr"
-        verb_says(scene, blend, small, "--resolution", f"{reduced()[0]}x{reduced()[1]}")
-        result["finite"] = bool(np.isfinite(load_exr(small)).all())
+        result["finite"] = all_finite()
         result["off"] = share_off(shown(ours), shown(reference))
     except InputError as error:
         result["refused"] = str(error)
@@ -83,22 +82,39 @@ def attempt(scene: Awkward, folder: Path) -> dict[str, Any]:
     return result
 
 
-def verb_says(scene: Awkward, blend: Path, output: Path, *more: str) -> list[str]:
+def watch_frames() -> Callable[[], bool]:
+    """From now on all pictures are looked at as they leave the renderer: in a file they may have become colors.
+
+    Returns what says whether those since it was asked last are finite.
+    """
+    original = Frame.color
+    seen: list[bool] = []
+
+    def color(frame: Frame) -> np.ndarray:
+        pixels = original(frame)
+        seen.append(bool(np.isfinite(pixels).all()))
+        return pixels
+
+    def all_finite() -> bool:
+        if not seen:
+            raise RuntimeError("No picture has left the renderer: what is not finite would not be found.")
+        answer = all(seen)
+        seen.clear()
+        return answer
+
+    Frame.color = color  # type: ignore[method-assign]
+    return all_finite
+
+
+def verb_says(scene: Awkward, blend: Path, output: Path) -> list[str]:
     """Runs the verb `render` as the command line does; returns its warnings."""
     said = io.StringIO()
     with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
-        code = cli.run(["render", str(blend), "--reflector", ",".join(scene.mirrors), "--output", str(output), *more])
+        code = cli.run(["render", str(blend), "--reflector", ",".join(scene.mirrors), "--output", str(output)])
     if code != 0:
         raise RuntimeError(f"The verb ended with exit code {code}: {said.getvalue()}")
     lines = [line for line in said.getvalue().splitlines() if line.startswith("curvrefl: Warning: ")]
     return [line.removeprefix("curvrefl: Warning: ") for line in lines]
-
-
-def reduced() -> tuple[int, int]:
-    """Half the picture's size: enough to see whether it is finite."""
-    render = bpy.context.scene.render
-    scale = render.resolution_percentage / 200.0
-    return max(int(render.resolution_x * scale), 1), max(int(render.resolution_y * scale), 1)
 
 
 def reference_of(scene: Awkward, blend: Path) -> Path:

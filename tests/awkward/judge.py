@@ -41,7 +41,7 @@ def try_scenes(names: Sequence[str], folder: Path, processes: int) -> Iterator[d
 
     batches = [list(names[start : start + BATCH]) for start in range(0, len(names), BATCH)]
     with ThreadPoolExecutor(processes) as pool:
-        for results in pool.map(lambda job: _try_batch(*job, folder), enumerate(batches)):
+        for results in pool.map(lambda job: _try_batch(job[0], job[1], folder), enumerate(batches)):
             for result in results:
                 yield result | {"outcome": outcome_of(result, SCENES[result["name"]].words)}
 
@@ -51,6 +51,7 @@ def _try_batch(number: int, names: list[str], folder: Path) -> list[dict[str, An
     place = folder / f"batch{number}"
     place.mkdir(parents=True, exist_ok=True)
     lines = place / "attempts.jsonl"
+    lines.unlink(missing_ok=True)
     results: dict[str, dict[str, Any]] = {}
     left = list(names)
     while left:

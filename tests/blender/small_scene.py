@@ -17,10 +17,12 @@ type Change = Callable[[bpy.types.Object], None]
 
 
 def build_scene() -> bpy.types.Object:
-    """A mirror ball of radius 1 at the origin, a red block beside it, a white world; returns the ball."""
+    """A mirror ball of radius 1 at the origin, a red block beside it, a white world, no indirect light; returns the
+    ball."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.cycles.diffuse_bounces = 0
     scene.world = bpy.data.worlds.new("world")
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1.0)

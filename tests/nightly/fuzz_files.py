@@ -4,8 +4,8 @@
 
     .venv/bin/python tests/nightly/fuzz_files.py [--count 1000] [--start 0]
 
-A process opens many files; where Blender's own reader crashes, which the supervisor says in a sentence, the next process
-goes on behind the file that it died of.
+A process opens many files; where Blender's own reader crashes, which the supervisor says in a sentence, the next
+process goes on behind the file that it died of.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parents[1] / folder) for folder in ("", "blender", "nightly")]
 
-from mutations import mutated
+from mutations import mutated  # noqa: E402
 
 OPEN_FILES = Path(__file__).with_name("open_files.py")
 SECONDS = 60.0

@@ -13,7 +13,7 @@ from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
     ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
-    ("output", "optics", "setting"),
+    ("memory", "output", "optics", "setting"),
     ("settings_table",),
     ("scene", "renderer.settings"),
     ("diagnostic_colors",),
@@ -30,6 +30,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("report", "demo"),
     ("study",),
     ("viewport",),
+    ("engine",),
     ("ui",),
     ("operators",),
     ("gpu_caches",),

@@ -36,7 +36,7 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.rays.paths import IN_THE_OPEN, PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
@@ -97,7 +97,7 @@ class Frames:
 
         def walk() -> None:
             rays = self.renderer.rays()
-            self.path.follow(self.seen, rays, self.materials, uniforms, window, False)
+            self.path.follow(self.seen, rays, self.materials, uniforms, window, IN_THE_OPEN)
             self.path.wait()
 
         def bound_and_draw() -> None:

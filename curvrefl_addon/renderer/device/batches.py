@@ -5,14 +5,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import gpu
 import numpy as np
 
+from .context import gpu_cache
 
-@cache
+
+@gpu_cache
 def full_screen_triangle() -> Any:
     """Batch with one attribute `pos` (vec2) that covers the whole target."""
     return vertex_batch({"pos": np.array([[-1, -1], [3, -1], [-1, 3]], np.float32)})

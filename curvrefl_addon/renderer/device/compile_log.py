@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+import threading
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from typing import IO
@@ -25,6 +26,8 @@ _ERROR_START = re.compile(r"gpu\.shader\s*\|\s*ERROR")
 _CONTINUED = re.compile(r"\s*\|")
 _STAGE = re.compile(r"(Vert|Frag|Compute)Shader:")
 _STAGES = {"Vert": "vertex", "Frag": "fragment", "Compute": "compute"}
+_redirected = threading.Lock()
+"""The streams are the whole process's, and shaders may be compiled in two threads"""
 _AT_LINE = re.compile(r"\|\s*(?:ERROR: *)?(?:python_shader\.glsl|\d+)[:(](\d+)(?:[:(]\d+)?[:)]*[ :]*(.*)")
 """In Blender's form, or in those of drivers: `0(12) : error ..`, `0:12(5): error: ..`, `ERROR: 0:12: ..`"""
 
@@ -52,7 +55,7 @@ class CapturedOutput:
 def captured_output() -> Iterator[CapturedOutput]:
     """Keep what this process writes to its standard streams; it is in the result afterwards."""
     result = CapturedOutput()
-    with ExitStack() as stack:
+    with _redirected, ExitStack() as stack:
         for stream in _STREAMS:
             try:
                 kept = os.dup(stream)

@@ -1,10 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The GPU itself: whether there is one, what it is called and what it can hold."""
+"""The GPU itself: whether there is one, what it is called and what it can hold, and who draws with it.
+
+A shader holds its constants between two draws, and a batch belongs to the context that drew it last. In a window
+Blender renders in a thread and a context of its own while the viewports draw in the main thread: each has its own.
+"""
 
 from __future__ import annotations
 
-from functools import cache
+import threading
+from collections.abc import Callable
+from functools import cache, wraps
+from typing import Any
 
 import gpu
 
@@ -43,6 +50,23 @@ def require_gpu() -> None:
 def _why_no_headless_gpu() -> str:
     """Asked once: later the context is there, or will not come."""
     return headless_gpu_fails()
+
+
+def gpu_cache(make: Callable[..., Any]) -> Callable[..., Any]:
+    """`functools.cache` for shaders and batches; one render at a time may run beside the main thread."""
+    of_main, of_render = cache(make), cache(make)
+
+    @wraps(make)
+    def kept(*arguments: Any) -> Any:
+        return (of_main if threading.current_thread() is threading.main_thread() else of_render)(*arguments)
+
+    def clear() -> None:
+        of_main.cache_clear()
+        of_render.cache_clear()
+
+    kept.cache_clear = clear  # type: ignore[attr-defined]
+    kept.caches = (of_main, of_render)  # type: ignore[attr-defined]
+    return kept
 
 
 def renderer_name() -> str:

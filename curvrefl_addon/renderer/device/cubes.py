@@ -8,7 +8,6 @@ through a frame buffer.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import gpu
@@ -16,6 +15,7 @@ import numpy as np
 
 from ...scene.arrays import Float32Array
 from .batches import full_screen_triangle
+from .context import gpu_cache
 from .frame_buffers import frame_buffer, layer_of, read_colors
 from .shaders import FULL_SCREEN, Piece, build_shader
 from .state import drawing_state, set_viewport
@@ -57,7 +57,7 @@ def read_cube(cube: Any) -> Float32Array:
     return faces
 
 
-@cache
+@gpu_cache
 def _copy_shader() -> Any:
     return build_shader(
         "cube copy",

@@ -4,14 +4,13 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ...errors import InputError
 from ...scene.arrays import Float32Array
-from .context import most_texels
+from .context import gpu_cache, most_texels
 from .records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
 from .shaders import Image, Piece, build_shader, dispatch
 
@@ -122,7 +121,7 @@ def _copy(source: Any, first: int, target: Any, start: int, count: int) -> None:
     dispatch(shader, count, _GROUP)
 
 
-@cache
+@gpu_cache
 def _copy_shader() -> Any:
     return build_shader(
         "copy records",

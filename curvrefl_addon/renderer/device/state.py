@@ -11,12 +11,18 @@ import gpu
 
 
 @contextmanager
-def drawing_state(depth_test: str = "NONE", depth_write: bool = False, blend: str = "NONE") -> Iterator[None]:
-    """Set the fixed-function state and put Blender's default back, also after an error."""
+def drawing_state(
+    depth_test: str = "NONE", depth_write: bool = False, blend: str = "NONE", mirrored: bool = False
+) -> Iterator[None]:
+    """Set the fixed-function state and put Blender's default back, also after an error.
+
+    In a `mirrored` picture triangles run the other way round: what is a front face stays one.
+    """
     gpu.state.depth_test_set(depth_test)
     gpu.state.depth_mask_set(depth_write)
     gpu.state.blend_set(blend)
     gpu.state.face_culling_set("NONE")
+    gpu.state.front_facing_set(mirrored)
     try:
         yield
     finally:
@@ -24,6 +30,7 @@ def drawing_state(depth_test: str = "NONE", depth_write: bool = False, blend: st
         gpu.state.depth_mask_set(False)
         gpu.state.blend_set("NONE")
         gpu.state.face_culling_set("NONE")
+        gpu.state.front_facing_set(False)
 
 
 @contextmanager

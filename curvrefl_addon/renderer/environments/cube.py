@@ -70,7 +70,7 @@ class EnvironmentCube:
             for i in range(SUB_FRAMES):
                 uniforms = self._draw_face(self._seen, view.jittered(((i & 1) - 0.5) / 2, ((i >> 1) - 0.5) / 2))
                 lighting.prepare(i * max(lighting.sub_frames // SUB_FRAMES, 1) % lighting.sub_frames)
-                shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES)
+                shade.add(canvas, self._seen, None, uniforms, 1.0 / SUB_FRAMES, by_camera=False)
 
     def environment(self, method: str, view: View) -> Environment:
         """What a method of the catalog looks up in a view; for `environment_cube_vertex` the cube itself, out of

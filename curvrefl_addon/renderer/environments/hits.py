@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.arrays import Float32Array
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, set_viewport
@@ -43,7 +43,7 @@ def environment_hits(seen: SurfaceBuffer, environments: Sequence[Environment], v
     return read_texture(picture)
 
 
-@cache
+@gpu_cache
 def _hits_shader(lookup: str) -> Any:
     return build_shader(
         f"hits {lookup}",

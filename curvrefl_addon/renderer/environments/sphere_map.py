@@ -9,12 +9,12 @@ and again when the axis changes.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 from ...optics.environment import axis_frame
 from ...scene.arrays import Float64Array
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
@@ -61,7 +61,7 @@ def _draw(cube: Any, constants: dict[str, tuple[float, ...]], resolution: int, l
     return texture
 
 
-@cache
+@gpu_cache
 def _map_shader() -> Any:
     return build_shader(
         "sphere map",

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ..device.batches import bare_batch
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.records import record_texture
 from ..device.shaders import Piece, build_shader, flags
@@ -92,7 +92,7 @@ class VertexLookups:
         return known[1:]
 
 
-@cache
+@gpu_cache
 def _vertex_shader(nearest_corner: bool) -> Any:
     corner = Piece(
         samplers={"triangles": "FLOAT_2D"},

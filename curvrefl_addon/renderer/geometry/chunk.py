@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import indexed_batch
+from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
 from ..device.shaders import Image, Piece, build_shader, dispatch, named
 from .mesh_pieces import is_count
@@ -239,7 +239,7 @@ def pack_color(color: Float32Array) -> Float32Array:
     return (levels[:, 0] + 256 * levels[:, 1] + 65536 * levels[:, 2]).astype(np.float32)
 
 
-@cache
+@gpu_cache
 def _place_shader() -> Any:
     return build_shader(
         "place",

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...memory import require_memory
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from .chunk import Placed
 
@@ -51,6 +52,11 @@ def estimated_bytes(scene: SceneArrays, with_rays: bool = False) -> int:
         # (a triangle's records, its share of the nodes, twice while the texture grows; corners)
         total += sum(200 * len(mesh.triangles) + 64 * len(mesh.corner_vertex) for mesh in used)
     return total
+
+
+def require_room(scene: SceneArrays) -> None:
+    """Raises InputError where the meshes of all instances are more than memory holds: drivers end a program for it."""
+    require_memory(estimated_bytes(scene), "The scene", "hide objects, or make their meshes coarser")
 
 
 def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:

@@ -26,6 +26,7 @@ from .placed_instances import (
     differs_in_place_only,
     instance_keys,
     relative_positions,
+    require_room,
     stretches_of,
 )
 from .split import has_long_edges, split_mesh
@@ -111,6 +112,7 @@ class SceneGeometry:
             self._unchecked.update(difference.moved)
             self._move(difference.moved)
             return difference
+        require_room(scene)
         difference.structure = True
         where = [None if before is None else self._where[before] for before in old]
         self._angles = [

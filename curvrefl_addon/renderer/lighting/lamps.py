@@ -14,6 +14,8 @@ LAMP_RECORDS = 12
 """vec4 records per lamp"""
 MAX_LAMPS = 32
 """Uniform blocks hold 16 KiB everywhere"""
+LEAST_SPREAD = np.radians(1.0)
+"""Cycles' own least angle of an area lamp's cone"""
 SPOT, SUN, AREA, POINT = 1, 2, 3, 0
 KINDS = {"POINT": POINT, "SPOT": SPOT, "SUN": SUN, "AREA": AREA}
 LAMP_DEFINES = {
@@ -38,6 +40,11 @@ def is_soft(light: LightArrays) -> bool:
     if light.kind == "AREA":
         return max(light.size) > 0.0
     return light.radius > 0.0
+
+
+def has_spread(light: LightArrays) -> bool:
+    """Whether the lamp shines into a cone from each of its points."""
+    return light.kind == "AREA" and light.spread < np.pi - 1e-4
 
 
 def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
@@ -86,6 +93,7 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     records[3, :3] = -back
     records[4, :3], records[5, :3] = x, y
     records[5, 3] = float(light.visible_glossy)
+    records[11, 1:] = float(light.lights_diffuse), float(light.lights_glossy), float(light.visible_camera)
     if kind == SUN:
         half = 0.5 * light.angle
         # the whole sun gives `color` to a plane that faces its middle
@@ -104,8 +112,13 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
         records[4, 3] = float(light.ellipse)
         records[2, 3] = np.sqrt(area / np.pi)
         extent = records[2, 3]
+        if has_spread(light):
+            half = 0.5 * max(light.spread, LEAST_SPREAD)
+            records[3, 3] = np.tan(half)
+            records[2, 3] = 1.0 / (np.tan(half) - half)
     else:
         records[1, :3] = color / (4.0 * np.pi)  # radiant intensity
+        records[5, 0] = float(light.is_ball)
         if light.radius > 0.0:
             records[6, :3] = records[1, :3] / (np.pi * light.radius**2)
         if kind == SPOT:

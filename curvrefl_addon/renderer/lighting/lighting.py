@@ -15,11 +15,13 @@ import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.materials.pixels import averaged
+from ...scene.names import listed
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .ggx import GGX_DEFINES, ggx_table
-from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, is_soft, lamp_points, lamp_records
+from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
+from .left_out import left_out
 from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
@@ -42,10 +44,14 @@ DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 WORLD_MAP_RESOLUTION = 384
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 type Features = frozenset[str]
-"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether the world shines and whether it is an image"""
+"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only,
+whether the world shines and whether it is an image"""
 FEATURES: Features = frozenset(
-    f"LIGHTING_{name}" for name in ("POINT", "SPOT", "SUN", "AREA", "MAPS", "CUBES", "IMAGE", "WORLD")
+    f"LIGHTING_{name}"
+    for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
+LARGEST_RECORD = 1e30
+"""What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
 
@@ -82,10 +88,10 @@ class Lighting:
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
-        self.warnings: tuple[str, ...] = ()
-        """What could not be represented, one sentence each"""
+        self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
+        self._left_out = left_out(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -96,6 +102,8 @@ class Lighting:
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene = self._scene, scene
+        if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
+            self._left_out = left_out(scene)
         moved = difference.moved
         planned = difference.structure or (bool(moved) and not self._holds(moved))
         if planned:
@@ -161,7 +169,13 @@ class Lighting:
         }
         found = {f"LIGHTING_{kind}" for kind in kinds}
         found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
-        if self._world.image is not None:
+        world = self._world
+        found |= {"LIGHTING_SPREAD" for light in self._lights if has_spread(light)}
+        found |= {"LIGHTING_BALLS" for light in self._lights if light.is_ball}
+        found |= {"LIGHTING_PARTS" for light in self._lights if not (light.lights_diffuse and light.lights_glossy)}
+        if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
+            found.add("LIGHTING_PARTS")
+        if world.image is not None:
             found.add("LIGHTING_IMAGE")
         if self._world_is_lit:
             found.add("LIGHTING_WORLD")
@@ -177,6 +191,8 @@ class Lighting:
             lamp_layers, world_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers, self._casters)
             self._world_maps.draw(world_layers, self._casters)
+            # (A strong lamp of nearly no size would shine endlessly there.)
+            records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
         self._bound = self._blocks[index]
 
@@ -195,16 +211,27 @@ class Lighting:
         for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_ggx"):
             self.__dict__.pop(name, None)
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What could not be represented, one sentence each."""
+        # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
+        found = (*self._lamp_warnings, *self._left_out)
+        odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
+        if not odd or not self._world_is_lit:
+            return found
+        what = "shade the world's light as that of lamps: their visibility to diffuse rays is left out."
+        return (*found, f"{listed(odd)} {what}")
+
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
-        shining = [light for light in lights if max(light.color) > 0.0]
+        shining = [light for light in lights if any(light.color)]
         if len(shining) > MAX_LAMPS:
-            self.warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
-            shining.sort(key=lambda light: -sum(light.color))
+            self._lamp_warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+            shining.sort(key=lambda light: -sum(map(abs, light.color)))
         return shining[:MAX_LAMPS]
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
-        self.warnings = self._standing_apart
+        self._lamp_warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
@@ -243,7 +270,7 @@ class Lighting:
         """Choose the world's directions; fill its textures."""
         world = self._world = self._scene.world
         self._sky = split_suns(world)
-        lit = max(world.color) > 0.0
+        lit = max(world.color) > 0.0 and (world.visible_diffuse or world.visible_glossy)
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
@@ -257,7 +284,7 @@ class Lighting:
             pixels = averaged(world.image, largest_texture(), largest_texture())
             if pixels.shape != world.image.shape:
                 self.world_warnings = (
-                    "The world's image is drawn with fewer pixels, as many as the graphics driver takes.",
+                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
                 )
             image = np.ones((*pixels.shape[:2], 4), np.float32)
             image[..., :3] = pixels
@@ -304,6 +331,8 @@ class Lighting:
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
         records[2:5, :3] = self._world.rotation
+        world = self._world
+        records[6, :3] = float(world.visible_camera), float(world.visible_diffuse), float(world.visible_glossy)
         return lamp_layers, world_layers, records
 
     def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:

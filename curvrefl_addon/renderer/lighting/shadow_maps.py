@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ...scene.arrays import Float64Array
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, set_viewport
@@ -142,7 +142,7 @@ def window_rows(view: ShadowView, resolution: int) -> Float64Array:
     return to_window @ view.world_to_clip
 
 
-@cache
+@gpu_cache
 def shadow_depth_shader() -> Any:
     return build_shader(
         "shadow depth",

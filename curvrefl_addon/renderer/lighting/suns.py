@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -35,15 +35,25 @@ _last: list[tuple[WorldArrays, Sky]] = []
 
 
 def split_suns(world: WorldArrays) -> Sky:
-    """Find the suns of the world. The last world's are kept, so that its image stays the same object."""
+    """Find the suns of the world. The last two worlds' are kept, so that its image stays the same object."""
     if world.image is None:
         return Sky(world, (), np.inf)
     for known, sky in _last:
-        if known.image is world.image and known.color == world.color and np.array_equal(known.rotation, world.rotation):
+        if is_same_world(known, world):
             return sky
     sky = _split(world)
-    _last[:] = [(world, sky)]
+    _last[:] = [(world, sky), *_last[:1]]
     return sky
+
+
+def is_same_world(one: WorldArrays, other: WorldArrays) -> bool:
+    """Whether they shine alike and for the same rays."""
+    plain = [item.name for item in fields(WorldArrays) if item.name not in ("image", "rotation")]
+    return (
+        one.image is other.image
+        and np.array_equal(one.rotation, other.rotation)
+        and all(getattr(one, name) == getattr(other, name) for name in plain)
+    )
 
 
 def _split(world: WorldArrays) -> Sky:
@@ -71,7 +81,7 @@ def _split(world: WorldArrays) -> Sky:
         left &= ~members
         if power[members].sum() < LEAST_SHARE * total:
             continue
-        suns.append(_sun(directions[members], power[members], len(suns)))
+        suns.append(_sun(world, directions[members], power[members], len(suns)))
         where = rows[members], columns[members]
         image[where] *= (1.0 - excess[members])[:, None]
     if not suns:
@@ -79,8 +89,8 @@ def _split(world: WorldArrays) -> Sky:
     return Sky(replace(world, image=image), tuple(suns), limit)
 
 
-def _sun(directions: Float64Array, power: Float64Array, number: int) -> LightArrays:
-    """A SUN lamp with the power (n, 3), the middle and the spread of these directions."""
+def _sun(world: WorldArrays, directions: Float64Array, power: Float64Array, number: int) -> LightArrays:
+    """A SUN lamp of the world with the power (n, 3), the middle and the spread of these directions."""
     energy = power.sum(axis=1)
     middle = energy @ directions
     middle /= np.linalg.norm(middle)
@@ -98,7 +108,10 @@ def _sun(directions: Float64Array, power: Float64Array, number: int) -> LightArr
         matrix,
         # an even disk's root mean square distance from its middle is its radius over the root of 2
         angle=2.0 * np.sqrt(2.0) * spread,
+        visible_camera=False,
         visible_glossy=False,
+        lights_diffuse=world.visible_diffuse,
+        lights_glossy=world.visible_glossy,
     )
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from ...scene.arrays import Float32Array, Float64Array, WorldArrays
 from ...scene.materials.pixels import averaged
 from .ggx import own_lobe
+from .suns import is_same_world
 
 MAP_SIZE = 64
 """Texels along an octahedral map"""
@@ -66,10 +67,10 @@ _last: list[tuple[WorldArrays, int, WorldLight]] = []
 
 
 def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """`count` draws from the sky, and its maps. The last world's are kept, as scenes change more often."""
+    """`count` draws from the sky, and its maps. The last two worlds' are kept: scenes change more often, and a render
+    may run beside the viewports."""
     for known, known_count, light in _last:
-        same = known.image is world.image and known.color == world.color
-        if same and known_count == count and np.array_equal(known.rotation, world.rotation):
+        if known_count == count and is_same_world(known, world):
             return light
     sky = _Sky.of(world, 64)
     coarse = _Sky.of(world, 32)
@@ -92,7 +93,7 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     maps[LOBE_LAYER:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
-    _last[:] = [(world, count, light)]
+    _last[:] = [(world, count, light), *_last[:1]]
     return light
 
 

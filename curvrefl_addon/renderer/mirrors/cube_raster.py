@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from ...optics.surfaces.cube_map import FACE_AXES
 from ...scene.arrays import Float32Array, Int32Array
 from ..device.batches import vertex_batch
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, read_colors
 from ..device.shaders import Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
@@ -75,7 +75,7 @@ class CubeRaster:
         return faces
 
 
-@cache
+@gpu_cache
 def _shader() -> Any:
     return build_shader(
         "bake reflector",

@@ -25,6 +25,8 @@ SLIVER_SHARE = 1e-6
 """A triangle with this share of the largest one's area has no plane"""
 INSIDE_SHARE = 0.98
 """Share of the distance to the nearest facet that is inside for sure, dents that count as none included"""
+NEAR_SHARE = 0.05
+"""Of the radius: nearer to the surface a map does not tell the sides apart, and the mesh is asked"""
 
 MOST_SHAPES = 5
 """Resolutions whose maps are kept, none among them"""
@@ -139,19 +141,20 @@ class Mirror:
         return matrix[:3, :3] @ middle + matrix[:3, 3], self._inner_radius
 
     def holds_eye(self, view: View, shape: BakedShape) -> bool:
-        """Whether the eye is inside of it."""
+        """Whether lines of sight begin inside of it."""
         if view.is_orthographic or shape.is_open:
             return False
-        eye = (shape.world_to_map @ view.eye)[:3]
+        eye = (shape.world_to_map @ view.start)[:3]
         distance = float(np.linalg.norm(eye))
         if distance >= shape.bound:
             return False
-        if shape.map is None:
-            return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.eye)[:3])
-        if distance == 0.0:
-            return True
-        radius, _ = CubeMapSurface(shape.map.radial).radius(eye[None] / distance)
-        return distance < float(radius[0])
+        if shape.map is not None:
+            if distance == 0.0:
+                return True
+            radius = float(CubeMapSurface(shape.map.radial).radius(eye[None] / distance)[0][0])
+            if abs(distance - radius) > NEAR_SHARE * radius or not self.facts.is_closed:
+                return distance < radius
+        return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.start)[:3])
 
     def _mesh_holds(self, eye: Float64Array) -> bool:
         """Whether the closed mesh holds a point (3,), object space.
@@ -171,7 +174,7 @@ class Mirror:
         corners = np.ones((8, 4))
         corners[:, :3] = np.where(CORNERS, high, low)
         clip = corners @ (view.world_to_clip @ self._instance.matrix).T
-        if (clip[:, 3] <= 1e-6).any():
+        if (clip[:, 3] <= 1e-6 * np.abs(clip[:, 3]).max()).any():
             return (0, 0, view.width, view.height)
         pixels = (clip[:, :2] / clip[:, 3:] * 0.5 + 0.5) * (view.width, view.height)
         size = (view.width, view.height)

@@ -8,7 +8,7 @@ and then made perpendicular to the shading normal: so the path is stationary exa
 
 from __future__ import annotations
 
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from ...optics.surfaces.radial_surfaces import unit
 from ...optics.surfaces.star_center import solid_angles
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import vertex_batch
-from ..device.context import require_gpu
+from ..device.context import gpu_cache, require_gpu
 from ..device.cubes import cube_texture
 from ..device.frame_buffers import frame_buffer, read_colors
 from ..device.shaders import Piece, build_shader, named
@@ -297,7 +297,7 @@ def _directions(
     return result
 
 
-@cache
+@gpu_cache
 def _shader() -> Any:
     return build_shader(
         "parametric bake",

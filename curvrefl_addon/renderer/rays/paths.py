@@ -9,10 +9,10 @@ next pass goes on from them.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
@@ -28,6 +28,11 @@ PATH_DEPTH = 0.5
 """Of pixels whose rays are followed; exact in any depth buffer"""
 IMAGES_AT_ONCE = 8
 """Base color images that one pass looks up"""
+
+type Enclosing = tuple[float, float]
+"""Number of a closed mirror that holds the eye, and how far in from its surface rays start, meters"""
+IN_THE_OPEN: Enclosing = (0.0, 0.0)
+"""No mirror holds the eye"""
 
 
 class PathBuffer(SurfaceBuffer):
@@ -54,7 +59,7 @@ class PathBuffer(SurfaceBuffer):
         materials: Materials,
         view_uniforms: Any,
         window: Window,
-        eye_is_inside: bool,
+        enclosing: Enclosing,
         goes_on: bool = True,
         with_counts: bool = False,
         chosen: Any = None,
@@ -65,7 +70,7 @@ class PathBuffer(SurfaceBuffer):
         anything in the other textures; in `direction` and `throughput` only if it `goes_on` from here, or has come from
         a PathBuffer. `with_counts`: `direction` gets what each ray was tested against in place of its direction: nodes,
         triangles, instances, and 1 where there is a ray. `chosen`: record texture by mirrors' numbers, 1 of those whose
-        rays are followed; None is all.
+        rays are followed; None is all. `enclosing`: the mirror in which all rays are, if any.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
         if materials.images and self._uv is None:
@@ -84,9 +89,9 @@ class PathBuffer(SurfaceBuffer):
             shader.uniform_sampler("mirror_position", mirrors.position)
             shader.uniform_sampler("mirror_normal", mirrors.normal)
             shader.uniform_sampler("mirror_color", mirrors.color)
+            shader.uniform_float("enclosing", (*enclosing, 0.0 if goes_on else 1.0))
             if path is None:
                 shader.uniform_block("view", view_uniforms)
-                shader.uniform_float("eye_side", -1.0 if eye_is_inside else 1.0)
             else:
                 shader.uniform_sampler("path_direction", path.direction)
                 shader.uniform_sampler("path_throughput", path.throughput)
@@ -141,6 +146,8 @@ class Bounce:
     """Holds the mirrors' pixels"""
     goes_on: bool
     """Another step follows the rays off mirrors that were hit"""
+    ends: bool
+    """The file follows no more mirrors: what was hit shows its own light alone"""
 
 
 ON_PATHS = Piece(
@@ -149,7 +156,7 @@ ON_PATHS = Piece(
 """A full-screen triangle where PathBuffers have followed rays; test depth for equality"""
 
 
-@cache
+@gpu_cache
 def _mask_shader(on_path: bool, with_choice: bool) -> Any:
     path = Piece(samplers={"surface_depth": "DEPTH_2D"}, defines=flags("ON_PATH"))
     return build_shader(
@@ -166,10 +173,9 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts: bool) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
-    eye = Piece(constants={"eye_side": "FLOAT"})
     images = Piece(outputs={"uv_out": "VEC4"}, defines=flags("WITH_IMAGES"))
     kept = Piece(outputs=named("VEC4", "direction_out", "throughput_out"), defines=flags("KEEPS_WAY"))
     return build_shader(
@@ -179,17 +185,18 @@ def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts
         TABLE,
         Piece(
             samplers=named("FLOAT_2D", "mirror_position", "mirror_normal", "mirror_color"),
+            constants={"enclosing": "VEC3"},
             defines=flags("WITH_COUNTS") if with_counts else {},
             fragment="rays/exact.frag.glsl",
         ),
-        *((way,) if on_path else (VIEW, eye)),
+        way if on_path else VIEW,
         SURFACE_OUTPUTS,
         *((images,) if with_images else ()),
         *((kept,) if keeps_way else ()),
     )
 
 
-@cache
+@gpu_cache
 def _images_shader() -> Any:
     names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
     cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))

@@ -8,7 +8,6 @@ Iterations as in figure 3c of Roger & Holzschuch 2006; zebra stripes and line li
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from ...diagnostic_colors import (
 )
 from ...scene.arrays import Float32Array
 from ..device.batches import bare_batch, full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.records import record_texture
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
@@ -242,7 +242,7 @@ _OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 _MARK = (VIEW, Piece(constants={"mirror": "FLOAT"}, outputs={"mark": "VEC4"}))
 
 
-@cache
+@gpu_cache
 def _shader(mode: str, lookup: str, marks: bool, with_choice: bool) -> Any:
     pieces = [*_OF_MIRROR, Piece(defines=flags(mode))]
     if mode in SOLVED_MODES:
@@ -267,7 +267,7 @@ def _shader(mode: str, lookup: str, marks: bool, with_choice: bool) -> Any:
     return build_shader(f"diagnostic {mode}", *pieces)
 
 
-@cache
+@gpu_cache
 def _vertices_shader() -> Any:
     return build_shader(
         "diagnostic vertices",
@@ -289,7 +289,7 @@ def _vertices_shader() -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _failed_shader() -> Any:
     return build_shader(
         "diagnostic failed",

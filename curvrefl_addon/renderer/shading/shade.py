@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
@@ -26,6 +26,8 @@ from .lookup import Environment, lookup_piece
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "path_direction", "path_throughput")
+MIRRORS_END = "MIRRORS_END"
+"""Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
 RAY_SHADOWS = "RAY_SHADOWS"
 """Beside the features of lighting: lamps' shadows by rays"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
@@ -47,9 +49,14 @@ class ShadePass:
 
     def follow(self, scene: SceneArrays) -> None:
         """Know another state of the scene."""
-        self._has_bodies = any(
-            light.kind != "SUN" and (light.radius > 0.0 or light.kind == "AREA") for light in scene.lights
-        )
+        self.mirror_bounces = scene.mirror_bounces
+        """See `SceneArrays`"""
+        bodies = [light for light in scene.lights if light.radius > 0.0 or light.kind == "AREA"]
+        self._has_bodies = {
+            True: any(light.visible_camera for light in bodies),
+            False: any(light.visible_glossy for light in bodies),
+        }
+        """Lamps that the camera sees, and those that mirrors do"""
         self._has_base = any(
             not scene.materials[index].glossy_only
             and (scene.materials[index].metallic < 1.0 or max(scene.materials[index].emission) > 0.0)
@@ -71,6 +78,7 @@ class ShadePass:
         chosen: Any = None,
         with_others: bool = True,
         film_transparent: bool = False,
+        by_camera: bool = True,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -79,6 +87,7 @@ class ShadePass:
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
         rays shadow what mirrors show. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
         all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
+        `by_camera`: what sees all this is the camera, else a mirror.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -90,8 +99,8 @@ class ShadePass:
         target = canvas.with_depth(classes.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             set_viewport(0, 0, seen.width, seen.height)
-            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent)
-            self._add_front(seen, view_uniforms, weight, mirrors_only)
+            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent, by_camera)
+            self._add_front(seen, view_uniforms, weight, mirrors_only, by_camera)
         for bounce in later or ():
             self._add_path(canvas, bounce, view_uniforms, weight, shadows)
 
@@ -104,6 +113,7 @@ class ShadePass:
         mirrors_only: bool,
         shadows: RayScene | None,
         film_transparent: bool,
+        by_camera: bool,
     ) -> None:
         """Background and surfaces, seen directly or in mirrors."""
         kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
@@ -115,10 +125,12 @@ class ShadePass:
                 if not features & _LAMPS:
                     continue
                 features |= {FILM_TRANSPARENT}
-            self._draw(_shade_shader(kind, features), kind, seen, view_uniforms, weight)
+            as_camera = by_camera or kind != PixelClass.BACKGROUND
+            self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                shader = _shade_shader(kind, self._features(shadows))
+                features = self._features(shadows) | ({MIRRORS_END} if self.mirror_bounces == 0 else frozenset())
+                shader = _shade_shader(kind, features)
                 shader.bind()
                 if shadows is not None and RAY_SHADOWS in self._features(shadows):
                     shadows.bind(shader)
@@ -134,21 +146,25 @@ class ShadePass:
             environment.bind(shader, environment.radiance)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
 
-    def _add_front(self, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool) -> None:
+    def _add_front(
+        self, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool, by_camera: bool
+    ) -> None:
         """What adds to that in some scenes only (see `shade_front.frag.glsl`)."""
         mirrors = (PixelClass.MIRROR, PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
         if self._has_base:
             for kind in mirrors:
-                self._draw(_front_shader(True, self._lighting.features), kind, seen, view_uniforms, weight)
+                shader = _front_shader(True, self._lighting.features, by_camera)
+                self._draw(shader, kind, seen, view_uniforms, weight)
         if mirrors_only:
             return
         kinds: list[PixelClass] = []
-        if self._has_bodies:
+        if self._has_bodies[by_camera]:
             # (The background has shown all lamps.)
             others = {PixelClass.BACKGROUND, *(mirrors if self._has_base else ())}
             kinds = [kind for kind in PixelClass if kind not in others]
         for kind in kinds:
-            self._draw(_front_shader(False, self._lighting.features), kind, seen, view_uniforms, weight)
+            shader = _front_shader(False, self._lighting.features, by_camera)
+            self._draw(shader, kind, seen, view_uniforms, weight)
 
     def _features(self, shadows: RayScene | None) -> Features:
         """Of the lighting, for what mirrors show."""
@@ -161,7 +177,7 @@ class ShadePass:
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = self._features(shadows)
-        shader = _path_shader(bounce.goes_on, features)
+        shader = _path_shader(bounce.goes_on, features | ({MIRRORS_END} if bounce.ends else frozenset()))
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
@@ -204,6 +220,7 @@ class ShadePass:
 _LIGHT = Piece(constants={"weight": "FLOAT"}, outputs={"color": "VEC4"})
 _OF_SEEN = (VIEW, CLASS, TABLE, Piece(samplers=named("FLOAT_2D", *_SEEN)), _LIGHT)
 """Pieces of shaders that light a class of pixels of the buffers that the eye sees"""
+_SEEN_BY_MIRROR = Piece(defines=flags("SEEN_BY_MIRROR"))
 _OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 
 
@@ -212,8 +229,8 @@ def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
     return (lighting_piece(features), *((RAYS,) if RAY_SHADOWS in features else ()))
 
 
-@cache
-def _shade_shader(kind: PixelClass, features: Features) -> Any:
+@gpu_cache
+def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
     return build_shader(
@@ -221,11 +238,12 @@ def _shade_shader(kind: PixelClass, features: Features) -> Any:
         *_OF_SEEN,
         *((_OF_REFLECTED,) if shows_surface else ()),
         *_lighting_pieces(features),
+        *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
     )
 
 
-@cache
+@gpu_cache
 def _environment_shader(lookup: str, features: Features) -> Any:
     """For mirrors that show an environment, with the name of its lookup."""
     return build_shader(
@@ -237,7 +255,7 @@ def _environment_shader(lookup: str, features: Features) -> Any:
     )
 
 
-@cache
+@gpu_cache
 def _path_shader(goes_on: bool, features: Features) -> Any:
     return build_shader(
         "shade path",
@@ -252,11 +270,12 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
     )
 
 
-@cache
-def _front_shader(has_base: bool, features: Features) -> Any:
+@gpu_cache
+def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
     return build_shader(
         "shade front",
         *_OF_SEEN,
         lighting_piece(features),
+        *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),
     )

@@ -10,7 +10,8 @@ from typing import Any, Self
 
 from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
-from ..rays.paths import Bounce
+from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
+from ..rays.ray_scene import OWN_RANGE
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import union
 from .shown import Light, Shown, SubFrame
@@ -54,8 +55,23 @@ class ShownRays(Shown):
 def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
     """Mirrors that a ray can meet one after the other."""
     mirrors = sub_frame.stage.mirrors
-    may_meet_another = len(mirrors) > 1 or any(not mirror.facts.never_sees_itself for mirror in mirrors)
-    return members[0].settings.bounces if may_meet_another else 1
+    may_meet_another = (
+        len(mirrors) > 1
+        or any(not mirror.facts.never_sees_itself for mirror in mirrors)
+        or _enclosing(members, sub_frame) != IN_THE_OPEN
+    )
+    # (One more than the file follows shows what shines by itself.)
+    return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces + 1) if may_meet_another else 1
+
+
+def _enclosing(members: Sequence[ShownRays], sub_frame: SubFrame) -> Enclosing:
+    """The mirror that holds the eye; of several, one in the other, the smallest, which hides the others."""
+    shapes = [(shown.mirror, shown.mirror.shape()) for shown in members]
+    holding = [(shape.bound, mirror.number) for mirror, shape in shapes if mirror.holds_eye(sub_frame.view, shape)]
+    if not holding:
+        return IN_THE_OPEN
+    bound, number = min(holding)
+    return (float(number), 2.0 * OWN_RANGE * bound)
 
 
 def _bounces(
@@ -68,7 +84,7 @@ def _bounces(
     """
     stage, targets, view = sub_frame.stage, sub_frame.targets, sub_frame.view
     seen: SurfaceBuffer = targets.seen
-    inside = any(shown.mirror.holds_eye(view, shown.mirror.shape()) for shown in members)
+    enclosing = _enclosing(members, sub_frame)
     window = union([shown.mirror.window(view) for shown in members])
     for number in range(most):
         path = targets.path(number)
@@ -79,9 +95,9 @@ def _bounces(
             stage.materials,
             sub_frame.uniforms,
             window,
-            inside,
+            enclosing,
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
         )
-        yield Bounce(seen, path, window, goes_on)
+        yield Bounce(seen, path, window, goes_on, number >= stage.shade.mirror_bounces)
         seen = path

@@ -55,7 +55,8 @@ class ShownVertices(Shown):
         for shown in members:
             mirror = shown.mirror
             if mirror.may_hide_itself:
-                targets.back_faces.draw(stage.geometry.of_instance(mirror.index), sub_frame.uniforms)
+                own = stage.geometry.of_instance(mirror.index)
+                targets.back_faces.draw(own, sub_frame.uniforms, sub_frame.view.is_mirrored)
             draw_reflected(
                 targets.reflected,
                 targets.seen,

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...scene.arrays import Float32Array
 from ..device.frame_buffers import frame_buffer, layer_of, wait_for
-from ..device.textures import empty_texture
+from ..device.textures import empty_texture, read_texture
 
 MOST_DEPTHS = 4
 """Frame buffers that are kept"""
@@ -36,6 +37,10 @@ class Canvas:
         """Nothing anywhere."""
         with self.frame_buffer.bind():
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
+
+    def pixels(self) -> Float32Array:
+        """(height, width, 4) copy; waits for the GPU."""
+        return read_texture(self.texture)
 
     def wait(self) -> None:
         """Return when the GPU has finished."""

@@ -69,9 +69,9 @@ class Materials:
     def warnings(self) -> tuple[str, ...]:
         """What is not drawn as it is, one sentence each."""
         largest = largest_texture()
-        cause = "Images {of} are drawn with fewer pixels, as many as the graphics driver takes."
+        cause = "Fewer pixels {of} are drawn than there are: as many as the graphics driver takes."
         return sentences(
-            Remark(cause, "texture", image.name) for image, _ in self._images if max(image.pixels.shape[:2]) > largest
+            Remark(cause, "image", image.name) for image, _ in self._images if max(image.pixels.shape[:2]) > largest
         )
 
     @property

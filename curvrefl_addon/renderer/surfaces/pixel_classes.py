@@ -9,10 +9,10 @@ triangle at the depth of its class is tested before its shader runs.
 from __future__ import annotations
 
 from enum import IntEnum
-from functools import cache
 from typing import Any
 
 from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags
 from ..device.state import drawing_state, scissored, set_viewport
@@ -84,7 +84,7 @@ CLASS = Piece(
 """A full-screen triangle at the depth of the push constant `pixel_class`"""
 
 
-@cache
+@gpu_cache
 def _shader(shows_surfaces: bool, tells_mirrors: bool, with_choice: bool) -> Any:
     surfaces = Piece(samplers={"reflected_position": "FLOAT_2D"}, defines=flags("SHOWS_SURFACES"))
     mirrors = Piece(samplers={"reflected_color": "FLOAT_2D"}, defines=flags("TELLS_MIRRORS"))

@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from typing import Any
 
 from ...scene.view import View
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
@@ -40,14 +40,15 @@ def draw_primary(
     hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
     with_reliefs: Callable[[Chunk], bool] = lambda _chunk: False,
     depths: Depths | None = None,
+    mirrored: bool = False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
     `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
     mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface. `depths`: what
-    `depths_of` says of the view.
+    `depths_of` says of the view; `mirrored` whether left and right are swapped in it.
     """
-    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind():
+    with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), target.frame_buffer.bind():
         set_viewport(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
@@ -87,7 +88,7 @@ def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: 
             batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _primary_shader(kind: str, has_linear_depth: bool) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
     return build_shader(

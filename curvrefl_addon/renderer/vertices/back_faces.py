@@ -4,9 +4,9 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, hide_faces, set_viewport
@@ -24,11 +24,11 @@ class BackFaces:
         self.frame_buffer = frame_buffer(self.distance, depth=self._depth)
         self.width, self.height = width, height
 
-    def draw(self, surface: tuple[Chunk, Batches], view_uniforms: Any) -> None:
-        """Fill from the reflector's triangles (closed, counter-clockwise from outside)."""
+    def draw(self, surface: tuple[Chunk, Batches], view_uniforms: Any, mirrored: bool) -> None:
+        """Fill from the reflector's triangles (closed, counter-clockwise from outside); see `drawing_state`."""
         chunk, batches = surface
         shader = _back_faces_shader()
-        with drawing_state("LESS_EQUAL", depth_write=True), self.frame_buffer.bind():
+        with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), self.frame_buffer.bind():
             set_viewport(0, 0, self.width, self.height)
             hide_faces("FRONT")
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
@@ -40,7 +40,7 @@ class BackFaces:
                 batch.draw(shader)
 
 
-@cache
+@gpu_cache
 def _back_faces_shader() -> Any:
     return build_shader(
         "back faces",

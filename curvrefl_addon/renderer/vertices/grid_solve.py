@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ...scene.arrays import Float32Array
+from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, record_texture
 from ..device.shaders import Piece, dispatch, named, uniform_block
 from ..geometry.chunk import Chunk
@@ -67,6 +67,6 @@ class ChunkGrid:
         return solution
 
 
-@cache
+@gpu_cache
 def _interpolation_shader() -> Any:
     return build_solver("bisector_grid", "bisector grid", Piece(samplers=named("FLOAT_2D", *_SAMPLERS)))

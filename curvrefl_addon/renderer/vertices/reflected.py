@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK
@@ -70,7 +70,7 @@ def draw_reflected(
                 draw_batches(shader, part.batches, materials, is_plain)
 
 
-@cache
+@gpu_cache
 def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
     back_faces = Piece(samplers={"back_faces": "FLOAT_2D"}, defines=flags("BACK_FACES"))
     return build_shader(

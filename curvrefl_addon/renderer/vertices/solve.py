@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
 from ...scene.arrays import LARGEST_COORDINATE, Float64Array
 from ...scene.view import View
+from ..device.context import gpu_cache
 from ..device.cubes import cube_texture
 from ..device.records import empty_index_texture, empty_record_texture, record_texture
 from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
@@ -293,7 +293,7 @@ def build_solver(name: str, label: str, *pieces: Piece) -> Any:
     return build_shader(label, _SOLVE, *pieces, Piece(compute=f"solvers/{name}.comp.glsl"), _MAIN)
 
 
-@cache
+@gpu_cache
 def _solver_shader(name: str, method: str, entry: Method) -> Any:
     """`gpu_shaders/solvers/<name>.comp.glsl` with what `method`, with this entry, gives its shaders."""
     pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(entry)})]
@@ -302,7 +302,7 @@ def _solver_shader(name: str, method: str, entry: Method) -> Any:
     return build_solver(name, f"{name} of {method}", *pieces)
 
 
-@cache
+@gpu_cache
 def _region_shader() -> Any:
     maps = Piece(samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"})
     return build_solver("newton_region", "newton region", _POSITIONS, maps)

@@ -10,6 +10,7 @@ import bpy
 import imbuf
 import numpy as np
 
+from ...memory import exceeds_memory
 from ..arrays import Float32Array
 from ..finite import usable_pixels
 from ..remarks import Remark
@@ -17,6 +18,8 @@ from .color_spaces import rec709_to_scene
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
+IMAGE_BYTES = 40
+"""For a pixel: Blender's own, and ours while they are converted"""
 # Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
 _DATA = ("Non-Color", "Raw", "scene_linear")
@@ -38,6 +41,11 @@ class ImageReader:
     def remarks(self) -> list[Remark]:
         """What of the images is not drawn as it is."""
         return [remark for remarks in self._remarks.values() for remark in remarks]
+
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) of which one frame is shown."""
+        return {uid for uid, frame, _ in self._pixels if frame}
 
     def read(self, image: bpy.types.Image, user: Any = None, splits_alpha: bool = False) -> Float32Array:
         """(height, width, 4) scene-linear, row 0 at the bottom.
@@ -71,9 +79,18 @@ class ImageReader:
         if image.source == "MOVIE":
             remarks.append(Remark("Movies are not shown: the pixels {of} are drawn magenta.", "image", image.name))
             return _missing()
+        # (asked for its size, Blender would generate it)
+        is_generated = image.source == "GENERATED"
+        width, height = (image.generated_width, image.generated_height) if is_generated else image.size
+        if exceeds_memory(IMAGE_BYTES * width * height):
+            remarks.append(Remark("Memory does not do for the pixels {of}: drawn magenta.", "image", image.name))
+            return _missing()
         found = _frame_pixels(frame) if frame else _own_pixels(image)
         if found is None:
-            remarks.append(Remark("The pixels {of} are missing: drawn magenta, as in Cycles.", "image", image.name))
+            cause = "The pixels {of} are missing: drawn magenta, as in Cycles."
+            if image.type != "IMAGE":
+                cause = "Layers {of} are not read: drawn magenta."
+            remarks.append(Remark(cause, "image", image.name))
             return _missing()
         pixels, is_float = found
         if is_float:

@@ -145,6 +145,9 @@ def _texture_space(source: Source, unlinked: str, colors: ColorReader, notes: li
     None where they are neither a UV map nor a plane of the object.
     """
     linear, shift, vector = mapped_from(source, colors)
+    own = source.socket.node.texture_mapping
+    if any(own.translation) or any(own.rotation) or tuple(own.scale) != (1.0, 1.0, 1.0):
+        notes.append("Mappings within texture nodes {of} are left out.")
     if vector.node is None and vector.socket != find_input(source.node, "Vector"):
         # Not the default coordinates: a place that is the same everywhere.
         shift, linear = linear @ np.array(vector.socket.default_value[:3]) + shift, np.zeros((3, 3))

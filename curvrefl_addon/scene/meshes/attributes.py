@@ -69,6 +69,15 @@ def corner_colors(mesh: bpy.types.Mesh, needed: VertexColors, corner_vertex: Int
     return colors
 
 
+def corner_coordinates(mesh: bpy.types.Mesh, name: str, corner_vertex: Int32Array) -> Float32Array | None:
+    """(corners, 2) of an attribute as texture coordinates; None where the mesh has no such."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or attribute.data_type not in _PARTS:
+        return None
+    values = _at_corners(mesh, attribute.domain, _values(attribute), corner_vertex)
+    return np.ascontiguousarray(values[:, :2] if values.shape[1] > 1 else np.repeat(values, 2, axis=1))
+
+
 def _values(attribute: bpy.types.Attribute) -> Float32Array:
     """(n, parts)"""
     name, parts = _PARTS[attribute.data_type]

@@ -11,10 +11,11 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ...errors import InputError
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
 from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..signature import array_signature
-from .attributes import VertexColors, attribute_data, corner_colors
+from .attributes import VertexColors, attribute_data, corner_colors, corner_coordinates
 from .corners import merge_corners
 
 GENERATED = "\0generated"
@@ -28,7 +29,8 @@ class MeshNeeds:
     """What the materials on a mesh read of it."""
 
     uv_map: str | None = None
-    """Name of a UV map, "" for the one active for rendering, GENERATED, OBJECT, or None for no texture"""
+    """Name of a UV map or another attribute, "" for the map active for rendering, GENERATED, OBJECT, or None for no
+    texture"""
     colors: VertexColors | None = None
     hidden_slots: tuple[bool, ...] = ()
     """For each slot whether its faces are left out, as those of volumes; empty where none are"""
@@ -59,6 +61,8 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
     positions = np.empty((len(mesh.vertices), 3), np.float32)
     if len(mesh.vertices):
         attribute_data(mesh.attributes["position"]).foreach_get("vector", positions.reshape(-1))
+    if len(corner_vertex) and not 0 <= corner_vertex.min() <= corner_vertex.max() < len(positions):
+        raise InputError(f'Mesh "{mesh.name}" is damaged, it has faces without vertices: make it anew.')
     slots = _triangle_slots(mesh, len(triangle_corners))
     if any(needs.hidden_slots):
         shown = ~np.array(needs.hidden_slots)[np.minimum(slots, len(needs.hidden_slots) - 1)]
@@ -190,7 +194,7 @@ def _uv(
         return np.ascontiguousarray(flat, np.float32)[corner_vertex]
     layer = next((uv_map for uv_map in mesh.uv_layers if (uv_map.name == name if name else uv_map.active_render)), None)
     if layer is None:
-        return None
+        return corner_coordinates(mesh, name, corner_vertex) if name else None
     uv = np.empty((len(corner_vertex), 2), np.float32)
     if len(uv):
         layer.uv.foreach_get("vector", uv.reshape(-1))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...renderer.device.textures import read_texture
-from ...renderer.rays.paths import PathBuffer
+from ...renderer.rays.paths import IN_THE_OPEN, PathBuffer
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
@@ -59,7 +59,7 @@ def _measured(count: int) -> dict[str, Any]:
         }
 
         def walk() -> None:
-            path.follow(seen, rays, materials, uniforms, window, False, goes_on=False)
+            path.follow(seen, rays, materials, uniforms, window, IN_THE_OPEN, goes_on=False)
 
         walk()
         columns["empty_wait_ms"] = empty_wait(path.wait)
@@ -69,7 +69,7 @@ def _measured(count: int) -> dict[str, Any]:
                 rays.finish()
                 columns["improve_ms"] = 1e3 * (perf_counter() - start)
             measured = time_on_gpu(walk, path.wait, columns["empty_wait_ms"], REPEATS, SECONDS)
-            path.follow(seen, rays, materials, uniforms, window, False, with_counts=True)
+            path.follow(seen, rays, materials, uniforms, window, IN_THE_OPEN, with_counts=True)
             x, y, width, height = window
             counted = read_texture(path.direction)[y : y + height, x : x + width].reshape(-1, 4)
             counted = counted[counted[:, 3] == 1.0]

@@ -18,6 +18,7 @@ from ...renderer.device.context import renderer_name
 from ...report.compare import Comparison, Step
 from ...scene.blend_file import open_blend
 from ...scene.render_depsgraph import read_render_scene
+from ...streams import readable
 from .chart_data import scene_steps, step_count
 from .chart_draw import draw_chart, draw_vertex_count, has_matplotlib, require_matplotlib
 from .chart_marks import Mark, rows, write_csv
@@ -76,7 +77,7 @@ def open_scene_steps(
     Yields before each step; closed between two of them it leaves nothing, and the scene as it was. Raises as
     `chart_data.scene_steps`.
     """
-    name = Path(bpy.data.filepath).stem or scene.name
+    name = readable(Path(bpy.data.filepath).stem) or scene.name
     count = step_count(comparison) + 1
     with folder_to_publish(output) as folder:
         steps = scene_steps(scene, view_layer, reflector_names, comparison, name)

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from blender_process import run_script
+from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.mirrors.reflector_files import load
 from curvrefl.curvrefl_addon.renderer.surfaces import primary
@@ -48,11 +49,13 @@ def test_no_gpu_object_outlives_a_verb(
 ) -> None:
     arguments = ["render", str(saved(tmp_path)), *BALL, "--samples", "1", "--output", str(tmp_path / "a.exr")]
     with monkeypatch.context() as change:
-        change.setattr(cli, "clear_gpu_caches", lambda: None)
+        for module in (cli, registration):
+            change.setattr(module, "clear_gpu_caches", lambda: None)
         done(arguments, capfd)
-    assert primary._primary_shader.cache_info().currsize > 0
+    of_main, of_render = primary._primary_shader.caches
+    assert of_main.cache_info().currsize > 0
     done(arguments, capfd)
-    assert primary._primary_shader.cache_info().currsize == 0
+    assert of_main.cache_info().currsize == of_render.cache_info().currsize == 0
     assert load_exr(tmp_path / "a.exr").shape == (SIZE[1], SIZE[0], 4)
 
 

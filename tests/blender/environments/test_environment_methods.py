@@ -307,7 +307,7 @@ def test_from_inside_a_mirror_everything_is_black(method: str) -> None:
     frame = renderer_of(mixed(), method).render(inside)
     assert (frame.mask() == MIRROR).all()
     assert (frame.reflected_object() == 0).all() and (frame.color()[..., :3] == 0.0).all()
-    assert any("inside a reflector" in warning for warning in frame.warnings)
+    assert any("The eye is inside of" in warning for warning in frame.warnings)
 
 
 @pytest.mark.parametrize("method", [name for name in ENVIRONMENTS if name != "environment_cube_vertex"])

@@ -139,17 +139,17 @@ vec3 mirror_at(Surface s, vec3 to_viewer)
 vec3 world_and_lamps_at(Surface s, vec3 to_viewer)
 {
   vec3 direction = reflect(-to_viewer, s.normal);
-  return mirror_at(s, to_viewer) * (world_radiance(direction) + lamps_seen(s.position, direction, 2e30).rgb);
+  return mirror_at(s, to_viewer) * (world_radiance(direction) + lamps_seen(s.position, direction, 2e30, false).rgb);
 }
 
 vec3 lamps_nearer_than_2(Surface s, vec3 to_viewer)
 {
-  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 2.0).rgb;
+  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 2.0, false).rgb;
 }
 
 vec3 lamps_nearer_than_4(Surface s, vec3 to_viewer)
 {
-  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 4.0).rgb;
+  return lamps_seen(s.position, reflect(-to_viewer, s.normal), 4.0, false).rgb;
 }
 
 void main()

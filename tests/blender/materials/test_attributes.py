@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, mesh_of, new_material
-from scene.color_nodes import Tree, node
+from scene.color_nodes import Tree, node, smooth_image
 
 TYPES: dict[str, tuple[str, Any]] = {
     "FLOAT": ("value", 0.3),
@@ -107,3 +107,27 @@ def test_domains_are_those_of_cycles() -> None:
 def test_values_that_are_cut_off_are_said() -> None:
     show(attribute_square("bright", "FLOAT", "POINT", [0.5, 1.5, 0.5, 0.5]), 0, "Color")
     assert extracted().warnings == ('Vertex colors of object "bright" are cut off below 0 and above 1.',)
+
+
+def test_an_attribute_of_points_gives_coordinates() -> None:
+    """As a UV map would; an image node's own are others."""
+    square = attribute_square("square", "FLOAT_VECTOR", "POINT", [(0.1, 0.4, 9.0)])
+    tree, (shader,) = new_material(square, "ShaderNodeBsdfDiffuse")
+    place = node(tree, "ShaderNodeAttribute", attribute_name="a").outputs["Vector"]
+    texture = node(tree, "ShaderNodeTexImage", {"Vector": place}, image=smooth_image())
+    tree.links.new(texture.outputs["Color"], shader.inputs["Color"])
+    scene = extracted()
+    np.testing.assert_allclose(mesh_of(scene, "square").corner_uv, [(0.1, 0.4)] * 4, rtol=1e-6)
+    assert not scene.warnings
+
+
+def test_generated_coordinates_of_a_deformed_object_are_said() -> None:
+    square = add_square()
+    tree, (shader,) = new_material(square, "ShaderNodeBsdfDiffuse")
+    place = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
+    texture = node(tree, "ShaderNodeTexImage", {"Vector": place}, image=smooth_image())
+    tree.links.new(texture.outputs["Color"], shader.inputs["Color"])
+    assert not extracted().warnings
+    square.modifiers.new("bend", "SIMPLE_DEFORM")
+    (warning,) = extracted().warnings
+    assert warning.startswith('Generated coordinates of object "square"')

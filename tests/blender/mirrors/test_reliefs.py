@@ -160,10 +160,27 @@ def with_bump(shader: Any) -> None:
     plug(shader, "ShaderNodeBump", "Height", image("heights", heights()), Distance=0.04)
 
 
-@pytest.mark.parametrize("bend", [with_normal_map, with_bump])
+def turned(bend: Callable[[Any], None]) -> Callable[[Any], None]:
+    """With its image turned and stretched by a Mapping node."""
+
+    def bend_turned(shader: Any) -> None:
+        bend(shader)
+        tree = shader.id_data
+        mapping: Any = tree.nodes.new("ShaderNodeMapping")
+        mapping.inputs["Rotation"].default_value = (0.0, 0.0, 0.6)
+        mapping.inputs["Scale"].default_value = (1.3, 0.7, 1.0)
+        place = tree.nodes.new("ShaderNodeTexCoord")
+        tree.links.new(place.outputs["UV"], mapping.inputs["Vector"])
+        tree.links.new(mapping.outputs["Vector"], tree.nodes["Image Texture"].inputs["Vector"])
+
+    return bend_turned
+
+
+@pytest.mark.parametrize("bend", [with_normal_map, with_bump, turned(with_normal_map), turned(with_bump)])
 def test_picture_is_that_of_cycles(bend: Callable[[Any], None]) -> None:
     """A rippled ball among bright blocks: far nearer to Cycles than the smooth ball is."""
     scene = empty_scene()
+    scene.cycles.diffuse_bounces = 0
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.1, 0.2, 0.4, 1.0)
     bpy.ops.mesh.primitive_uv_sphere_add(segments=96, ring_count=48)
     mirror = bpy.context.object
@@ -205,26 +222,56 @@ def test_vertex_methods_say_that_they_leave_bumps_out() -> None:
     scenery.data.materials.append(mirror.data.materials[0])
     camera_at((0.0, -8.0, 0.5))
     said = frame_of(mirror, "secant_star").warnings
-    assert any('"Ball" is drawn without its bumps: choose Automatic' in line for line in said)
-    assert any('"floor" is drawn without its bumps' in line for line in said)
+    assert any(line.startswith('Bumps of mirror "Ball" are left out: choose Automatic') for line in said)
+    assert 'Bumps of object "floor" are left out: only mirrors show theirs.' in said
     assert not any("Ball" in line for line in frame_of(mirror, "exact").warnings)
     assert not any("Ball" in line for line in frame_of(mirror, "environment_cube").warnings)
 
 
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        (lambda node: setattr(node, "space", "OBJECT"), "not in tangent space"),
-        (lambda node: setattr(node, "uv_map", "other"), "another UV map"),
-    ],
-)
-def test_what_cannot_be_read_is_said(change: Callable[[Any], None], sentence: str) -> None:
+def test_a_normal_map_in_object_space_is_said_to_be_left_out() -> None:
     mirror, shader = above_a_plane()
     node = plug(shader, "ShaderNodeNormalMap", "Color", image("ripples", ripples(0.1)))
-    change(node)
+    node.space = "OBJECT"
     arrays = extracted(mirror)
-    assert any(sentence in warning for warning in arrays.warnings)
+    assert arrays.warnings == ('Normal maps of material "chrome" that are not in tangent space are left out.',)
     assert all(material.relief is None for material in arrays.materials)
+
+
+def on_named_map(shader: Any, name: str) -> None:
+    """What the image of `shader`'s bumps is on."""
+    tree = shader.id_data
+    place: Any = tree.nodes.new("ShaderNodeUVMap")
+    place.uv_map = name
+    tree.links.new(place.outputs["UV"], tree.nodes["Image Texture"].inputs["Vector"])
+
+
+@pytest.mark.parametrize("named", ["tangents", "image", "both"])
+def test_a_map_that_is_named_and_the_default_one_is_the_same(named: str) -> None:
+    mirror, shader = above_a_plane()
+    node = plug(shader, "ShaderNodeNormalMap", "Color", image("ripples", ripples(0.1)))
+    plain = normals(frame_of(mirror))
+    assert np.ptp(plain, axis=0).max() > 0.05
+    if named != "image":
+        node.uv_map = "UVMap"
+    if named != "tangents":
+        on_named_map(shader, "UVMap")
+    frame = frame_of(mirror)
+    assert frame.warnings == ()
+    np.testing.assert_array_equal(normals(frame), plain)
+
+
+def test_tangents_of_another_map_are_said() -> None:
+    mirror, shader = above_a_plane()
+    mirror.data.uv_layers.new(name="other")
+    node = plug(shader, "ShaderNodeNormalMap", "Color", image("ripples", ripples(0.1)))
+    node.uv_map = "other"
+    assert extracted(mirror).warnings == (
+        'Textures of object "mirror" are drawn on one UV map, though they use several.',
+    )
+    on_named_map(shader, "UVMap")
+    assert extracted(mirror).warnings == (
+        'Normal maps of material "chrome" are left out: their image is on another UV map than their tangents.',
+    )
 
 
 def test_procedural_heights_are_said_to_be_left_out() -> None:

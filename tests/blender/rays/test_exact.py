@@ -241,7 +241,7 @@ def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -
     view = look_at(np.array([0.0, -2.9, 0.0]), np.zeros(3), 120, 90, 0.5)
     renderer = Renderer(arrays, Settings(method="exact", samples=1))
     frame = renderer.render(view)
-    path = renderer._targets_for(view).path(0)
+    path = renderer._targets.of(view.width, view.height).path(0)
     base = read_texture(path.color)[..., :3]
     hits = (frame.mask() > 0) & (frame.reflected_object() == 2)
     place = frame.reflected_position()[..., :3]

@@ -121,3 +121,14 @@ def test_clear() -> None:
     assert tracing.shown() is None
     with pytest.raises(RuntimeError, match="poll"):
         bpy.ops.curvrefl.clear_trace()
+
+
+def test_trace_far_from_the_origin_does_not_stop_at_the_mirror_itself() -> None:
+    """At 1e5 m places are rounded by more than a ten-thousandth of the mirror's size."""
+    away = np.array([131072.0, -65536.0, 32768.0])
+    for thing in bpy.context.scene.objects:
+        thing.location = (np.array(thing.location) + away).tolist()
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = tracing.trace(depsgraph, bpy.context.scene, away + EYE, np.array(towards(CLICKED)))
+    assert (found.mirror, found.seen) == ("Mirror", "Cube")

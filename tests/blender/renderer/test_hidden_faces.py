@@ -77,3 +77,16 @@ def test_scenery_is_drawn_whole() -> None:
     assert others
     assert {renderer.geometry.hidden_faces(chunk, AWAY) for chunk in others} == {"NONE"}
     renderer.free()
+
+
+@pytest.mark.parametrize("method", ["exact", "newton"])
+def test_a_mirrored_camera_sees_the_picture_mirrored(method: str) -> None:
+    """A camera with a negative scale swaps left and right, and fronts stay fronts."""
+    renderer = Renderer(room(), replace(SETTINGS, method=method))
+    mirrored = replace(AWAY, world_to_view=np.diag([-1.0, 1.0, 1.0, 1.0]) @ AWAY.world_to_view)
+    assert mirrored.is_mirrored and not AWAY.is_mirrored
+    plain, swapped = renderer.render(AWAY).color(), renderer.render(mirrored).color()[:, ::-1]
+    assert plain.std() > 0.05
+    # (At edges, and where the sky's shadows are looked up in other directions, a few pixels differ.)
+    assert (np.abs(swapped - plain).max(-1) > 0.02).mean() < 0.03
+    renderer.free()

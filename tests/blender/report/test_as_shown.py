@@ -10,7 +10,8 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.report.as_shown import on_film, save_as_shown
+from curvrefl.curvrefl_addon.report.as_shown import save_as_shown
+from curvrefl.curvrefl_addon.scene.camera.film import on_film
 from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.images import load_exr

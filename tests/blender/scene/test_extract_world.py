@@ -10,6 +10,8 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import WorldArrays
 from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.world import SKY_COLORS
@@ -164,3 +166,60 @@ def test_two_backgrounds(world: bpy.types.World) -> None:
     tree.links.new(mix.outputs[0], tree.nodes["World Output"].inputs["Surface"])
     read = extracted()
     assert read.world.color == (1.0, 0.0, 0.0) and len(read.warnings) == 1
+
+
+def of_pixels(world: bpy.types.World, *pixels: tuple[float, float, float]) -> Any:
+    """An environment texture with these in a row; its node."""
+    node = environment(world)
+    node.image = bpy.data.images.new("row", len(pixels), 1, float_buffer=True)
+    node.image.pixels.foreach_set([value for pixel in pixels for value in (*pixel, 1.0)])
+    node.image.update()
+    return node
+
+
+def test_an_image_of_one_pixel_is_a_color(world: bpy.types.World) -> None:
+    of_pixels(world, (0.1, 0.2, 0.4))
+    read = extracted()
+    assert read.world.image is None and not read.warnings
+    np.testing.assert_allclose(read.world.color, (0.15, 0.3, 0.6), rtol=1e-6)
+
+
+def test_an_environment_node_without_an_image_is_magenta(world: bpy.types.World) -> None:
+    environment(world).image = None
+    camera = link(bpy.data.objects.new("camera", bpy.data.cameras.new("camera")))
+    bpy.context.scene.camera = camera
+    color = extracted().world.color
+    assert color == (1.5, 0.0, 1.5)
+    np.testing.assert_allclose(cycles_picture(4, 4, 1)[2, 2], color, rtol=1e-5)
+
+
+@pytest.mark.usefixtures("gpu")
+@pytest.mark.parametrize("pixels", [[(0.2, 0.5, 0.8)], [(1.0, 0.2, 0.1), (0.0, 0.1, 0.5)]])
+def test_a_ball_under_few_pixels_is_lit_as_in_cycles(world: bpy.types.World, pixels: Any) -> None:
+    """From all sides of the sky, not from the middle of each pixel."""
+    of_pixels(world, *pixels)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=48, ring_count=24)
+    ball = bpy.context.object
+    bpy.ops.object.shade_smooth()
+    paint = bpy.data.materials.new("paint")
+    paint.node_tree.nodes["Principled BSDF"].inputs["Specular IOR Level"].default_value = 0.0
+    ball.data.materials.append(paint)
+    camera = link(bpy.data.objects.new("camera", bpy.data.cameras.new("camera")))
+    camera.location = (0.0, 0.0, 6.0)
+    scene = bpy.context.scene
+    scene.camera = camera
+    ours = Renderer(extracted(), Settings(method="exact", samples=8)).render(view_of_camera(scene, camera, SIZE, SIZE))
+    error = np.abs(ours.color()[..., :3] - cycles_picture(SIZE, SIZE, 256)).max(axis=-1)
+    assert np.quantile(error, 0.95) < 0.03
+    assert error.mean() < 0.012
+
+
+def test_a_color_without_a_shader_is_a_background(world: bpy.types.World) -> None:
+    tree = world.node_tree
+    color: Any = tree.nodes.new("ShaderNodeRGB")
+    color.outputs[0].default_value = (0.1, 0.4, 0.2, 1.0)
+    tree.links.new(color.outputs[0], tree.nodes["World Output"].inputs["Surface"])
+    bpy.context.scene.camera = link(bpy.data.objects.new("camera", bpy.data.cameras.new("camera")))
+    read = extracted()
+    np.testing.assert_allclose(read.world.color, cycles_picture(4, 4, 1)[2, 2], rtol=1e-5)
+    assert not read.warnings

@@ -21,9 +21,10 @@ class Session:
         self.scene = ViewportScene()
         self.settings = Settings(samples=1, map_resolution=32)
         bpy.app.handlers.depsgraph_update_post.append(self._note)
+        bpy.app.handlers.frame_change_post.append(self._note)
 
-    def _note(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        self.scene.note(depsgraph.updates)
+    def _note(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+        self.scene.note(depsgraph.updates, scene.frame_current)
 
     def draw(self, look: Look = PLAIN, cap: int = CAP) -> Renderer | None:
         bpy.context.view_layer.update()
@@ -36,6 +37,7 @@ class Session:
     def end(self) -> None:
         self.scene.free()
         bpy.app.handlers.depsgraph_update_post.remove(self._note)
+        bpy.app.handlers.frame_change_post.remove(self._note)
 
 
 def mark(session: Session, name: str, value: bool = True) -> None:

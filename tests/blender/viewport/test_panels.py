@@ -9,7 +9,8 @@ from typing import Any
 
 import bpy
 import pytest
-from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences
+from curvrefl.curvrefl_addon.engine import panels as engine_panels
+from curvrefl.curvrefl_addon.ui import choices, menus, messages, panel, preferences, render_panels
 from curvrefl.curvrefl_addon.viewport import handlers as viewport
 from viewport.layouts import Layout, add_cubes, context, draw
 
@@ -103,6 +104,26 @@ def test_a_long_list_of_mirrors_says_how_many_more() -> None:
 def test_sub_panels_are_closed_by_default() -> None:
     for cls in panel.CLASSES[1:]:
         assert cls.bl_parent_id == "CURVREFL_PT_main" and "DEFAULT_CLOSED" in cls.bl_options
+
+
+def test_panels_of_the_render_engine() -> None:
+    for cls in render_panels.CLASSES:
+        assert draw(cls, context(engine="CYCLES")) is None
+    quality, passes = (draw(cls, context(engine="CURVREFL")) for cls in render_panels.CLASSES)
+    assert "render_samples" in quality.shown and "samples" not in quality.shown
+    assert {"use_pass_mirror", "use_pass_position", "use_pass_object"} <= set(passes.shown)
+    bpy.context.scene.render.engine = "CURVREFL"
+    camera = bpy.types.DATA_PT_camera
+    assert "CURVREFL" in camera.COMPAT_ENGINES and "CURVREFL" in bpy.types.EEVEE_MATERIAL_PT_surface.COMPAT_ENGINES
+    engine_panels.remove("CURVREFL")
+    try:
+        assert not [panel for panel in bpy.types.Panel.__subclasses__() if _is_for_engine(panel)]
+    finally:
+        engine_panels.add("CURVREFL")
+
+
+def _is_for_engine(cls: Any) -> bool:
+    return "CURVREFL" in getattr(cls, "COMPAT_ENGINES", ())
 
 
 def test_a_message_is_wrapped_and_loses_no_word() -> None:

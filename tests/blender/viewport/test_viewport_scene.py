@@ -71,6 +71,31 @@ def test_what_moves_a_mirror_moves_its_map(session: Session) -> None:
     assert session.scene.counters["maps baked"] == 2
 
 
+def test_a_sequence_follows_the_frame(session: Session, tmp_path: Path) -> None:
+    for frame in (1, 2):
+        one = bpy.data.images.new("one", 2, 2)
+        one.pixels.foreach_set(np.tile(np.array([frame / 2.0, 0.0, 0.0, 1.0], np.float32), 4))
+        one.filepath_raw, one.file_format = str(tmp_path / f"wave_{frame:03}.png"), "PNG"
+        one.save()
+    image = bpy.data.images.load(str(tmp_path / "wave_001.png"))
+    image.source = "SEQUENCE"
+    paint = bpy.data.materials.new("paint")
+    bpy.data.objects["Other"].data.materials.append(paint)
+    texture = paint.node_tree.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    texture.image_user.frame_duration, texture.image_user.use_auto_refresh = 2, True
+    paint.node_tree.links.new(texture.outputs["Color"], paint.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+    seen = []
+    for frame in (1, 2, 2):
+        bpy.context.scene.frame_set(frame)
+        renderer = session.draw()
+        assert renderer is not None
+        seen.append(float(renderer.scene.images[0].pixels[0, 0, 0]))
+    assert seen[1] == seen[2] == 1.0 > seen[0] + 0.5
+    # (One read of each, and none where nothing changed.)
+    assert session.scene.counters["images read"] == 2
+
+
 def test_linked_mirrors_and_scenery(session: Session, tmp_path: Path) -> None:
     library = tmp_path / "library.blend"
     bpy.data.objects["Other"].curvrefl.is_mirror = True

@@ -124,7 +124,7 @@ def test_a_choice_that_is_unknown_here_reads_as_the_start() -> None:
 
 @pytest.mark.parametrize(
     ("verb", "expected"),
-    [("render", {"method": "auto", "samples": 16}), ("compare", {}), ("bake", {})],
+    [("compare", {}), ("bake", {})],
 )
 def test_without_arguments_a_verb_has_the_tables_values(
     verb: str, expected: dict[str, Any], monkeypatch: pytest.MonkeyPatch

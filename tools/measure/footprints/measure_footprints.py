@@ -28,7 +28,7 @@ import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.rays.paths import IN_THE_OPEN, PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noqa: E402
@@ -75,7 +75,7 @@ class Compared:
         draw_primary(self.seen, self.renderer.geometry.seen(view), self.materials, uniforms)
         footprints.draw(self.shown, self.seen, view, uniforms)
         window = self.mirror.window(view)
-        self.path.follow(self.seen, self.renderer.rays(), self.materials, uniforms, window, False)
+        self.path.follow(self.seen, self.renderer.rays(), self.materials, uniforms, window, IN_THE_OPEN)
         x, y, width, height = window
 
         def part(texture: Any) -> np.ndarray:

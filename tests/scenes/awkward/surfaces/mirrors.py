@@ -43,22 +43,22 @@ def _metal(**inputs: Any) -> Any:
     return material.node_tree
 
 
-@awkward("roughness 0.1", words=("rough",))
+@awkward("roughness 0.1", words=("roughness",))
 def mirror_roughness_low(folder: Path) -> None:
     _metal(Roughness=0.1)
 
 
-@awkward("roughness 0.3", words=("rough",))
+@awkward("roughness 0.3", words=("roughness",))
 def mirror_roughness(folder: Path) -> None:
     _metal(Roughness=0.3)
 
 
-@awkward("roughness 1", words=("rough",))
+@awkward("roughness 1", words=("roughness",))
 def mirror_roughness_full(folder: Path) -> None:
     _metal(Roughness=1.0)
 
 
-@awkward("roughness by an image", words=("rough",))
+@awkward("roughness by an image", words=("roughness",))
 def mirror_roughness_image(folder: Path) -> None:
     tree = _metal()
     texture = tree.nodes.new("ShaderNodeTexImage")
@@ -67,7 +67,7 @@ def mirror_roughness_image(folder: Path) -> None:
     tree.links.new(texture.outputs[0], principled_node(bpy.data.materials["Chrome 2"]).inputs["Roughness"])
 
 
-@awkward("an anisotropic mirror", words=("anisotrop", "rough"))
+@awkward("an anisotropic mirror", words=("anisotrop", "roughness"))
 def mirror_anisotropic(folder: Path) -> None:
     _metal(Anisotropic=1.0, Roughness=0.3)
 
@@ -82,7 +82,7 @@ def mirror_black(folder: Path) -> None:
     _metal(Base_Color=(0.0, 0.0, 0.0, 1.0))
 
 
-@awkward("metal with an edge tint")
+@awkward("metal with an edge tint", words=("Specular Tint",))
 def mirror_edge_tint(folder: Path) -> None:
     _metal(Base_Color=(0.5, 0.1, 0.1, 1.0), Specular_Tint=(0.2, 1.0, 0.2, 1.0))
 
@@ -102,7 +102,7 @@ def mirror_china(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.8, 0.8, 0.8, 1.0))
 
 
-@awkward("a matte mirror: nothing is reflected", words=("rough", "diffuse", "Mirror"))
+@awkward("a matte mirror: nothing is reflected", words=("roughness", "diffuse", "Mirror"))
 def mirror_matte(folder: Path) -> None:
     stage()
     _of(matte("Chalk", (0.8, 0.3, 0.2)))
@@ -154,7 +154,7 @@ def mirror_thin_film(folder: Path) -> None:
     _metal(Thin_Film_Thickness=450.0)
 
 
-@awkward("a mirror of an emitter alone", words=("emission", "emit", "rough", "reflect"))
+@awkward("a mirror of an emitter alone", words=("emission", "emit", "roughness", "reflect"))
 def mirror_emitter(folder: Path) -> None:
     stage()
     _of(emitter("Lamp", (0.7, 0.5, 0.2)))
@@ -284,7 +284,7 @@ def mirror_displacement(folder: Path) -> None:
     tree.links.new(displace.outputs[0], output_of(tree).inputs["Displacement"])
 
 
-@awkward("a mirror of two materials, one of them matte", words=("rough", "diffuse", "Paint"))
+@awkward("a mirror of two materials, one of them matte", words=("roughness", "diffuse", "Paint"))
 def mirror_two_materials(folder: Path) -> None:
     stage()
     mesh = find(MIRROR).data
@@ -293,7 +293,7 @@ def mirror_two_materials(folder: Path) -> None:
     mesh.polygons.foreach_set("material_index", [int(i // 48 % 4 == 1) for i in range(count)])
 
 
-@awkward("a mirror without a material", words=("rough", "diffuse", "Mirror"))
+@awkward("a mirror without a material", words=("roughness", "diffuse", "Mirror"))
 def mirror_no_material(folder: Path) -> None:
     stage()
     find(MIRROR).data.materials.clear()
@@ -307,7 +307,7 @@ def mirror_object_material(folder: Path) -> None:
     slot.material = principled("Gold", (0.95, 0.6, 0.2), metallic=1.0, roughness=0.0)
 
 
-@awkward("a mirror with a roughness by the object's random number", words=("rough",))
+@awkward("a mirror with a roughness by the object's random number", words=("roughness",))
 def mirror_random_roughness(folder: Path) -> None:
     tree = _metal()
     info = node(tree, "ObjectInfo")
@@ -330,7 +330,7 @@ def mirror_one_way(folder: Path) -> None:
     _of(material)
 
 
-@awkward("two mirrors, one rough and one clear", words=("rough",), mirrors=(MIRROR, "Second"))
+@awkward("two mirrors, one rough and one clear", words=("roughness",), mirrors=(MIRROR, "Second"))
 def mirror_pair_rough(folder: Path) -> None:
     stage()
     add_ball("Second", (-1.1, -1.3, 0.7), 0.6, principled("Satin", (0.9, 0.8, 0.6), metallic=1.0, roughness=0.4))

@@ -82,7 +82,7 @@ def shiny_ball(folder: Path) -> None:
     give("Blue", principled("Chrome 2", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.02))
 
 
-@awkward("rough metal", words=("rough", "gloss"))
+@awkward("rough metal", words=("roughness", "gloss"))
 def rough_metal(folder: Path) -> None:
     stage()
     wall_of(principled("Steel", (0.8, 0.7, 0.5), metallic=1.0, roughness=0.5))

@@ -113,11 +113,6 @@ def far_1e5(folder: Path) -> None:
     _moved((1e5, -1e5, 0.0))
 
 
-@awkward("a thousand kilometers from the origin, in sixteenths of a meter")
-def far_1e6(folder: Path) -> None:
-    _moved((2.0**20, -(2.0**20), 0.0))
-
-
 def _scaled(factor: float) -> None:
     scene: Any = stage()
     for thing in scene.objects:
@@ -162,7 +157,7 @@ def sizes_mixed(folder: Path) -> None:
     scene.camera.data.clip_end = 1e7
 
 
-@awkward("a thing flattened by its scale")
+@awkward("a thing flattened by its scale", words=("Red",))
 def flattened(folder: Path) -> None:
     stage()
     find("Red").scale.x = 0.0

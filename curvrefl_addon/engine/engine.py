@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The render engine CURVREFL. Blender calls it; colors, files, borders, stamps and the compositor are Blender's own.
+
+In a window a render runs in a thread and a GPU context of its own. What it keeps from frame to frame is let go when the
+render ends, as Blender then takes that context down.
+"""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..errors import InputError
+from . import panels
+from .job import current_job
+from .passes import COMBINED, fill, passes_of
+
+if TYPE_CHECKING:
+    from .session import RenderSession
+
+ENGINE = "CURVREFL"
+
+
+class RenderCanceledError(Exception):
+    """The user stopped the render."""
+
+
+class _State:
+    """Of the render that goes on."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        """One render at a time: a preview may be asked for beside another render"""
+        self.sessions: dict[tuple[int, str], RenderSession] = {}
+        """By the scene's session_uid and the view layer's name"""
+        self.said: set[str] = set()
+        """Each warning comes once in a render, however many frames have cause for it"""
+
+    def free(self) -> None:
+        with self.lock:
+            for session in self.sessions.values():
+                session.free()
+            self.sessions.clear()
+            self.said.clear()
+
+
+_state = _State()
+
+
+class CurvreflEngine(bpy.types.RenderEngine):
+    """True reflections on curved mirrors"""
+
+    bl_idname = ENGINE
+    bl_label = "Curvrefl"
+    bl_use_eevee_viewport = True
+    bl_use_gpu_context = True
+
+    def update(self, data: Any = None, depsgraph: Any = None) -> None:
+        """Read the scene, while nobody else changes it."""
+        self._trouble = ""
+        with _state.lock:
+            self._attempt(lambda: self._session(depsgraph).read(depsgraph, current_job()))
+
+    def update_render_passes(
+        self, scene: bpy.types.Scene | None = None, renderlayer: bpy.types.ViewLayer | None = None
+    ) -> None:
+        """Tell Blender of what a view layer has."""
+        self.register_pass(scene, renderlayer, COMBINED, 4, "RGBA", "COLOR")
+        for item in passes_of(renderlayer):
+            self.register_pass(scene, renderlayer, item.name, len(item.channels), item.channels, item.kind)
+
+    def render(self, depsgraph: Any) -> None:  # type: ignore[override]
+        """Draw a view layer at a frame."""
+        if self._trouble:
+            self._refuse(self._trouble)
+            return
+        with _state.lock:
+            self._attempt(lambda: self._draw(depsgraph))
+        if self._trouble:
+            self._refuse(self._trouble)
+
+    def _session(self, depsgraph: Any) -> RenderSession:
+        from .session import RenderSession
+
+        key = (depsgraph.scene.session_uid, depsgraph.view_layer.name)
+        if key not in _state.sessions:
+            _state.sessions[key] = RenderSession()
+        return _state.sessions[key]
+
+    def _draw(self, depsgraph: Any) -> None:
+        if depsgraph.scene.render.use_multiview:
+            raise InputError("Stereoscopy is not rendered: switch it off in the output properties.")
+        session, layer, job = self._session(depsgraph), depsgraph.view_layer, current_job()
+        camera: Any = self.camera_override or depsgraph.scene.camera
+        if camera is None:
+            raise InputError(f'Scene "{depsgraph.scene.name}" has no camera: add one or make one active.')
+        passes = passes_of(layer)
+        area, pixels = session.draw(depsgraph, camera.original, passes, job, self._before_sub_frame, self._go_to)
+        for item in passes:
+            self.add_pass(item.name, len(item.channels), item.channels, layer=layer.name)
+        result: Any = self.begin_result(0, 0, area.width, area.height, layer=layer.name)
+        for name, values in pixels.items():
+            fill(result.layers[0], name, values)
+        self.end_result(result)
+        for warning in session.warnings:
+            self._warn(warning)
+
+    def _go_to(self, frame: int, subframe: float) -> None:
+        self.frame_set(frame, subframe=subframe)
+
+    def _before_sub_frame(self, index: int, count: int) -> None:
+        if is_stopped(self):
+            raise RenderCanceledError
+        self.update_stats("", f"Sub-frame {index + 1} of {count}")
+        self.update_progress(index / count)
+
+    def _attempt(self, work: Any) -> None:
+        """What goes wrong becomes a sentence: Blender would go on with an empty picture."""
+        from ..renderer.device.context import GpuUnavailableError
+
+        job = current_job()
+        try:
+            work()
+        except RenderCanceledError:
+            return
+        except Exception as error:
+            if job is not None and job.error is None:
+                job.error = error
+            if not isinstance(error, (InputError, GpuUnavailableError)):
+                traceback.print_exc()
+            self._trouble = str(error) or type(error).__name__
+
+    def _refuse(self, sentence: str) -> None:
+        """An error ends the render: no file is written."""
+        if sentence not in _state.said:
+            _state.said.add(sentence)
+            self.report({"ERROR"}, sentence)
+
+    def _warn(self, sentence: str) -> None:
+        if sentence in _state.said:
+            return
+        _state.said.add(sentence)
+        job = current_job()
+        if job is None:
+            self.report({"WARNING"}, sentence)
+        else:
+            job.warnings.append(sentence)
+
+
+def is_stopped(engine: bpy.types.RenderEngine) -> bool:
+    """Whether the user has asked for the render's end."""
+    return engine.test_break()
+
+
+@persistent
+def _ended(*_arguments: Any) -> None:
+    """A render is complete or canceled."""
+    _state.free()
+
+
+CLASSES = (CurvreflEngine,)
+
+
+def add() -> None:
+    """Hear of renders' ends; the classes are registered."""
+    for handlers in (bpy.app.handlers.render_complete, bpy.app.handlers.render_cancel):
+        handlers.append(_ended)
+    panels.add(ENGINE)
+
+
+def remove() -> None:
+    """Leave nothing behind."""
+    panels.remove(ENGINE)
+    for handlers in (bpy.app.handlers.render_complete, bpy.app.handlers.render_cancel):
+        if _ended in handlers:
+            handlers.remove(_ended)
+    _state.free()

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render passes: what a view layer has beside the picture, for the compositor and for multilayer files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ..scene.arrays import Float32Array
+
+if TYPE_CHECKING:
+    from ..renderer.frame import Frame
+
+COMBINED = "Combined"
+MIRROR = "Mirror"
+
+
+@dataclass(frozen=True, slots=True)
+class Pass:
+    """One that a view layer may have; `setting` switches it on in `ViewLayer.curvrefl`."""
+
+    name: str
+    channels: str
+    """A letter each"""
+    kind: Literal["VALUE", "VECTOR", "COLOR"]
+    """Blender's word for what the numbers are"""
+    setting: str
+    read: Callable[[Frame], Float32Array] | None = None
+    """(h, w) or (h, w, channels); None for the picture of the mirrors alone, which is drawn on its own"""
+
+
+PASSES = (
+    Pass(MIRROR, "RGBA", "COLOR", "use_pass_mirror"),
+    Pass("Position", "XYZW", "VECTOR", "use_pass_position", lambda frame: frame.reflected_position()),
+    Pass("Object", "X", "VALUE", "use_pass_object", lambda frame: frame.reflected_object().astype(np.float32)),
+    Pass("Iterations", "X", "VALUE", "use_pass_iterations", lambda frame: frame.iterations()),
+)
+
+
+def passes_of(view_layer: Any) -> list[Pass]:
+    """Those that are switched on."""
+    return [item for item in PASSES if getattr(view_layer.curvrefl, item.setting)]
+
+
+def fill(layer: Any, name: str, pixels: Float32Array) -> None:
+    """Write (h, w) or (h, w, channels) into a pass of a render result's layer."""
+    layer.passes[name].rect.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())

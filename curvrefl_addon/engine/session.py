@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One view layer over the frames of a render: what a frame leaves as it was is neither read nor uploaded again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..errors import InputError
+from ..options import mirrors_in, overrides_of, settings_of
+from ..renderer.device.context import require_gpu
+from ..renderer.frame import Frame
+from ..renderer.renderer import Renderer
+from ..renderer.settings import Settings
+from ..renderer.surfaces.canvas import Canvas
+from ..scene.arrays import Float32Array, SceneArrays
+from ..scene.blend_file import find_reflectors, view_of_camera
+from ..scene.camera.film import on_film
+from ..scene.camera.shutter import Moment, read_moments
+from ..scene.changes import Changes
+from ..scene.extract import SceneReader
+from ..scene.view import View
+from .area import Area, area_of
+from .job import Job
+from .passes import COMBINED, MIRROR, Pass
+
+
+class RenderSession:
+    """Reads and draws a view layer; `free()` when done."""
+
+    def __init__(self) -> None:
+        self.warnings: tuple[str, ...] = ()
+        """Of the last frame, one sentence each"""
+        self._reader = SceneReader()
+        self._renderer: Renderer | None = None
+        self._arrays: SceneArrays | None = None
+        self._settings = Settings()
+        self._mirrors: list[bpy.types.Object] = []
+        self._refused: list[str] = []
+
+    def read(self, depsgraph: Any, job: Job | None) -> None:
+        """The scene at the depsgraph's frame. Raises InputError for what a job names and cannot be a mirror."""
+        scene, shown = depsgraph.scene, depsgraph.scene_eval
+        self._refused = []
+        if job is None:
+            chosen = settings_of(shown.curvrefl, shown.curvrefl.render_samples)
+            mirrors = mirrors_in(depsgraph)
+        else:
+            chosen = job.settings
+            there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
+            mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
+            job.missing -= {obj.name for obj in mirrors}
+        self._settings = replace(chosen, film_transparent=scene.render.film_transparent)
+        while True:
+            # All is read: what a new frame changes is not listed. What comes out as it was stays the same object.
+            changes = Changes(everything=self._arrays is None, frame=True)
+            try:
+                self._arrays = self._reader.read(depsgraph, shown, mirrors, changes, overrides_of(mirrors))
+                self._mirrors = mirrors
+                return
+            except InputError as error:
+                uid = self._reader.uid_of(error.object_id)
+                left = [obj for obj in mirrors if obj.session_uid != uid]
+                if job is not None or len(left) == len(mirrors):
+                    raise
+                self._refused.append(str(error))
+                mirrors = left
+
+    def draw(
+        self,
+        depsgraph: Any,
+        camera: bpy.types.Object,
+        passes: list[Pass],
+        job: Job | None,
+        before_sub_frame: Callable[[int, int], None],
+        go_to: Callable[[int, float], None],
+    ) -> tuple[Area, dict[str, Float32Array]]:
+        """The rendered area and its passes by name, Combined among them: (h, w, channels), row 0 at the bottom.
+
+        `before_sub_frame` gets a sub-frame's number and how many there are; `go_to(frame, subframe)` shows the
+        depsgraph at another time. Raises InputError for a camera that cannot
+        be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
+        """
+        assert self._arrays is not None
+        scene = depsgraph.scene
+        area = area_of(scene.render)
+        view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
+        moments, untold = self._moments(depsgraph, camera, area, view, go_to)
+        renderer = self._up_to_date(self._arrays)
+        alone = Canvas.of_size(view.width, view.height) if any(item.name == MIRROR for item in passes) else None
+        frame = renderer.render(
+            view,
+            moments=moments,
+            mirrors_alone=alone,
+            before_sub_frame=lambda index: before_sub_frame(index, self._settings.samples),
+        )
+        result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
+        for item in passes:
+            if item.read is not None:
+                result[item.name] = item.read(frame)
+            elif alone is not None:
+                result[item.name] = on_film(alone.pixels(), depsgraph.scene_eval)
+        # (Of one that is left out as well the scene's own sentence is enough.)
+        refused = [one for one in self._refused if not _is_said(one, frame.warnings)]
+        self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings, *untold)
+        if job is not None and not job.object_names:
+            self._tell(job, frame, area)
+        return area, result
+
+    def free(self) -> None:
+        """Let go of all GPU resources."""
+        if self._renderer is not None:
+            self._renderer.free()
+            self._renderer = None
+
+    def _moments(
+        self,
+        depsgraph: Any,
+        camera: bpy.types.Object,
+        area: Area,
+        view: View,
+        go_to: Callable[[int, float], None],
+    ) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
+        """What each sub-frame shows where there is motion blur, and what of it is not told."""
+        assert self._arrays is not None
+        scene = depsgraph.scene
+
+        def read_now(changes: Changes) -> tuple[SceneArrays, View]:
+            overrides = overrides_of(self._mirrors)
+            arrays = self._reader.read(depsgraph, depsgraph.scene_eval, self._mirrors, changes, overrides)
+            return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
+
+        return read_moments(scene, Moment(self._arrays, view), self._settings.samples, read_now, go_to)
+
+    def _up_to_date(self, arrays: SceneArrays) -> Renderer:
+        require_gpu()
+        if self._renderer is None:
+            self._renderer = Renderer(arrays, self._settings)
+            return self._renderer
+        try:
+            self._renderer.update(arrays)
+            if self._renderer.settings != self._settings:
+                self._renderer.configure(self._settings)
+        except InputError:
+            self.free()
+            raise
+        return self._renderer
+
+    def _without_mirrors(self, frame: Frame) -> list[str]:
+        assert self._arrays is not None
+        if not self._arrays.reflectors:
+            return ["No object is marked as a mirror: the picture has no reflections."]
+        return [] if frame.mask().any() else ["No reflector is in view: the picture has no reflections."]
+
+    def _tell(self, job: Job, frame: Frame, area: Area) -> None:
+        assert self._arrays is not None
+        arrays: dict[str, Callable[[], Any]] = {
+            "position": frame.reflected_position,
+            "object": lambda: frame.reflected_object().astype(np.float32),
+            "iterations": frame.iterations,
+        }
+        job.arrays = {name: area.uncropped(arrays[name]()) for name in job.passes}
+        job.object_names = {instance.object_id: instance.object_name for instance in self._arrays.instances}
+
+
+def _is_said(refusal: str, warnings: Sequence[str]) -> bool:
+    """Whether a warning tells the same of the same object."""
+    return any(warning.startswith(refusal.split(":")[0]) for warning in warnings)

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture of the open scene into a file, by an ordinary render with this engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..errors import InputError
+from ..scene.blend_file import find_camera
+from ..scene.render_depsgraph import use_camera
+from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from .engine import ENGINE
+from .job import Job, asked_for
+
+
+def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path: Path, camera: str | None) -> None:
+    """Render the scene's present frame into `path`: .png as shown, .exr scene-linear.
+
+    All else is as in the file: view layers, border, film, compositor, stamp. The file's own outputs of the compositor
+    are not written. Settings are as before at the end. Raises InputError for what the user can put right: the camera,
+    the reflectors; RuntimeError where Blender does not finish.
+    """
+    chosen = find_camera(scene, camera)
+    with temporary_settings() as changes, asked_for(job):
+        _use_engine(changes, scene, width, height, path)
+        use_camera(changes, scene, chosen)
+        for node in _file_outputs(scene.compositing_node_group):
+            changes.set(node, mute=True)
+        reason = ""
+        try:
+            bpy.ops.render.render(write_still=True, scene=scene.name)
+        except RuntimeError as error:
+            reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+    if job.error is not None:
+        raise job.error
+    if job.missing:
+        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
+        raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
+    if not path.is_file():
+        raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": {reason or "it was stopped"}.')
+
+
+def _use_engine(changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int, path: Path) -> None:
+    changes.set(
+        scene.render,
+        engine=ENGINE,
+        resolution_x=width,
+        resolution_y=height,
+        resolution_percentage=100,
+        filepath=str(path),
+        use_file_extension=False,
+        use_overwrite=True,
+        use_placeholder=False,
+        use_sequencer=False,
+        save_output=True,
+    )
+    is_png = path.suffix.lower() == ".png"
+    changes.set(
+        scene.render.image_settings,
+        media_type="IMAGE",
+        file_format="PNG" if is_png else "OPEN_EXR",
+        color_management="FOLLOW_SCENE",
+        color_mode="RGBA",
+        color_depth="8" if is_png else "32",
+    )
+
+
+def _file_outputs(tree: bpy.types.NodeTree | None) -> Iterator[Any]:
+    """Nodes of a compositor that write files, those in groups too."""
+    seen: set[int] = set()
+    trees: list[Any] = [] if tree is None else [tree]
+    while trees:
+        here = trees.pop()
+        if here.session_uid in seen:
+            continue
+        seen.add(here.session_uid)
+        for node in here.nodes:
+            if node.type == "OUTPUT_FILE":
+                yield node
+            elif node.type == "GROUP" and node.node_tree is not None:
+                trees.append(node.node_tree)

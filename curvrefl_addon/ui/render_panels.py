@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Panels of the properties editor where the render engine is chosen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..engine.engine import ENGINE
+from ..settings_table import OF_SCENES, OF_VIEW_LAYERS
+
+
+class _OfEngine:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return getattr(context, "engine", "") == ENGINE
+
+
+class CURVREFL_RENDER_PT_quality(_OfEngine, bpy.types.Panel):
+    """How renders find reflections"""
+
+    bl_label = "Curved Reflections"
+    bl_context = "render"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for item in OF_SCENES:
+            # (Samples and motion are the viewports'.)
+            if item.panel == "Quality" and item.name not in ("samples", "motion_resolution"):
+                layout.prop(context.scene.curvrefl, item.name)
+
+
+class CURVREFL_VIEW_LAYER_PT_passes(_OfEngine, bpy.types.Panel):
+    """What renders have beside the picture"""
+
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for item in OF_VIEW_LAYERS:
+            layout.prop(context.view_layer.curvrefl, item.name)
+
+
+CLASSES = (CURVREFL_RENDER_PT_quality, CURVREFL_VIEW_LAYER_PT_passes)

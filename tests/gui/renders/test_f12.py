@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""F12 in a window, in a thread beside a viewport that draws, gives the pixels of `blender -b FILE -E CURVREFL -f 1`."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from window import SECONDS, Session, home, run_session
+from window_blender import WindowBlender
+
+SCRIPT = Path(__file__).resolve().parent / "f12_session.py"
+WINDOW = (480, 360)
+FRAMES = 4
+
+
+@pytest.fixture(scope="module", params=["opengl", "vulkan"])
+def rendered(
+    request: pytest.FixtureRequest,
+    tmp_path_factory: pytest.TempPathFactory,
+    window_blender: WindowBlender,
+    archive: Path,
+) -> Session:
+    from small_scene import saved
+
+    file, folder = saved(tmp_path_factory.mktemp("scene")), tmp_path_factory.mktemp(f"f12_{request.param}")
+    session = run_session(window_blender, SCRIPT, folder, archive, file, folder, backend=request.param, size=WINDOW)
+    assert not session.seen["error"], session.seen["error"] + session.printed[-3000:]
+    installed = tmp_path_factory.mktemp("background")
+    render = ("--background", "--gpu-backend", request.param, str(folder / "marked.blend"), "-E", "CURVREFL")
+    for arguments in (
+        ("--command", "extension", "install-file", "-r", "user_default", "--enable", str(archive)),
+        (*render, "-o", str(folder / "background_####"), "-f", "1"),
+    ):
+        command = [*window_blender.headless, *arguments]
+        result = subprocess.run(command, env=home(installed), capture_output=True, text=True, timeout=SECONDS)
+        session.seen["background"] = result.stdout + result.stderr
+        assert result.returncode == 0, session.seen["background"]
+    return session
+
+
+def test_the_window_renders_what_the_background_does(rendered: Session) -> None:
+    one = layers(rendered.folder / "background_0001.exr", rendered)
+    assert {name.rpartition(".")[0] for name in one} == {
+        f"ViewLayer.{name}" for name in ("Combined", "Mirror", "Object")
+    }
+    assert one["ViewLayer.Combined.R"].std() > 0.02 and one["ViewLayer.Mirror.A"].max() == 1.0
+    for name in ("alone", "beside", "again"):
+        other = layers(rendered.folder / f"{name}.exr", rendered)
+        for channel, pixels in one.items():
+            np.testing.assert_array_equal(other[channel], pixels, err_msg=f"{name}: {channel}")
+
+
+def test_an_animation_renders_beside_the_viewport(rendered: Session) -> None:
+    places = []
+    for number in range(1, FRAMES + 1):
+        cover = layers(rendered.folder / f"frame_{number:04d}.exr", rendered)["ViewLayer.Mirror.A"]
+        places.append((cover * np.arange(cover.shape[1])).sum() / cover.sum())
+    assert (np.diff(places) > 1.0).all()
+
+
+def test_the_viewport_goes_on(rendered: Session) -> None:
+    seen: dict[str, Any] = rendered.seen
+    assert seen["ended"] == ["complete"] * 4
+    assert not any(seen["threads"]), "renders run in a thread of their own"
+    assert seen["drawn during frame_"] > 0
+    assert seen["messages"] == [] and seen["enabled"]
+    assert seen["sessions"] == 0
+    for printed in (rendered.printed, seen["background"]):
+        assert "Traceback" not in printed and "Error" not in printed.replace("EGL Error", "")
+
+
+def layers(path: Path, session: Session) -> dict[str, np.ndarray]:
+    from rendered import channels
+
+    assert path.is_file(), session.printed[-3000:]
+    return channels(path)
