@@ -17,7 +17,7 @@ from .materials.images import MISSING_COLOR, ImageReader
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
 from .materials.node_colors import ColorReader
-from .materials.node_links import Source, find_input, output_node, output_source
+from .materials.node_links import Source, find_input, output_source
 from .materials.pixels import bilinear, stretched
 from .remarks import Remark
 
@@ -76,9 +76,8 @@ def _background(world: bpy.types.World, images: ImageReader, warnings: list[Rema
     if source is not None:
         result = _WorldReader(images, notes).background(source)
     else:
-        # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
-        has_output = output_node(world.node_tree) is not None
-        result = WorldArrays() if has_output else WorldArrays(_triple(world.color))
+        # Nodes that end nowhere are black; a world without any, as of old files, is the viewport's color.
+        result = WorldArrays() if world.node_tree is not None else WorldArrays(_triple(world.color))
     result = usable_world(result, notes)
     warnings += [Remark(cause, "world", world.name) for cause in dict.fromkeys(notes)]
     return result
