@@ -13,7 +13,7 @@ import numpy as np
 from .arrays import Float32Array, Float64Array, WorldArrays
 from .finite import usable_world
 from .materials.color_spaces import rec709_to_scene
-from .materials.images import MISSING_COLOR, ImageReader
+from .materials.images import MAGNIFIED, MISSING_COLOR, ImageReader, magnified
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
 from .materials.node_colors import ColorReader
@@ -132,6 +132,11 @@ class _WorldReader:
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         splits_alpha = "Alpha" in node.outputs and any(not link.is_muted for link in node.outputs["Alpha"].links)
         image = self._images.read(node.image, node.image_user, splits_alpha)
+        if node.interpolation == "Closest":
+            times = max(MAGNIFIED // max(image.shape[:2]), 1)
+            image = image.repeat(times, axis=0).repeat(times, axis=1)
+        else:
+            image = magnified(node.image, image, True)
         pixels = image[..., 3:].repeat(3, axis=-1) if is_alpha else image[..., :3]
         linear, shift = self._mapping(source)
         is_rotation = not shift.any() and bool(np.allclose(linear @ linear.T, np.eye(3), atol=1e-5))
