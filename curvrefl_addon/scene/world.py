@@ -173,7 +173,9 @@ def equirectangular_directions(width: int, height: int) -> Float64Array:
 def _resampled(pixels: Float32Array, is_mirror_ball: bool, linear: Float64Array, shift: Float64Array) -> Float32Array:
     """An equirectangular image about the world's axes of an image that is not, or not a plain rotation away."""
     height, width = pixels.shape[:2]
-    out_width, out_height = (2 * height, height) if is_mirror_ball else (width, height)
+    # (Towards its rim a ball holds much of the sky in few pixels.)
+    ball_height = max(height, min(8 * height, 1024))
+    out_width, out_height = (2 * ball_height, ball_height) if is_mirror_ball else (width, height)
     directions = equirectangular_directions(out_width, out_height) @ linear.T + shift
     lengths = np.linalg.norm(directions, axis=-1, keepdims=True)
     x, y, z = np.moveaxis(directions / np.where(lengths > 0.0, lengths, 1.0), -1, 0)
