@@ -131,7 +131,9 @@ def test_colors(world: bpy.types.World) -> None:
     assert extracted().world.color == (0.0, 0.0, 0.0)
     world.node_tree.nodes.clear()
     world.color = (0.25, 0.5, 0.75)
-    assert extracted().world.color == (0.25, 0.5, 0.75)
+    assert extracted().world.color == (0.0, 0.0, 0.0)
+    bpy.context.scene.camera = link(bpy.data.objects.new("camera", bpy.data.cameras.new("camera")))
+    assert not cycles_picture(4, 4, 1).any()
     bpy.context.scene.world = None
     assert extracted().world.color == (0.0, 0.0, 0.0)
 
