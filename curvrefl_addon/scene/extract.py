@@ -40,6 +40,7 @@ from .reads import (
     with_kept,
 )
 from .remarks import Remark, sentences
+from .unseen import rough_mirrors, unseen
 from .visibility import rays_of
 from .world import read_world
 
@@ -75,6 +76,7 @@ class SceneReader:
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
         self._world_warnings: list[Remark] = []
+        self._unseen: list[Remark] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
@@ -199,8 +201,10 @@ class SceneReader:
         self._meshes.begin()
         before, self._shown = self._shown, {}
         self._instancers = set()
+        self._unseen = []
         counts: dict[tuple[int, int], int] = {}
         for instance in depsgraph.object_instances:
+            self._unseen += unseen(instance, view_layer, depsgraph.mode == "RENDER")
             if instance.object.type not in SHOWN or not instance.show_self:
                 continue
             uid = instance.object.original.session_uid
@@ -332,6 +336,8 @@ class SceneReader:
             if item.instance is not None and (item.is_visible or key[0] in chosen)
         ]
         warnings = [warning for item in self._shown.values() for warning in item.warnings]
+        reflecting = tuple(self._ids[uid] for uid in chosen)
+        rough = rough_mirrors(instances, self._materials.materials, reflecting)
         arrays = SceneArrays(
             meshes=tuple(self._meshes.meshes),
             instances=tuple(instances),
@@ -339,8 +345,8 @@ class SceneReader:
             images=tuple(self._materials.images),
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
-            reflectors=tuple(self._ids[uid] for uid in chosen),
-            warnings=sentences([*warnings, *self._images.remarks, *self._world_warnings]),
+            reflectors=reflecting,
+            warnings=sentences([*warnings, *self._unseen, *rough, *self._images.remarks, *self._world_warnings]),
             mirror_bounces=mirror_bounces,
             diffuse_bounces=diffuse_bounces,
         )

@@ -128,9 +128,9 @@ def _in_render[T](
             # (Blender would print it and go on.)
             failed.append(error)
 
-    engine_type = type(
-        "CurvreflReader", (bpy.types.RenderEngine,), {"bl_idname": _READER, "bl_label": "", "render": render}
-    )
+    # With a GPU context of its own: else Blender's drawing of grease pencil, which follows, leaves none active.
+    about = {"bl_idname": _READER, "bl_label": "", "bl_use_gpu_context": True, "render": render}
+    engine_type = type("CurvreflReader", (bpy.types.RenderEngine,), about)
     bpy.utils.register_class(engine_type)
     try:
         with temporary_settings() as changes:

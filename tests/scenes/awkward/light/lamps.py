@@ -69,7 +69,7 @@ def spot_large(folder: Path) -> None:
     lit("SPOT", energy=1500.0, spot_size=0.7, spot_blend=0.2, shadow_soft_size=0.8)
 
 
-@awkward("a spot scaled unevenly: an oval cone")
+@awkward("a spot scaled unevenly: an oval cone", words=("cone",))
 def spot_scaled(folder: Path) -> None:
     lit("SPOT", energy=1500.0, spot_size=0.7, spot_blend=0.0, shadow_soft_size=0.02).scale = (2.0, 0.6, 1.0)
 
@@ -151,7 +151,7 @@ def suns(folder: Path) -> None:
     add_lamp("SUN", (0.0, 2.0, 3.0), 2.0, color=(0.3, 0.4, 1.0))
 
 
-@awkward("forty lamps")
+@awkward("forty lamps", words=("lamps are used",))
 def many_lamps(folder: Path) -> None:
     stage(sky=DARK, sun=0.0)
     rng = np.random.default_rng(3)

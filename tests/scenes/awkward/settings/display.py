@@ -12,7 +12,8 @@ from ..stage import add_box, bpy, emitter, stage
 
 def _shown(transform: str, look: str = "None", exposure: float = 0.0, gamma: float = 1.0) -> bpy.types.Scene:
     scene = stage()
-    add_box("Glow", (-2.2, 1.5, 2.2), 1.4, emitter("Glow", (4.0, 0.9, 0.05)))
+    # (What it lights is another matter.)
+    add_box("Glow", (-2.2, 1.5, 2.2), 1.4, emitter("Glow", (4.0, 0.9, 0.05))).visible_diffuse = False
     view = scene.view_settings
     view.view_transform = transform
     view.look = look
@@ -112,7 +113,7 @@ def film_transparent(folder: Path) -> None:
 def film_transparent_emitter(folder: Path) -> None:
     scene = stage()
     scene.render.film_transparent = True
-    add_box("Glow", (-2.2, 1.5, 2.8), 0.7, emitter("Glow", (0.2, 0.5, 0.9)))
+    add_box("Glow", (-2.2, 1.5, 2.8), 0.7, emitter("Glow", (0.2, 0.5, 0.9))).visible_diffuse = False
 
 
 @awkward("a sequencer color space and a compositor that is off", words=("compositor",))

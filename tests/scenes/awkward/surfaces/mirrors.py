@@ -29,6 +29,11 @@ from ..stage import (
 )
 
 
+def _without_bounces() -> None:
+    """What is bright and large shows the light of other surfaces, which is another matter."""
+    bpy.context.scene.cycles.diffuse_bounces = 0
+
+
 def _of(material: bpy.types.Material) -> None:
     give(MIRROR, material)
 
@@ -100,12 +105,14 @@ def mirror_dielectric(folder: Path) -> None:
 @awkward("white china", words=("diffuse", "specular", "dielectric", "Chrome 2"))
 def mirror_china(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.8, 0.8, 0.8, 1.0))
+    _without_bounces()
 
 
 @awkward("a matte mirror: nothing is reflected", words=("roughness", "diffuse", "Mirror"))
 def mirror_matte(folder: Path) -> None:
     stage()
     _of(matte("Chalk", (0.8, 0.3, 0.2)))
+    _without_bounces()
 
 
 @awkward("a mirror of glass", words=("glass", "transmi", "refract"))
@@ -297,6 +304,7 @@ def mirror_two_materials(folder: Path) -> None:
 def mirror_no_material(folder: Path) -> None:
     stage()
     find(MIRROR).data.materials.clear()
+    _without_bounces()
 
 
 @awkward("a material linked to the object in place of its mesh")

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is in a scene and not in its arrays: hair, points, volumes, strokes; mirrors that are not as sharp as drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import bpy
+
+from .arrays import InstanceArrays, MaterialArrays
+from .remarks import Remark
+from .visibility import rays_of
+
+UNSEEN = {
+    "CURVES": "Hair {of} is not shown.",
+    "POINTCLOUD": "Point clouds {of} are not shown.",
+    "VOLUME": "Volumes {of} are not shown.",
+    "GREASEPENCIL": "Grease pencil strokes {of} are not shown.",
+}
+"""By type of object"""
+SHARP = 0.05
+"""Roughness up to which a reflection looks sharp"""
+
+
+def unseen(instance: Any, view_layer: bpy.types.ViewLayer, is_render: bool) -> Iterator[Remark]:
+    """Of a `DepsgraphObjectInstance`; `is_render`: of a depsgraph for renders."""
+    obj = instance.object
+    if instance.show_self and obj.type in UNSEEN and rays_of(instance, view_layer).any:
+        yield Remark(UNSEEN[obj.type], "object", obj.original.name)
+    if instance.show_particles and len(obj.particle_systems) and rays_of(instance, view_layer).any:
+        shown = "show_render" if is_render else "show_viewport"
+        modifiers = (item for item in obj.modifiers if item.type == "PARTICLE_SYSTEM" and getattr(item, shown))
+        systems = [modifier.particle_system for modifier in modifiers]
+        if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in systems):
+            yield Remark(UNSEEN["CURVES"], "object", obj.original.name)
+
+
+def rough_mirrors(
+    instances: Iterable[InstanceArrays], materials: Sequence[MaterialArrays], reflectors: Sequence[int]
+) -> Iterator[Remark]:
+    """Mirrors whose reflections would be blurred."""
+    for instance in instances:
+        if instance.object_id in reflectors and any(_is_blurred(materials[index]) for index in instance.materials):
+            yield Remark("Roughness {of} is not shown: reflections are sharp.", "mirror", instance.object_name)
+
+
+def _is_blurred(material: MaterialArrays) -> bool:
+    reflects = material.metallic > 0.0 or material.glossy_only or (material.specular_level > 0.0 and material.ior != 1.0)
+    return reflects and material.roughness > SHARP

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is not shown is said, by the name of its object; and what is hidden is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import pytest
+from curvrefl.curvrefl_addon.scene.render_depsgraph import read_rendered
+from curvrefl.curvrefl_addon.scene.unseen import SHARP
+from scenes.awkward import SCENES
+
+
+def warnings_of(name: str, tmp_path: Path) -> str:
+    SCENES[name].build(tmp_path)
+    return said()
+
+
+def said() -> str:
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    assert scene is not None and layer is not None
+    return "\n".join(read_rendered(scene, layer, ["Mirror"]).warnings)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "thing"),
+    [
+        ("hair_curves", "Hair", "Fur"),
+        ("particles_hair", "Hair", "Bed"),
+        ("point_cloud", "Point clouds", "Points"),
+        ("volume_object", "Volumes", "Cloud"),
+        ("grease_pencil", "Grease pencil strokes", "Drawing"),
+    ],
+)
+def test_unseen_kinds_are_named(name: str, kind: str, thing: str, tmp_path: Path) -> None:
+    assert f'{kind} of object "{thing}"' in warnings_of(name, tmp_path)
+    bpy.data.objects[thing].hide_render = True
+    assert thing not in said()
+
+
+def test_hair_that_is_off_in_renders_is_not_missed(tmp_path: Path) -> None:
+    assert "Hair" in warnings_of("particles_hair", tmp_path)
+    bpy.data.objects["Bed"].modifiers[0].show_render = False
+    assert "Hair" not in said()
+    assert "Hair" not in warnings_of("particles_objects", tmp_path)
+
+
+def test_rough_mirrors_are_named(tmp_path: Path) -> None:
+    SCENES["plain"].build(tmp_path)
+    shader = bpy.data.materials["Chrome"].node_tree.nodes["Principled BSDF"]
+    shader.inputs["Roughness"].default_value = 0.9 * SHARP
+    assert "Roughness" not in said()
+    shader.inputs["Roughness"].default_value = 2.0 * SHARP
+    assert 'Roughness of mirror "Mirror" is not shown: reflections are sharp.' in said()
+    # What reflects nothing has nothing to blur, and of what is no mirror only the gleam of lamps and world is shown.
+    shader.inputs["Metallic"].default_value = shader.inputs["Specular IOR Level"].default_value = 0.0
+    assert "Roughness" not in said()
+
+
+@pytest.mark.usefixtures("gpu")
+def test_the_gpu_is_there_after_a_file_with_grease_pencil(tmp_path: Path) -> None:
+    """Blender draws grease pencil behind every engine, with a GPU context that it takes away again."""
+    import gpu
+
+    warnings_of("grease_pencil", tmp_path)
+    assert gpu.types.GPUTexture((4, 4)) is not None
