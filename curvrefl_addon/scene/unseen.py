@@ -47,5 +47,7 @@ def rough_mirrors(
 
 
 def _is_blurred(material: MaterialArrays) -> bool:
-    reflects = material.metallic > 0.0 or material.glossy_only or (material.specular_level > 0.0 and material.ior != 1.0)
+    reflects = (
+        material.metallic > 0.0 or material.glossy_only or (material.specular_level > 0.0 and material.ior != 1.0)
+    )
     return reflects and material.roughness > SHARP

@@ -92,6 +92,6 @@ def test_a_picture_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> Non
     bpy.ops.wm.read_factory_settings(use_empty=True)
     images = set(bpy.data.images.keys())
     (tmp_path / "file").write_text("no folder")
-    with pytest.raises(OSError, match="a.png"):
+    with pytest.raises(OSError, match=r"a\.png"):
         save_as_shown(tmp_path / "file" / "a.png", np.ones((2, 2, 4), np.float32), bpy.context.scene)
     assert set(bpy.data.images.keys()) == images
