@@ -15,7 +15,7 @@ import bpy
 
 from .diagnostic_colors import DiagnosticColors
 from .scene.arrays import MaterialArrays
-from .scene.blend_file import SURFACE_TYPES, objects_of
+from .scene.opened.blend_file import SURFACE_TYPES, objects_of
 from .setting import value_of
 from .settings_table import OF_NEW_SCENES, OF_PREFERENCES, RENDERER, OwnPreferences, Settings
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..scene.view import View
+from ..scene.camera.view import View
 from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.cubes import cube_texture
 from .environments.cube import EnvironmentCube

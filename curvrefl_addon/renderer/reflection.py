@@ -11,7 +11,7 @@ import numpy as np
 
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.arrays import Float64Array
-from ..scene.view import View
+from ..scene.camera.view import View
 from .choice import Choice
 from .mirrors.mirror import Mirror
 from .rays.ray_scene import RayScene

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
+from ..scene.camera.view import View
 from ..scene.remarks import Remark, sentences
-from ..scene.view import View
 from .device.context import require_gpu
 from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube

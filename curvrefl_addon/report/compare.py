@@ -27,12 +27,12 @@ from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
-from ..scene.blend_file import find_camera, open_blend
 from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
+from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
-from ..scene.render_depsgraph import read_render_moments
-from ..scene.view import View
+from ..scene.opened.blend_file import find_camera, open_blend
+from ..scene.opened.render_depsgraph import read_render_moments
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, STILL_SAMPLES
 from ..streams import readable
 from .as_shown import save_as_shown

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene.arrays import Float64Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from .shadow_views import ShadowView
 
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.camera.view import View
 from ...scene.materials.pixels import averaged
 from ...scene.names import listed
-from ...scene.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry

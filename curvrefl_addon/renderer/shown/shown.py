@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from ...scene.arrays import Float32Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.records import record_texture
 from ..geometry.scene_geometry import SceneGeometry
 from ..lighting.lighting import Lighting

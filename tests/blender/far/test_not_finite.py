@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, LightArrays, MaterialArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes import placed_room
 
 pytestmark = pytest.mark.usefixtures("gpu")

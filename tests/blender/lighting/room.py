@@ -17,8 +17,8 @@ from curvrefl.curvrefl_addon.demo.shapes import ball, box, plane
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.images import load_exr
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from mathutils import Vector
 
 WIDTH, HEIGHT = 96, 72

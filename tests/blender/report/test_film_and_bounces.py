@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.direct_light import mirrors_met
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.settings_table import Settings
 from scenes.file_settings.blurred_stage import build_blurred_stage, slide
 

@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import WorldArrays
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.world import SKY_COLORS
 from extraction import cycles_picture, empty_scene, extracted, link
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from curvrefl.curvrefl_addon.renderer.lighting.coarse_shadows import Coarseness, are_too_coarse
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import ShadowView
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 
 RESOLUTION = 100
 LIMIT = Coarseness(4.0, 0.1)

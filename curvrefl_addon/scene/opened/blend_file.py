@@ -11,10 +11,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ..errors import InputError
-from .camera.lens import lens_of
-from .finite import problem_of_place
-from .view import View
+from ...errors import InputError
+from ..camera.lens import lens_of
+from ..camera.view import View
+from ..finite import problem_of_place
 
 EXACT_DEPTHS = 1.001e4
 """Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
