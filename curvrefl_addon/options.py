@@ -15,7 +15,7 @@ import bpy
 
 from .diagnostic_colors import DiagnosticColors
 from .scene.arrays import MaterialArrays
-from .scene.blend_file import SURFACE_TYPES
+from .scene.opened.blend_file import SURFACE_TYPES, objects_of
 from .setting import value_of
 from .settings_table import OF_NEW_SCENES, OF_PREFERENCES, RENDERER, OwnPreferences, Settings
 
@@ -85,8 +85,8 @@ def settings_of(chosen: Any, samples: int | None = None) -> Settings:
 
 
 def marked_mirrors(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Objects of the scene that are marked as mirrors."""
-    return [item for item in scene.objects if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
+    """Objects of the scene that are marked as mirrors, also those that are only in a collection that is instanced."""
+    return [item for item in objects_of(scene) if item.curvrefl.is_mirror and item.type in SURFACE_TYPES]
 
 
 def mirrors_in(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:

@@ -103,7 +103,7 @@ class Settings:
         preference=True,
         flags=(
             Flag("render", "--samples", "for anti-aliasing"),
-            Flag("compare", "--sub-frames", "of our pictures"),
+            Flag("compare", "--sub-frames", "of our pictures; at least 16 where the file blurs"),
         ),
         said="{} samples are",
     )

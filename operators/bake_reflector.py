@@ -49,7 +49,7 @@ class CURVREFL_OT_bake_reflector(bpy.types.Operator):
         from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
         from ..curvrefl_addon.renderer.mirrors.reflector_bake import bake_reflector
         from ..curvrefl_addon.renderer.mirrors.reflector_files import save
-        from ..curvrefl_addon.scene.render_depsgraph import read_rendered
+        from ..curvrefl_addon.scene.opened.render_depsgraph import read_rendered
 
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import bpy
 from bpy.props import EnumProperty
 
-from ..curvrefl_addon.scene.blend_file import SURFACE_TYPES
+from ..curvrefl_addon.scene.opened.blend_file import SURFACE_TYPES
 from ..curvrefl_addon.ui.choices import PRESETS
 
 

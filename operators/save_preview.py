@@ -67,6 +67,7 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         return {"FINISHED"}
 
     def _save(self, context: bpy.types.Context) -> int:
+        from ..curvrefl_addon.output import folder_to_publish
         from ..curvrefl_addon.report.as_shown import save_as_shown
         from ..curvrefl_addon.report.preview import PreviewRenderer
 
@@ -82,7 +83,9 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
                 for number, frame in enumerate(frames):
                     if frame is not None:
                         scene.frame_set(frame)
-                    save_as_shown(self._path(frame), renderer.render(context), scene)
+                    pixels, path = renderer.render(context), self._path(frame)
+                    with folder_to_publish(path.parent) as part:
+                        save_as_shown(part / path.name, pixels, scene)
                     warnings |= dict.fromkeys(renderer.warnings)
                     context.window_manager.progress_update(number + 1)
             finally:

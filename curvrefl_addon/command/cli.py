@@ -9,6 +9,7 @@ them, so that help and usage errors come at once.
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import signal
@@ -38,6 +39,9 @@ MAX_FRAME = 1048574
 
 def main(arguments: Sequence[str]) -> int:
     """Run a verb and return the exit code: 0 done, 2 bad input or usage, 1 a failure of ours, 128 + n for signal n."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # Names of files may be bytes that are no UTF-8: they are written as they came.
+        sys.stdout.reconfigure(errors="surrogateescape")
     try:
         with answered_signals():
             code = run(arguments)

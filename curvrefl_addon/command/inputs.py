@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import bpy
 
     from ..scene.arrays import SceneArrays
-    from ..scene.view import View
+    from ..scene.camera.view import View
 
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -43,7 +43,7 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
     """Open the file and go to a frame of it; returns the file's active scene."""
     import bpy
 
-    from ..scene.blend_file import open_blend
+    from ..scene.opened.blend_file import open_blend
 
     with dropped(STDOUT), stage(f'read "{file}"'):
         open_blend(file)
@@ -87,7 +87,7 @@ def read_scene(
     chosen resolution."""
     import bpy
 
-    from ..scene.render_depsgraph import read_render_scene
+    from ..scene.opened.render_depsgraph import read_render_scene
 
     size = resolution_of(options, scene)
     with stage(f'read "{bpy.data.filepath}"'):

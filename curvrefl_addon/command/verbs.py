@@ -60,7 +60,7 @@ def render(options: argparse.Namespace) -> int:
     from ..engine.job import Job
     from ..engine.still import render_still
     from ..report.images import save_exr
-    from ..scene.blend_file import find_reflectors
+    from ..scene.opened.blend_file import find_reflectors
 
     find_reflectors(scene, reflectors)
     with registered(), folder_to_publish(output.parent) as folder:
@@ -185,7 +185,7 @@ def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:
 
 def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: Sequence[str]) -> ChartFile:
     """What to chart of a file. Raises InputError where that cannot be."""
-    from ..scene.blend_file import find_camera, find_reflectors
+    from ..scene.opened.blend_file import find_camera, find_reflectors
     from ..study.charts.chart import ChartFile
 
     scene = open_scene(file)
@@ -219,7 +219,7 @@ def bake(options: argparse.Namespace) -> int:
     from ..renderer.mirrors.reflector_bake import bake_reflector
     from ..renderer.mirrors.reflector_files import save
     from ..renderer.mirrors.reflector_map import pixel_error
-    from ..scene.render_depsgraph import read_rendered
+    from ..scene.opened.render_depsgraph import read_rendered
 
     if options.camera is None and scene.camera is None:
         arrays, view = read_rendered(scene, view_layer_of(scene), reflectors), None

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..scene.arrays import Float32Array
-from ..scene.view import View
+from ..scene.camera.view import View
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,10 @@ render ends, as Blender then takes that context down.
 
 from __future__ import annotations
 
+import sys
 import threading
 import traceback
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -158,6 +160,20 @@ def is_stopped(engine: bpy.types.RenderEngine) -> bool:
 
 
 @persistent
+def _begins(scene: bpy.types.Scene, *_arguments: Any) -> None:
+    """In background, without a driver, Blender would crash as it makes the engine's GPU context: a sentence instead."""
+    if not bpy.app.background or scene.render.engine != ENGINE:
+        return
+    from ..renderer.device.context import GpuUnavailableError, require_gpu
+
+    try:
+        require_gpu()
+    except GpuUnavailableError as error:
+        print(f"Error: {error}", file=sys.stderr, flush=True)
+        sys.exit(1)
+
+
+@persistent
 def _ended(*_arguments: Any) -> None:
     """A render is complete or canceled."""
     _state.free()
@@ -166,17 +182,22 @@ def _ended(*_arguments: Any) -> None:
 CLASSES = (CurvreflEngine,)
 
 
+def _handlers() -> list[tuple[list[Any], Callable[..., None]]]:
+    handlers = bpy.app.handlers
+    return [(handlers.render_init, _begins), (handlers.render_complete, _ended), (handlers.render_cancel, _ended)]
+
+
 def add() -> None:
-    """Hear of renders' ends; the classes are registered."""
-    for handlers in (bpy.app.handlers.render_complete, bpy.app.handlers.render_cancel):
-        handlers.append(_ended)
+    """Hear of renders' begins and ends; the classes are registered."""
+    for handlers, function in _handlers():
+        handlers.append(function)
     panels.add(ENGINE)
 
 
 def remove() -> None:
     """Leave nothing behind."""
     panels.remove(ENGINE)
-    for handlers in (bpy.app.handlers.render_complete, bpy.app.handlers.render_cancel):
-        if _ended in handlers:
-            handlers.remove(_ended)
+    for handlers, function in _handlers():
+        if function in handlers:
+            handlers.remove(function)
     _state.free()

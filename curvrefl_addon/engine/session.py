@@ -19,12 +19,12 @@ from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings
 from ..renderer.surfaces.canvas import Canvas
 from ..scene.arrays import Float32Array, SceneArrays
-from ..scene.blend_file import find_reflectors, view_of_camera
 from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment, read_moments
+from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
-from ..scene.view import View
+from ..scene.opened.blend_file import find_reflectors, view_of_camera
 from .area import Area, area_of
 from .job import Job
 from .passes import COMBINED, MIRROR, Pass

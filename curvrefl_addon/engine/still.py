@@ -11,9 +11,9 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
-from ..scene.blend_file import find_camera
-from ..scene.render_depsgraph import use_camera
-from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..scene.opened.blend_file import find_camera
+from ..scene.opened.render_depsgraph import use_camera
+from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
 from .engine import ENGINE
 from .job import Job, asked_for
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..scene.view import View
+from ..scene.camera.view import View
 from .costs import STILL_SHARE, STRICTER_SHARE, Scenery, cost_share, in_shadow
 from .mirrors.mirror import Mirror
 from .settings import Settings

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene.arrays import Float64Array
-from ..scene.view import View
+from ..scene.camera.view import View
 from .geometry.split import split_angle
 from .mirrors.mirror import Mirror
 from .settings import Settings

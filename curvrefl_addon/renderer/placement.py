@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, InstanceArrays, LightArrays, MeshArrays, SceneArrays
-from ..scene.view import DEEPEST, View
+from ..scene.camera.view import DEEPEST, View
 from .geometry.mesh_facts import MeshFactsCache
 from .geometry.scene_geometry import SceneGeometry
 from .mirrors.mirror import Mirror

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..scene.view import View
+from ..scene.camera.view import View
 from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.cubes import cube_texture
 from .environments.cube import EnvironmentCube
@@ -72,7 +72,8 @@ class Preparation:
             shown.append(self._show(stage, mirror, view, mine, old, at_rest, warnings))
             if item is not None and isinstance(shown[-1], ShownVertices):
                 warnings += shown[-1].shape.warnings
-        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice)
+        coarse = stage.lighting.too_coarse(view)
+        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice, coarse, at_rest)
 
     def _choose(
         self,

@@ -4,17 +4,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.arrays import Float64Array
-from ..scene.view import View
+from ..scene.camera.view import View
 from .choice import Choice
 from .mirrors.mirror import Mirror
+from .rays.ray_scene import RayScene
 from .settings import Settings
+from .shading.shade import RayShadows
 from .shown.shown import Shown
 from .vertices.solution import SolvedChunk, VertexSolution
 
@@ -48,8 +50,18 @@ class Reflection:
     """One sentence each"""
     choice: Choice | None = None
     """What `auto` has chosen, and why"""
+    coarse_shadows: tuple[bool, bool] = (False, False)
+    """Of lamps and of the world: their maps are too coarse for the view"""
+    follows_shadows: bool = False
+    """By rays, where that is so"""
     origin: Float64Array = field(default_factory=lambda: np.zeros(3))
     """(3,) where in the world the scene had its origin (see `placement`)"""
+
+    def ray_shadows(self, rays: Callable[[], RayScene]) -> RayShadows | None:
+        """What takes the place of shadow maps; None where these serve. `rays`: makes the scene as rays need it."""
+        if not self.follows_shadows or not any(self.coarse_shadows):
+            return None
+        return RayShadows(rays(), *self.coarse_shadows, everywhere=True)
 
     @property
     def groups(self) -> list[tuple[type[Shown], list[Shown]]]:
@@ -62,7 +74,7 @@ class Reflection:
     @property
     def is_final(self) -> bool:
         """Nothing is left that `reflect` would do for a view at rest alone."""
-        return all(shown.is_final for shown in self.shown)
+        return all(shown.is_final for shown in self.shown) and (self.follows_shadows or not any(self.coarse_shadows))
 
     @property
     def methods(self) -> tuple[str, ...]:

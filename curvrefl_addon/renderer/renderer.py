@@ -14,8 +14,8 @@ import numpy as np
 
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
+from ..scene.camera.view import View
 from ..scene.remarks import Remark, sentences
-from ..scene.view import View
 from .device.context import require_gpu
 from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
@@ -276,8 +276,10 @@ class Renderer:
             return
         self._lighting.prepare(index)
         if not groups:
-            seen, film = sub_frame.targets.seen, self.settings.film_transparent
-            self._shade.add(canvas, seen, None, sub_frame.uniforms, weight, window, film_transparent=film)
+            seen, film, shadows = sub_frame.targets.seen, self.settings.film_transparent, sub_frame.shadows
+            self._shade.add(
+                canvas, seen, None, sub_frame.uniforms, weight, window, None, shadows, film_transparent=film
+            )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
@@ -314,7 +316,8 @@ class Renderer:
         self, view: View, reflection: Reflection, window: Window | None = None, everywhere: bool = False
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        sub_frame = SubFrame(self._stage, view, view_block(view), self._targets.of(view.width, view.height), window)
+        targets, shadows = self._targets.of(view.width, view.height), reflection.ray_shadows(self.rays)
+        sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows)
         smooth = {
             id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
         }

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 
 from ..scene.arrays import Float32Array
-from ..scene.temporary_settings import temporary_settings
+from ..scene.opened.temporary_settings import temporary_settings
 from ..streams import STDERR, dropped
 from ..written_files import error_in, require_whole
 from .images import to_image_datablock

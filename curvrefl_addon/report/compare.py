@@ -27,13 +27,13 @@ from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
 from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
-from ..scene.blend_file import find_camera, open_blend
 from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
+from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
-from ..scene.render_depsgraph import read_render_moments
-from ..scene.view import View
-from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from ..scene.opened.blend_file import find_camera, open_blend
+from ..scene.opened.render_depsgraph import read_render_moments
+from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, STILL_SAMPLES
 from ..streams import readable
 from .as_shown import save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
@@ -179,7 +179,8 @@ def compare_steps(
     """
     output = checked_folder(output)
     settings = replace(comparison.settings, film_transparent=scene.render.film_transparent)
-    comparison = replace(comparison, settings=settings)
+    # A blur of few sub-frames would be as many ghosts.
+    blur_samples = max(settings.samples, STILL_SAMPLES)
     count = 4 + len(comparison.methods) + len(comparison.peers)
     with _camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
@@ -190,10 +191,14 @@ def compare_steps(
             reflector_names,
             comparison.width,
             comparison.height,
-            settings.samples,
+            blur_samples,
             camera,
         )
         extract_ms = 1e3 * (time.perf_counter() - start)
+        if (moments or still.view.lens is not None) and settings.samples < blur_samples:
+            settings = replace(settings, samples=blur_samples)
+            untold = (*untold, f"Depth of field and motion blur take {blur_samples} sub-frames here, and their time.")
+        comparison = replace(comparison, settings=settings)
         arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
         if comparison.light == "direct":
             arrays = _in_direct_light(arrays)

@@ -21,8 +21,8 @@ import bpy
 from ..errors import InputError
 from ..output import temporary_folder
 from ..scene.arrays import Float32Array
-from ..scene.render_depsgraph import use_camera
-from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..scene.opened.render_depsgraph import use_camera
+from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
 from ..written_files import require_whole
 from .images import load_exr
 from .repeats import Timing, repeated

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..scene.arrays import Float32Array, Int32Array
-from ..scene.temporary_settings import TemporarySettings, temporary_settings
+from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
 from .cycles_reference import cycles_settings, render_still, use_cycles, use_pinhole, use_still_output
 
 UNLISTED_OBJECT = -1

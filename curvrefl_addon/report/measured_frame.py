@@ -11,8 +11,8 @@ from typing import Any, Protocol
 
 from ..scene.arrays import Float32Array, Int32Array
 from ..scene.camera.shutter import Moment
+from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
-from ..scene.view import View
 from .geometry_reference import GeometryReference
 from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask
 from .repeats import Timing

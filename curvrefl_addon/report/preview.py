@@ -14,10 +14,10 @@ import bpy
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
-from ..scene.blend_file import find_reflectors
 from ..scene.camera.film import on_film
 from ..scene.extract import SceneReader
-from ..scene.render_depsgraph import read_render_moments
+from ..scene.opened.blend_file import find_reflectors
+from ..scene.opened.render_depsgraph import read_render_moments
 
 
 class PreviewRenderer:

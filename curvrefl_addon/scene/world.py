@@ -13,11 +13,11 @@ import numpy as np
 from .arrays import Float32Array, Float64Array, WorldArrays
 from .finite import usable_world
 from .materials.color_spaces import rec709_to_scene
-from .materials.images import MISSING_COLOR, ImageReader
+from .materials.images import MAGNIFIED, MISSING_COLOR, ImageReader, magnified
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
 from .materials.node_colors import ColorReader
-from .materials.node_links import Source, find_input, output_node, output_source
+from .materials.node_links import Source, find_input, output_source
 from .materials.pixels import bilinear, stretched
 from .remarks import Remark
 
@@ -76,9 +76,8 @@ def _background(world: bpy.types.World, images: ImageReader, warnings: list[Rema
     if source is not None:
         result = _WorldReader(images, notes).background(source)
     else:
-        # Without nodes Cycles shows the viewport's color; with an output that has nothing plugged in, black.
-        has_output = output_node(world.node_tree) is not None
-        result = WorldArrays() if has_output else WorldArrays(_triple(world.color))
+        # Nodes that end nowhere are black; a world without any, as of old files, is the viewport's color.
+        result = WorldArrays() if world.node_tree is not None else WorldArrays(_triple(world.color))
     result = usable_world(result, notes)
     warnings += [Remark(cause, "world", world.name) for cause in dict.fromkeys(notes)]
     return result
@@ -133,6 +132,11 @@ class _WorldReader:
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         splits_alpha = "Alpha" in node.outputs and any(not link.is_muted for link in node.outputs["Alpha"].links)
         image = self._images.read(node.image, node.image_user, splits_alpha)
+        if node.interpolation == "Closest":
+            times = max(MAGNIFIED // max(image.shape[:2]), 1)
+            image = image.repeat(times, axis=0).repeat(times, axis=1)
+        else:
+            image = magnified(node.image, image, True)
         pixels = image[..., 3:].repeat(3, axis=-1) if is_alpha else image[..., :3]
         linear, shift = self._mapping(source)
         is_rotation = not shift.any() and bool(np.allclose(linear @ linear.T, np.eye(3), atol=1e-5))
@@ -169,7 +173,9 @@ def equirectangular_directions(width: int, height: int) -> Float64Array:
 def _resampled(pixels: Float32Array, is_mirror_ball: bool, linear: Float64Array, shift: Float64Array) -> Float32Array:
     """An equirectangular image about the world's axes of an image that is not, or not a plain rotation away."""
     height, width = pixels.shape[:2]
-    out_width, out_height = (2 * height, height) if is_mirror_ball else (width, height)
+    # (Towards its rim a ball holds much of the sky in few pixels.)
+    ball_height = max(height, min(8 * height, 1024))
+    out_width, out_height = (2 * ball_height, ball_height) if is_mirror_ball else (width, height)
     directions = equirectangular_directions(out_width, out_height) @ linear.T + shift
     lengths = np.linalg.norm(directions, axis=-1, keepdims=True)
     x, y, z = np.moveaxis(directions / np.where(lengths > 0.0, lengths, 1.0), -1, 0)

@@ -10,7 +10,7 @@ import bpy
 
 from ..diagnostic_colors import SOLVED_MODES
 from ..options import marked_mirrors, newer_settings
-from ..scene.blend_file import SURFACE_TYPES
+from ..scene.opened.blend_file import SURFACE_TYPES
 from ..settings_table import OF_SCENES
 from .choices import PRESETS, active_preset
 from .messages import draw_message, draw_rows

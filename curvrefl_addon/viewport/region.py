@@ -24,7 +24,7 @@ from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
 from ..scene.camera.lens import Lens, lens_of
-from ..scene.view import View
+from ..scene.camera.view import View
 
 if TYPE_CHECKING:
     from .shown_scene import ViewportScene

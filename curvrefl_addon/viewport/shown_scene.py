@@ -12,7 +12,7 @@ import bpy
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
-from ..options import marked_mirrors, newer_settings, overrides_of
+from ..options import marked_mirrors, mirrors_in, newer_settings, overrides_of
 from ..renderer.geometry.placed_instances import estimated_bytes
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings
@@ -114,6 +114,9 @@ class ViewportScene:
         for uid in self.changes.geometry | self.changes.objects:
             self._refused.pop(uid, None)
         seen = [mirror for mirror in self._mirrors if mirror.visible_get(view_layer=context.view_layer)]
+        if len(seen) < len(self._mirrors):
+            # The others may be instanced, and seen for all that.
+            seen = mirrors_in(context.evaluated_depsgraph_get())
         arrays = self._arrays_of(context, scene, seen)
         newer = newer_settings(scene)
         self.messages = [*([newer] if newer else []), *self._refused.values()]

@@ -75,23 +75,6 @@ float lamp_shadow(int base, vec3 position)
   return lit;
 }
 
-#ifdef RAY_SHADOWS
-// Out of a surface by this share of the place's coordinates, which rounding may have moved it.
-#define SHADOW_OFFSET 2e-6
-#define SHADOW_END 0.9999
-
-// 1 where nothing is on the way to this sub-frame's sample of the lamp.
-float lamp_shadow_by_ray(int base, Surface s, vec3 to_light, float range)
-{
-  if (int(lighting_data[base + 6].w) == 0) {
-    return 1.0;  // casts no shadow, or nothing could be in it
-  }
-  vec3 size = abs(s.position);
-  vec3 start = s.position + s.normal * (SHADOW_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
-  return walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true).instance < 0 ? 1.0 : 0.0;
-}
-#endif
-
 // Radiance towards the viewer from all lamps.
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
@@ -150,7 +133,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     float cos_light = dot(s.normal, to_light);
     if (cos_light > 0.0 && irradiance != vec3(0.0)) {
 #ifdef RAY_SHADOWS
-      irradiance *= lamp_shadow_by_ray(base, s, to_light, range);
+      // (Without a kind it casts no shadow, or nothing could be in it.)
+      irradiance *= int(lighting_data[base + 6].w) == 0 ? 1.0 : lit_by_ray(s, to_light, range);
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif

@@ -140,10 +140,14 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
       vec4 weight = lighting_data[5];
 #endif
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
+#ifdef WORLD_RAYS
+      float dark = cos_light > 0.0 ? 1.0 - lit_by_ray(s, light.xyz, 1e30) : 0.0;
+#else
       vec3 window = vec3(dot(lighting_data[record + 1], p),
                          dot(lighting_data[record + 2], p),
                          dot(lighting_data[record + 3], p) - 2e-6);
       float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
+#endif
       lost += weight.rgb * (cos_light * dark);
       lobe_lost += weight.w * lobe_window(dot(middle, light.xyz)) * dark;
       i += stride;

@@ -27,6 +27,6 @@ void main()
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
   // (See SurfaceBuffer; a hole has a material below 0.)
-  float shows = ids.y > 0.5 ? ids.y : (material < -0.5 ? -2.0 : -1.0);
+  float shows = material < -0.5 ? -2.0 : (ids.y > 0.5 ? ids.y : -1.0);
   surface_color_out = vec4(surface_color(), shows);
 }

@@ -12,7 +12,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, InstanceArrays, MaterialArrays, MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
-from curvrefl.curvrefl_addon.scene.render_depsgraph import with_render_depsgraph
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import with_render_depsgraph
 
 CUBE_CORNERS = [(x, y, z) for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)]
 CUBE_FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

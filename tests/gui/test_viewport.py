@@ -91,9 +91,9 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session, picture
     from curvrefl.curvrefl_addon.renderer.renderer import Renderer
     from curvrefl.curvrefl_addon.renderer.settings import Settings
     from curvrefl.curvrefl_addon.report.display import display_transform
-    from curvrefl.curvrefl_addon.scene.blend_file import find_reflectors, open_blend
+    from curvrefl.curvrefl_addon.scene.camera.view import View
     from curvrefl.curvrefl_addon.scene.extract import extract_scene
-    from curvrefl.curvrefl_addon.scene.view import View
+    from curvrefl.curvrefl_addon.scene.opened.blend_file import find_reflectors, open_blend
 
     x, y, width, height = session.seen["view"]["region"]
     image = bpy.data.images.load(str(session.folder / f"{picture}.png"))
@@ -125,7 +125,7 @@ def test_window_agrees_with_cycles(session: Session) -> None:
     from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
     from curvrefl.curvrefl_addon.report.display import display_transform
     from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
-    from curvrefl.curvrefl_addon.scene.blend_file import open_blend
+    from curvrefl.curvrefl_addon.scene.opened.blend_file import open_blend
     from mathutils import Matrix
 
     x, y, width, height = session.seen["view"]["region"]

@@ -11,7 +11,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.mirror_halls import slab
 from scenes.star_meshes import lattice, mesh_of, star_mesh
 from scenes.views import look_at

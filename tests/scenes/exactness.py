@@ -13,7 +13,7 @@ from curvrefl.curvrefl_addon.renderer.geometry.convexity import is_convex
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import is_closed
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import OWN_RANGE
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.ray_cast import first_hits, world_triangles
 
 TIE = 1e-4

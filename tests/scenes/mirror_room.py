@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 
 MIRROR = 1
 """object_id of the mirror ball: radius 1 about the origin"""

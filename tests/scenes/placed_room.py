@@ -12,9 +12,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from mathutils import Vector
 
 type Place = tuple[float, float, float]

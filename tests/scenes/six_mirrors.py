@@ -13,7 +13,7 @@ from curvrefl.curvrefl_addon.scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.convex_mirrors import rounded_box
 from scenes.mirror_halls import bowl, slab, vase
 from scenes.star_meshes import mesh_of, star_mesh, torus

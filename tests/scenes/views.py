@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 
 
 def look_at(

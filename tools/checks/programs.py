@@ -39,6 +39,7 @@ def types(root: Path) -> bool:
             root / "tools",
             root / "tools" / "measure",
             root / "tests",
+            root / "tests" / "blender",
             root / "tests" / "gui",
         )
     )

@@ -35,9 +35,9 @@ from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa:
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
-from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 
 OTHERS = ("exact", "newton", "secant_star")
 SHARE = re.compile(r"cost about ([\d.]+) times")

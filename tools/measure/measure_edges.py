@@ -52,9 +52,9 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import _Cutting  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Float64Array, SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
-from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 from edges.judge import NEAR, VIEWS, Judge, Seen, numbers, turned  # noqa: E402
 from edges.six_node import measure_six_node  # noqa: E402
 

@@ -50,9 +50,9 @@ from curvrefl.curvrefl_addon.renderer.vertices.back_faces import BackFaces  # no
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
-from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
 
 WIDTH, HEIGHT = 640, 480
 

@@ -34,7 +34,7 @@ from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.report.images import save_png  # noqa: E402
-from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from scenes.six_mirrors import MIRROR_NAMES, six_mirrors, six_mirrors_view  # noqa: E402
 
 

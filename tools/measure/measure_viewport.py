@@ -35,9 +35,9 @@ from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
-from curvrefl.curvrefl_addon.scene.view import View  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...optics.environment import environment_radius
 from ...scene.arrays import Float32Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.cubes import cube_texture, empty_cube
 from ..device.textures import read_texture
 from ..geometry.chunk import Batches, Chunk

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.view import View
+from ...scene.camera.view import View
 
 
 def faces_views(center: np.ndarray, near: float, far: float, resolution: int) -> list[View]:

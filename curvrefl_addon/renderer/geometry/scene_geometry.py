@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.arrays import Float64Array, InstanceArrays, SceneArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (

@@ -14,17 +14,19 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.camera.view import View
 from ...scene.materials.pixels import averaged
 from ...scene.names import listed
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
+from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out
-from .shadow_maps import BORDER, ShadowCasters, ShadowMaps, window_rows
+from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
-from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView, meets_faces
+from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
 
@@ -88,6 +90,7 @@ class Lighting:
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
         self._bound: Any = None
+        self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
@@ -101,7 +104,7 @@ class Lighting:
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
-        before, self._scene = self._scene, scene
+        before, self._scene, self._balls = self._scene, scene, None
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
@@ -181,6 +184,14 @@ class Lighting:
             found.add("LIGHTING_WORLD")
         return frozenset(found)
 
+    def too_coarse(self, view: View) -> tuple[bool, bool]:
+        """Whether the shadow maps of lamps and of the world are too coarse for a view."""
+        if self._balls is None:
+            self._balls = self._geometry.balls()
+        pairs = ((self._lamp_maps, LAMPS), (self._world_maps, WORLD))
+        lamps, world = (are_too_coarse(one.views, one.resolution, limit, view, *self._balls) for one, limit in pairs)
+        return lamps, world
+
     def prepare(self, sub_frame: int) -> None:
         """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
 
@@ -217,10 +228,8 @@ class Lighting:
         # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
         found = (*self._lamp_warnings, *self._left_out)
         odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
-        if not odd or not self._world_is_lit:
-            return found
         what = "shade the world's light as that of lamps: their visibility to diffuse rays is left out."
-        return (*found, f"{listed(odd)} {what}")
+        return (*found, f"{listed(odd)} {what}") if odd and self._world_is_lit else found
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
@@ -310,7 +319,7 @@ class Lighting:
             place, layers = planned[index % len(planned)]
             start = HEADER_RECORDS + row * LAMP_RECORDS
             block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
-            self._shadow_records(block, self._lamp_maps, layers)
+            fill_shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
             lamp_layers += [layer for layer in layers if layer >= 0]
         world_layers: list[int] = []
@@ -330,21 +339,7 @@ class Lighting:
             world_layers.append(layer)
         records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
-        records[2:5, :3] = self._world.rotation
         world = self._world
-        records[6, :3] = float(world.visible_camera), float(world.visible_diffuse), float(world.visible_glossy)
+        records[2:5, :3] = world.rotation
+        records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
         return lamp_layers, world_layers, records
-
-    def _shadow_records(self, block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
-        """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
-        if len(layers) == 1 and layers[0] >= 0:
-            block[6, 3] = 1.0
-            block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
-            block[11, 0] = layers[0]
-        elif len(layers) == 6 and max(layers) >= 0:
-            block[6, 3] = 2.0
-            near_term, far_term = maps.views[max(layers)].depth_terms
-            block[7] = layers[:4]
-            block[8] = [layers[4], layers[5], near_term, far_term]
-            half = 0.5 * maps.resolution - BORDER
-            block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]

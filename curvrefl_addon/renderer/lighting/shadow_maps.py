@@ -16,7 +16,7 @@ from ..device.shaders import Piece, build_shader
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
 from ..geometry.scene_geometry import SceneGeometry
-from .shadow_views import SceneExtent, ShadowView
+from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 
 SLOPE_LIMIT_TEXELS = 20.0
 """Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
@@ -140,6 +140,21 @@ def window_rows(view: ShadowView, resolution: int) -> Float64Array:
         ]
     )
     return to_window @ view.world_to_clip
+
+
+def fill_shadow_records(block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
+    """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
+    if len(layers) == 1 and layers[0] >= 0:
+        block[6, 3] = 1.0
+        block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
+        block[11, 0] = layers[0]
+    elif len(layers) == 6 and max(layers) >= 0:
+        block[6, 3] = 2.0
+        near_term, far_term = maps.views[max(layers)].depth_terms
+        block[7] = layers[:4]
+        block[8] = [layers[4], layers[5], near_term, far_term]
+        half = 0.5 * maps.resolution - BORDER
+        block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
 
 
 @gpu_cache

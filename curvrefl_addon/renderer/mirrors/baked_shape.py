@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...scene.arrays import Float64Array, InstanceArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.cubes import cube_texture
 from ..geometry.chunk import Batches, Chunk
 from ..geometry.mesh_facts import MeshFacts

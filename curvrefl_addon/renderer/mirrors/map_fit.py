@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from .placed_mesh import SurfaceSamples, surface_samples
 from .reflector_map import ReflectorMap
 

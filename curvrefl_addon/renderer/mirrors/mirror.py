@@ -11,7 +11,7 @@ import numpy as np
 
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..geometry.mesh_facts import MeshFacts, MeshFactsCache
 from ..geometry.mesh_inside import holds_point
 from ..geometry.placed_instances import CORNERS, Sight

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene.arrays import Float32Array, Float64Array
-from ...scene.view import View
+from ...scene.camera.view import View
 
 
 @dataclass(frozen=True, slots=True)

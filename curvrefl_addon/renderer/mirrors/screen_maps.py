@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..geometry.chunk import Batches, Chunk
 from ..surfaces.materials import Materials
 from ..surfaces.primary import depths_of, draw_primary

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from ...scene.arrays import SceneArrays
@@ -28,14 +29,25 @@ _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 _PATH = ("mirror_position", "path_direction", "path_throughput")
 MIRRORS_END = "MIRRORS_END"
 """Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
-RAY_SHADOWS = "RAY_SHADOWS"
-"""Beside the features of lighting: lamps' shadows by rays"""
+RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
+"""Beside the features of lighting: lamps' shadows by rays, and the world's"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
 _LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
+
+
+@dataclass(frozen=True, slots=True)
+class RayShadows:
+    """Shadows by rays in place of maps."""
+
+    rays: RayScene
+    of_lamps: bool
+    of_world: bool
+    everywhere: bool
+    """Also of what the eye sees itself, else of what mirrors show"""
 
 
 class ShadePass:
@@ -74,7 +86,7 @@ class ShadePass:
         weight: float,
         mirrors: Window | None = None,
         later: Iterator[Bounce] | None = None,
-        shadows: RayScene | None = None,
+        shadows: RayShadows | None = None,
         chosen: Any = None,
         with_others: bool = True,
         film_transparent: bool = False,
@@ -85,7 +97,7 @@ class ShadePass:
         `reflected` is the reflected scene's surface buffer, or for each mirror the environment that stands for it; None
         where mirrors show the background alone. With `mirrors`, a window that holds all of them, no other pixel is
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
-        rays shadow what mirrors show. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
+        take the place of maps. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
         all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
         `by_camera`: what sees all this is the camera, else a mirror.
         """
@@ -100,7 +112,7 @@ class ShadePass:
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
             set_viewport(0, 0, seen.width, seen.height)
             self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent, by_camera)
-            self._add_front(seen, view_uniforms, weight, mirrors_only, by_camera)
+            self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         for bounce in later or ():
             self._add_path(canvas, bounce, view_uniforms, weight, shadows)
 
@@ -111,7 +123,7 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         mirrors_only: bool,
-        shadows: RayScene | None,
+        shadows: RayShadows | None,
         film_transparent: bool,
         by_camera: bool,
     ) -> None:
@@ -121,23 +133,24 @@ class ShadePass:
             kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
         for kind in kinds:
             features = self._lighting.features
+            if kind is PixelClass.SURFACE:
+                features = self._features(shadows, is_seen=True)
             if kind is PixelClass.BACKGROUND and film_transparent:
                 if not features & _LAMPS:
                     continue
                 features |= {FILM_TRANSPARENT}
             as_camera = by_camera or kind != PixelClass.BACKGROUND
-            self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight)
+            rays = _rays_of(features, shadows)
+            self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 features = self._features(shadows) | ({MIRRORS_END} if self.mirror_bounces == 0 else frozenset())
                 shader = _shade_shader(kind, features)
                 shader.bind()
-                if shadows is not None and RAY_SHADOWS in self._features(shadows):
-                    shadows.bind(shader)
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
-                self._draw(shader, kind, seen, view_uniforms, weight)
+                self._draw(shader, kind, seen, view_uniforms, weight, _rays_of(features, shadows))
             return
         for environment in reflected or ():
             shader = _environment_shader(environment.lookup, self._lighting.features)
@@ -147,14 +160,21 @@ class ShadePass:
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
 
     def _add_front(
-        self, seen: SurfaceBuffer, view_uniforms: Any, weight: float, mirrors_only: bool, by_camera: bool
+        self,
+        seen: SurfaceBuffer,
+        view_uniforms: Any,
+        weight: float,
+        mirrors_only: bool,
+        shadows: RayShadows | None,
+        by_camera: bool,
     ) -> None:
         """What adds to that in some scenes only (see `shade_front.frag.glsl`)."""
         mirrors = (PixelClass.MIRROR, PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
         if self._has_base:
             for kind in mirrors:
-                shader = _front_shader(True, self._lighting.features, by_camera)
-                self._draw(shader, kind, seen, view_uniforms, weight)
+                features = self._features(shadows, is_seen=True)
+                shader = _front_shader(True, features, by_camera)
+                self._draw(shader, kind, seen, view_uniforms, weight, _rays_of(features, shadows))
         if mirrors_only:
             return
         kinds: list[PixelClass] = []
@@ -166,14 +186,18 @@ class ShadePass:
             shader = _front_shader(False, self._lighting.features, by_camera)
             self._draw(shader, kind, seen, view_uniforms, weight)
 
-    def _features(self, shadows: RayScene | None) -> Features:
-        """Of the lighting, for what mirrors show."""
+    def _features(self, shadows: RayShadows | None, is_seen: bool = False) -> Features:
+        """Of the lighting, for what mirrors show, or for what the eye sees itself."""
         features = self._lighting.features
+        if shadows is None or (is_seen and not shadows.everywhere):
+            return features
         # Without anything in shadow there is no ray to follow.
-        return features | {RAY_SHADOWS} if shadows is not None and features & _SHADOWS else features
+        if shadows.of_lamps and features & _SHADOWS:
+            features |= {RAY_SHADOWS}
+        return features | {WORLD_RAYS} if shadows.of_world and "LIGHTING_WORLD" in features else features
 
     def _add_path(
-        self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayScene | None
+        self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayShadows | None
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = self._features(shadows)
@@ -183,8 +207,8 @@ class ShadePass:
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
             set_viewport(0, 0, path.width, path.height)
             shader.bind()
-            if shadows is not None and RAY_SHADOWS in features:
-                shadows.bind(shader)
+            if (rays := _rays_of(features, shadows)) is not None:
+                rays.bind(shader)
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("weight", weight)
             shader.uniform_sampler("materials", self._materials.table)
@@ -196,9 +220,19 @@ class ShadePass:
             self._lighting.bind(shader)
             full_screen_triangle().draw(shader)
 
-    def _draw(self, shader: Any, kind: PixelClass, seen: SurfaceBuffer, view_uniforms: Any, weight: float) -> None:
-        """A full-screen triangle for the pixels of one class."""
+    def _draw(
+        self,
+        shader: Any,
+        kind: PixelClass,
+        seen: SurfaceBuffer,
+        view_uniforms: Any,
+        weight: float,
+        rays: RayScene | None = None,
+    ) -> None:
+        """A full-screen triangle for the pixels of one class; `rays` where the shader follows some."""
         shader.bind()
+        if rays is not None:
+            rays.bind(shader)
         shader.uniform_block("view", view_uniforms)
         shader.uniform_float("weight", weight)
         shader.uniform_float("pixel_class", float(kind))
@@ -226,7 +260,12 @@ _OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 
 def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
     """With the rays that shadow, where these are among the features."""
-    return (lighting_piece(features), *((RAYS,) if RAY_SHADOWS in features else ()))
+    return (lighting_piece(features), *((RAYS,) if features & {RAY_SHADOWS, WORLD_RAYS} else ()))
+
+
+def _rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
+    """What a shader with these features needs bound."""
+    return shadows.rays if shadows is not None and features & {RAY_SHADOWS, WORLD_RAYS} else None
 
 
 @gpu_cache
@@ -275,7 +314,7 @@ def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
     return build_shader(
         "shade front",
         *_OF_SEEN,
-        lighting_piece(features),
+        *_lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),
     )

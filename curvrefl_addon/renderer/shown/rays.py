@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
 from ..rays.ray_scene import OWN_RANGE
+from ..shading.shade import RayShadows
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import union
 from .shown import Light, Shown, SubFrame
@@ -38,7 +39,7 @@ class ShownRays(Shown):
             light.weight,
             sub_frame.window,
             later=bounces if first.goes_on else None,
-            shadows=stage.rays() if members[0].settings.shadow_rays else None,
+            shadows=_shadows(members, sub_frame),
             chosen=light.chosen,
             with_others=light.with_others,
             film_transparent=light.film_transparent,
@@ -50,6 +51,15 @@ class ShownRays(Shown):
         color = read_texture(path.color)
         color[..., 3] = read_texture(path.direction)[..., 3]
         return {"reflected_position": read_texture(path.position), "reflected_color": color}
+
+
+def _shadows(members: Sequence[ShownRays], sub_frame: SubFrame) -> RayShadows | None:
+    """Of lamps also where they are asked for."""
+    if not members[0].settings.shadow_rays:
+        return sub_frame.shadows
+    if sub_frame.shadows is not None:
+        return replace(sub_frame.shadows, of_lamps=True)
+    return RayShadows(sub_frame.stage.rays(), of_lamps=True, of_world=False, everywhere=False)
 
 
 def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:

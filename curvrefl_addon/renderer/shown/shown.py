@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from ...scene.arrays import Float32Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.records import record_texture
 from ..geometry.scene_geometry import SceneGeometry
 from ..lighting.lighting import Lighting
@@ -24,7 +24,7 @@ from ..mirrors.mirror import Mirror
 from ..rays.ray_scene import RayScene
 from ..settings import Settings
 from ..shading.lookup import Environment
-from ..shading.shade import ShadePass
+from ..shading.shade import RayShadows, ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
@@ -61,6 +61,8 @@ class SubFrame:
     targets: Targets
     window: Window | None
     """Holds all mirrors, where nothing else is drawn"""
+    shadows: RayShadows | None = None
+    """Where maps are too coarse for the view"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,7 @@ class Shown(ABC):
             sub_frame.uniforms,
             light.weight,
             sub_frame.window,
+            shadows=sub_frame.shadows,
             chosen=light.chosen,
             with_others=light.with_others,
             film_transparent=light.film_transparent,

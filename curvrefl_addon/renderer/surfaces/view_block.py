@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, uniform_block
 
 _TYPEDEF = "struct ViewBlock { mat4 world_to_view; mat4 view_to_clip; mat4 clip_to_world; vec4 eye; };"

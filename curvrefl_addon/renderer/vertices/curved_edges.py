@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from ...optics import status
 from ...scene.arrays import Float32Array, Int32Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.records import read_records, record_texture
 from ..geometry.chunk import Chunk, by_material, pack_color, unpack_color
 from ..geometry.split import number_pairs, subdivide

@@ -11,7 +11,7 @@ from typing import Any
 from ...optics.catalog import Method
 from ...optics.surfaces.cube_map import CubeMapSurface
 from ...optics.surfaces.curvature_regions import curvature_regions
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..geometry.chunk import Batches, Chunk
 from ..mirrors.baked_shape import BakedShape
 from ..mirrors.mirror import Mirror

@@ -20,7 +20,7 @@ from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
 from ...scene.arrays import LARGEST_COORDINATE, Float64Array
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..device.context import gpu_cache
 from ..device.cubes import cube_texture
 from ..device.records import empty_index_texture, empty_record_texture, record_texture

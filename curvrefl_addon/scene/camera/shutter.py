@@ -15,8 +15,8 @@ import numpy as np
 
 from ..arrays import Float64Array, SceneArrays
 from ..changes import Changes
-from ..view import View
 from .sampling import scattered_strata
+from .view import View
 
 _STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 _CURVE_STEPS = 256

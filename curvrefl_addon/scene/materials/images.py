@@ -15,6 +15,7 @@ from ..arrays import Float32Array
 from ..finite import usable_pixels
 from ..remarks import Remark
 from .color_spaces import rec709_to_scene
+from .pixels import stretched
 
 MISSING_COLOR = (1.0, 0.0, 1.0, 1.0)
 """What Blender shows for an image that is not there"""
@@ -23,6 +24,9 @@ IMAGE_BYTES = 40
 # Blender's names of the color spaces whose numbers are those of the scene (or are no colors at all).
 _LINEAR = ("Non-Color", "Linear Rec.709", "Linear", "Raw", "scene_linear")
 _DATA = ("Non-Color", "Raw", "scene_linear")
+MAGNIFIED = 1024
+"""Images of bytes are interpolated up to this size, pixels along a side"""
+MOST_MAGNIFIED = 7
 
 type _Key = tuple[int, str, bool]
 """Image (session_uid), file of the frame shown, whether alpha is used by itself"""
@@ -166,6 +170,10 @@ def _use_alpha(pixels: Float32Array, image: bpy.types.Image, is_float: bool, spl
     is_straight = image.alpha_mode == "STRAIGHT"
     if (is_straight and (is_blenders or not is_float)) or (not is_straight and not is_float and not is_blenders):
         pixels[..., :3] *= alpha
+    elif is_float and not is_blenders and not splits_alpha and image.colorspace_settings.name == "sRGB":
+        # The file's numbers are encoded as they are, where Blender divides them by alpha first.
+        colors = np.divide(pixels[..., :3], alpha, out=np.zeros_like(pixels[..., :3]), where=alpha > 0.0)
+        pixels[..., :3] = srgb_to_linear(linear_to_srgb(colors) * alpha)
     if splits_alpha:
         np.divide(pixels[..., :3], alpha, out=pixels[..., :3], where=alpha > 0.0)
         if not is_float:
@@ -177,6 +185,35 @@ def srgb_to_linear(values: Float32Array) -> Float32Array:
     return np.where(values <= 0.04045, values / 12.92, ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4).astype(
         np.float32
     )
+
+
+def linear_to_srgb(values: Float32Array) -> Float32Array:
+    """The inverse of `srgb_to_linear`."""
+    return np.where(values <= 0.0031308, values * 12.92, 1.055 * np.maximum(values, 0.0) ** (1.0 / 2.4) - 0.055).astype(
+        np.float32
+    )
+
+
+def magnified(image: bpy.types.Image, pixels: Float32Array, wraps: bool) -> Float32Array:
+    """Pixels of a small image of bytes at several times its resolution, others as they are.
+
+    Between pixels Cycles interpolates bytes, and makes them linear after that.
+    """
+    height, width = pixels.shape[:2]
+    factor = min(MAGNIFIED // max(height, width), MOST_MAGNIFIED)
+    # (Odd: the pixels' own centers stay.)
+    factor -= (factor + 1) % 2
+    if (
+        factor < 3
+        or image.is_float
+        or image.colorspace_settings.name in _LINEAR
+        or not np.ptp(pixels, axis=(0, 1)).any()
+    ):
+        return pixels
+    encoded = np.concatenate([linear_to_srgb(pixels[..., :3]), pixels[..., 3:]], axis=-1)
+    finer = stretched(encoded, factor * height, factor * width, wraps)
+    finer[..., :3] = srgb_to_linear(finer[..., :3])
+    return finer
 
 
 def _decode_srgb(pixels: Float32Array) -> None:

@@ -76,14 +76,9 @@ def source_of(socket: Any, groups: Groups = ()) -> Source:
     return Source(socket, groups)
 
 
-def output_node(tree: bpy.types.NodeTree | None) -> Any | None:
-    """The output of a material or world that Cycles takes."""
-    return None if tree is None else tree.get_output_node("CYCLES")
-
-
 def output_source(tree: bpy.types.NodeTree | None, name: str) -> Source | None:
     """What is plugged into the input `name` of a material's or world's output, or None."""
-    output = output_node(tree)
+    output: Any = None if tree is None else tree.get_output_node("CYCLES")
     if output is None:
         return None
     found = source_of(output.inputs[name])

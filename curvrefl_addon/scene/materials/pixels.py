@@ -23,9 +23,13 @@ def averaged(pixels: Pixels, height: int, width: int) -> Pixels:
     return pixels
 
 
-def bilinear(pixels: Pixels, column: NDArray[np.float64], row: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Between pixel centers at whole `column` and `row`, any shape; both wrap around."""
+def bilinear(
+    pixels: Pixels, column: NDArray[np.float64], row: NDArray[np.float64], wraps: bool = True
+) -> NDArray[np.float32]:
+    """Between pixel centers at whole `column` and `row`, any shape; both wrap around or stay on the image."""
     height, width = pixels.shape[:2]
+    if not wraps:
+        column, row = np.clip(column, 0.0, width - 1.0), np.clip(row, 0.0, height - 1.0)
     left, low = np.floor(column).astype(np.int64), np.floor(row).astype(np.int64)
     across, up = (column - left)[..., None], (row - low)[..., None]
     low, high = low % height, (low + 1) % height
@@ -35,10 +39,11 @@ def bilinear(pixels: Pixels, column: NDArray[np.float64], row: NDArray[np.float6
     return (below * (1.0 - up) + above * up).astype(np.float32)
 
 
-def stretched(pixels: Pixels, height: int, width: int) -> NDArray[np.float32]:
-    """The image at another resolution, as linear interpolation with repetition shows it."""
+def stretched(pixels: Pixels, height: int, width: int, wraps: bool = True) -> NDArray[np.float32]:
+    """The image at another resolution, as linear interpolation shows it, repeated or not."""
     if pixels.shape[:2] == (height, width):
         return np.asarray(pixels, np.float32)
     row = (np.arange(height) + 0.5) / height * pixels.shape[0] - 0.5
     column = (np.arange(width) + 0.5) / width * pixels.shape[1] - 0.5
-    return bilinear(pixels, *np.meshgrid(column, row))
+    columns, rows = np.meshgrid(column, row)
+    return bilinear(pixels, columns, rows, wraps)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Float32Array, ImageArrays
 from ..meshes.meshes import GENERATED, OBJECT
-from .images import MISSING_COLOR, ImageReader
+from .images import MISSING_COLOR, ImageReader, magnified
 from .mappings import mapped_from
 from .node_color import Change, NodeColor, gray
 from .node_colors import ColorReader
@@ -66,7 +66,7 @@ class SurfaceTextureReader:
 
     def __init__(self, images: ImageReader) -> None:
         self._images = images
-        self._arrays: dict[tuple[int, bool, str], ImageArrays] = {}
+        self._arrays: dict[tuple[int, bool, str], tuple[Float32Array, ImageArrays]] = {}
 
     def forget(self) -> None:
         """Images changed."""
@@ -87,6 +87,7 @@ class SurfaceTextureReader:
         assert node is not None
         is_alpha = source.socket.identifier == "Alpha"
         if node.image is None:
+            notes.append("Image nodes {of} without an image are drawn magenta, as in Cycles.")
             return gray(1.0) if is_alpha else NodeColor(MISSING_COLOR[:3])
         # (Cycles looks at alpha by itself where anything uses it.)
         splits_alpha = any(not link.is_muted for link in node.outputs["Alpha"].links)
@@ -100,9 +101,12 @@ class SurfaceTextureReader:
         nearest = node.interpolation == "Closest"
         key = (id(pixels), nearest, node.extension)
         if key not in self._arrays:
-            # (It keeps the pixels, so that their id is not given to others.)
-            self._arrays[key] = ImageArrays(node.image.name, pixels, node.extension, nearest)
-        texture = SurfaceTexture(self._arrays[key], space)
+            finer = pixels
+            if not nearest and node.extension != "CLIP":
+                finer = magnified(node.image, pixels, node.extension == "REPEAT")
+            # (With the pixels, so that their id is not given to others.)
+            self._arrays[key] = pixels, ImageArrays(node.image.name, finer, node.extension, nearest)
+        texture = SurfaceTexture(self._arrays[key][1], space)
         if is_alpha:
             alpha = texture.image.pixels[..., 3:]
             return NodeColor(texture=texture.changed(lambda colors: np.broadcast_to(alpha, colors.shape)))

@@ -102,7 +102,8 @@ class MeshStore:
         remarks: list[Remark | str] = []
         if reading.dropped:
             remarks.append(
-                f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place and are left out.'
+                f'{reading.dropped} triangles of "{obj.name}" have a corner at no finite place or too far out '
+                "and are left out."
             )
         remarks += [Remark(cause, "object", obj.name) for cause in reading.repaired]
         if reading.is_cut:

@@ -24,7 +24,7 @@ from ...scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
-from ...scene.view import View
+from ...scene.camera.view import View
 
 THINGS = 24
 """Objects around the mirror"""

@@ -16,8 +16,8 @@ import bpy
 from ...output import folder_to_publish
 from ...renderer.device.context import renderer_name
 from ...report.compare import Comparison, Step
-from ...scene.blend_file import open_blend
-from ...scene.render_depsgraph import read_render_scene
+from ...scene.opened.blend_file import open_blend
+from ...scene.opened.render_depsgraph import read_render_scene
 from ...streams import readable
 from .chart_data import scene_steps, step_count
 from .chart_draw import draw_chart, draw_vertex_count, has_matplotlib, require_matplotlib

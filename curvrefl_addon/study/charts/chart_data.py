@@ -24,8 +24,8 @@ from ...report.geometry_reference import GeometryReference, render_geometry
 from ...report.measured_frame import frame_geometry_error, image_error, measure_frame, measure_times
 from ...report.metrics import missing_flip
 from ...scene.arrays import SceneArrays
-from ...scene.render_depsgraph import read_render_scene
-from ...scene.view import View
+from ...scene.camera.view import View
+from ...scene.opened.render_depsgraph import read_render_scene
 from ..solvers.solver_table import settings_of
 from ..solvers.vertex_accuracy import VertexTruth
 from .chart_marks import Mark

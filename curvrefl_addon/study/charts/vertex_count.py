@@ -19,7 +19,7 @@ from ...renderer.surfaces.materials import Materials
 from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from .vertex_curves import Curve, counts_up_to
 
 ROUNDS, COUNT_REPEATS, COUNT_SECONDS = 3, 10, 0.3

@@ -23,7 +23,7 @@ from ...optics.catalog import METHODS, Method
 from ...optics.screen import Screen
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
-from ...scene.view import View
+from ...scene.camera.view import View
 from .oracle import Oracle
 from .regimes import MESH_VERTICES, REGIMES, Cases, make_cases, mesh_cases
 from .study_reflector import StudyReflector

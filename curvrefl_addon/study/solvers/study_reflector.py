@@ -26,7 +26,7 @@ from ...renderer.vertices.grid_solve import ChunkGrid
 from ...renderer.vertices.solution import VertexSolution
 from ...renderer.vertices.solve import Reflector, solve_vertices
 from ...scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from .study_surfaces import Study
 
 COLUMNS, ROWS = 512, 256

@@ -29,7 +29,7 @@ from ...renderer.vertices.mirror_solver import MirrorSolver
 from ...renderer.vertices.solution import SolvedChunk
 from ...report.repeats import Timing, repeated
 from ...scene.arrays import Float64Array, SceneArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..charts.chart_marks import VertexAccuracy
 from .oracle import Oracle
 from .reflection_points import ReflectionPoints

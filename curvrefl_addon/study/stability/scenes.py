@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...scene.arrays import InstanceArrays, LightArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
-from ...scene.view import View
+from ...scene.camera.view import View
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import study_mesh
 from ..solvers.study_surfaces import STUDIES

@@ -13,8 +13,8 @@ import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene, with_render_depsgraph
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene, with_render_depsgraph
 from extraction import (
     CUBE_CORNERS,
     add,

@@ -26,7 +26,7 @@ from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.shading.lookup import Environment
 from curvrefl.curvrefl_addon.renderer.shown.environment import ShownEnvironment
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.mirror_room import MIRROR, Room, radial_mesh
 from scenes.views import look_at
 

@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from mathutils import Matrix
 from scenes import placed_room
 

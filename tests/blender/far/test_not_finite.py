@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, LightArrays, MaterialArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes import placed_room
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -126,22 +126,28 @@ LAMPS: dict[str, tuple[Act, str]] = {
     "sun angle NaN": (lamp("Sun", "angle", NAN), 'Lamp "Sun" is left out'),
 }
 OTHERWISE: dict[str, tuple[Act, str]] = {
-    "world color NaN": (lit("Color", (NAN, 0.2, 0.2, 1.0)), 'World "World" is drawn roughly'),
-    "world strength infinite": (lit("Strength", INF), 'World "World" is drawn roughly'),
-    "world strength 1e30": (lit("Strength", HUGE), 'World "World" is drawn roughly'),
-    "world image NaN": (with_picture(NAN, of_world=True), 'Image "Picture" has pixels'),
-    "world image 3e38": (with_picture(3e38, of_world=True), 'Image "Picture" has pixels'),
-    "image NaN": (with_picture(NAN, of_world=False), 'Image "Picture" has pixels'),
-    "image infinite": (with_picture(INF, of_world=False), 'Image "Picture" has pixels'),
-    "color NaN": (painted("Gray", "Base Color", (NAN, 0.2, 0.2, 1.0)), 'Material "Gray" is drawn roughly: its base'),
-    "mirror color NaN": (painted("Chrome", "Base Color", (NAN, 0.2, 0.2, 1.0)), 'Material "Chrome" is drawn roughly'),
-    "roughness NaN": (painted("Gray", "Roughness", NAN), 'Material "Gray" is drawn roughly: its roughness'),
-    "metallic NaN": (painted("Gray", "Metallic", NAN), 'Material "Gray" is drawn roughly: its metallic'),
-    "IOR NaN": (painted("Gray", "IOR", NAN), 'Material "Gray" is drawn roughly: its ior'),
-    "emission infinite": (painted("Gray", "Emission Color", (INF, 0, 0, 1)), 'Material "Gray" is drawn roughly'),
-    "emission NaN": (painted("Gray", "Emission Strength", NAN), 'Material "Gray" is drawn roughly'),
-    "UV NaN": (bad_uv, '"Floor" has texture coordinates'),
-    "vertex color NaN": (bad_vertex_colors, '"Floor" has vertex colors'),
+    "world color NaN": (lit("Color", (NAN, 0.2, 0.2, 1.0)), 'of world "World" is not a usable number'),
+    "world strength infinite": (lit("Strength", INF), 'of world "World" is not a usable number'),
+    "world strength 1e30": (lit("Strength", HUGE), 'of world "World" is not a usable number'),
+    "world image NaN": (with_picture(NAN, of_world=True), 'Pixels of image "Picture"'),
+    "world image 3e38": (with_picture(3e38, of_world=True), 'Pixels of image "Picture"'),
+    "image NaN": (with_picture(NAN, of_world=False), 'Pixels of image "Picture"'),
+    "image infinite": (with_picture(INF, of_world=False), 'Pixels of image "Picture"'),
+    "color NaN": (painted("Gray", "Base Color", (NAN, 0.2, 0.2, 1.0)), 'of material "Gray" is not'),
+    "mirror color NaN": (
+        painted("Chrome", "Base Color", (NAN, 0.2, 0.2, 1.0)),
+        'of material "Chrome" is not',
+    ),
+    "roughness NaN": (painted("Gray", "Roughness", NAN), 'of material "Gray" is not'),
+    "metallic NaN": (painted("Gray", "Metallic", NAN), 'of material "Gray" is not'),
+    "IOR NaN": (painted("Gray", "IOR", NAN), 'of material "Gray" is not'),
+    "emission infinite": (
+        painted("Gray", "Emission Color", (INF, 0, 0, 1)),
+        'of material "Gray" is not',
+    ),
+    "emission NaN": (painted("Gray", "Emission Strength", NAN), 'of material "Gray" is not'),
+    "UV NaN": (bad_uv, 'Texture coordinates of object "Floor"'),
+    "vertex color NaN": (bad_vertex_colors, 'Vertex colors of object "Floor" that are not'),
 }
 CAMERAS: dict[str, tuple[Act, str]] = {
     "place NaN": (placed("Eye", NAN), "is at no finite place"),

@@ -17,8 +17,8 @@ from curvrefl.curvrefl_addon.demo.shapes import ball, box, plane
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.images import load_exr
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from mathutils import Vector
 
 WIDTH, HEIGHT = 96, 72
@@ -98,7 +98,7 @@ def our_room(mirrors: tuple[str, ...] = ("mirror",), method: str = "exact") -> t
     """Picture and warnings of the open scene as a render shows it."""
     scene: Any = bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors], for_render=True)
+    arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors])
     renderer = Renderer(arrays, Settings(method=method, samples=16))
     size = (scene.render.resolution_x, scene.render.resolution_y)
     frame = renderer.render(view_of_camera(scene, scene.camera, *size, depsgraph))

@@ -96,6 +96,10 @@ def test_alpha_does_to_colors_what_it_does_in_cycles(tmp_path: Path) -> None:
         folder = tmp_path / f"data {fmt} {uses_alpha}"
         folder.mkdir()
         cases[f"data {fmt} {uses_alpha}"] = from_file(folder, fmt, "STRAIGHT", False, "Non-Color"), uses_alpha
+    for mode, uses_alpha in itertools.product(("STRAIGHT", "PREMUL"), (False, True)):
+        folder = tmp_path / f"encoded {mode} {uses_alpha}"
+        folder.mkdir()
+        cases[folder.name] = from_file(folder, "OPEN_EXR", mode, False, "sRGB"), uses_alpha
     cases["clear"] = even("PNG", (0.8, 0.4, 0.2, 0.0)), False
     for column, (name, (image, uses_alpha)) in enumerate(cases.items()):
         show(name, column, image, uses_alpha)
@@ -146,6 +150,7 @@ def test_an_image_node_without_an_image_is_magenta() -> None:
     tree.links.new(node(tree, "ShaderNodeTexImage").outputs["Color"], shader.inputs["Color"])
     scene = extracted()
     assert material_of(scene, "square").base_color == (1.0, 0.0, 1.0)
+    assert scene.warnings == ('Image nodes of material "square" without an image are drawn magenta, as in Cycles.',)
     np.testing.assert_allclose(shown_by_cycles(1)[0], (1.0, 0.0, 1.0))
 
 

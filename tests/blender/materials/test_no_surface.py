@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from extraction import add, add_square, cycles_picture, empty_scene, extracted, link, look_down, new_material
 from scene.color_nodes import node, smooth_image
 

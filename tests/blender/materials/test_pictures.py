@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.renderer.lighting import lighting
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.surfaces import materials
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, new_material
 from scene.color_nodes import node, smooth_image
 

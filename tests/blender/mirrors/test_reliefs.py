@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from extraction import add, add_square, empty_scene, extracted, link
 
 pytestmark = pytest.mark.usefixtures("gpu")

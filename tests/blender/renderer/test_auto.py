@@ -19,7 +19,7 @@ from curvrefl.curvrefl_addon.renderer.geometry import scene_geometry
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes import mirror_halls
 from scenes.mirror_halls import hall
 from scenes.star_meshes import star_mesh

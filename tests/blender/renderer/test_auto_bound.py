@@ -21,7 +21,7 @@ from curvrefl.curvrefl_addon.scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.convex_mirrors import convex_case, pixel_errors, rounded_box, turned, with_normals
 from scenes.mirror_halls import slab
 from scenes.star_meshes import star_mesh

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeomet
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MeshArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.mirror_room import Room
 from scenes.star_meshes import welded
 from scenes.views import look_at

@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.camera.lens import Lens
 from curvrefl.curvrefl_addon.scene.camera.shutter import Moment, shutter_times
 from curvrefl.curvrefl_addon.scene.extract import SceneReader
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_moments
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_moments
 from curvrefl.curvrefl_addon.settings_table import Settings
 from scenes.file_settings.blurred_stage import build_blurred_stage, slide
 

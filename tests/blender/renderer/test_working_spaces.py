@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
-from curvrefl.curvrefl_addon.scene.blend_file import find_reflectors, view_of_camera
 from curvrefl.curvrefl_addon.scene.extract import extract_scene
 from curvrefl.curvrefl_addon.scene.materials.color_spaces import luminance_weights, rec709_to_scene, scene_to_rec709
+from curvrefl.curvrefl_addon.scene.opened.blend_file import find_reflectors, view_of_camera
 from curvrefl.curvrefl_addon.settings_table import Settings
 from scenes.file_settings.colored_cards import CARDS, build_cards
 

@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from curvrefl.curvrefl_addon.scene.camera.shutter import Moment
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 
 WIDTH, HEIGHT, SAMPLES = 64, 48, 4
 SOLVE = {

@@ -11,10 +11,10 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.report.as_shown import save_as_shown
-from curvrefl.curvrefl_addon.scene.camera.film import on_film
 from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.images import load_exr
+from curvrefl.curvrefl_addon.scene.camera.film import on_film
 from report.stand_ins import HEIGHT, SAMPLES, WIDTH, CyclesRenderer
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -92,6 +92,6 @@ def test_a_picture_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> Non
     bpy.ops.wm.read_factory_settings(use_empty=True)
     images = set(bpy.data.images.keys())
     (tmp_path / "file").write_text("no folder")
-    with pytest.raises(OSError, match="cannot write"):
+    with pytest.raises(OSError, match=r"a\.png"):
         save_as_shown(tmp_path / "file" / "a.png", np.ones((2, 2, 4), np.float32), bpy.context.scene)
     assert set(bpy.data.images.keys()) == images

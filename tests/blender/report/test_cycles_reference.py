@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.report import cycles_reference
 from curvrefl.curvrefl_addon.report.cycles_reference import Still, render_peer, render_reference
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.report.images import load_exr, save_exr, save_png
-from curvrefl.curvrefl_addon.scene.temporary_settings import temporary_settings
+from curvrefl.curvrefl_addon.scene.opened.temporary_settings import temporary_settings
 
 WIDTH, HEIGHT = 16, 12
 

@@ -14,9 +14,9 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.report.direct_light import mirrors_met
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.settings_table import Settings
-from scenes.file_settings.blurred_stage import build_blurred_stage
+from scenes.file_settings.blurred_stage import build_blurred_stage, slide
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
@@ -95,3 +95,19 @@ def test_a_ball_alone_is_followed_once() -> None:
     layer = bpy.context.view_layer
     assert mirrors_met(read_render_scene(scene, layer, ["ball"], 8, 8)[0], 4) == 1
     assert mirrors_met(read_render_scene(scene, layer, ["ball", "cube 0"], 8, 8)[0], 4) == 4
+
+
+def test_comparisons_are_blurred_on_both_sides(tmp_path: Path) -> None:
+    scene = build_blurred_stage()
+    scene.camera.data.dof.use_dof = True
+    slide("cube 0", 0, -2.8, -0.4)
+    scene.render.use_motion_blur = True
+    comparison = Comparison(("exact", "secant_star"), WIDTH, HEIGHT, 256, peers=(), settings=Settings(samples=2))
+    report = compare_open_scene(scene, bpy.context.view_layer, ["ball"], comparison, tmp_path / "blurred")
+    for method, entry in report["methods"].items():
+        assert entry["image"]["flip"] < 0.05, method
+        # Geometry is that of the frame itself, through the middle of the lens.
+        assert entry["geometry"]["angle_deg"]["median"] < 0.05, method
+    assert any("16 sub-frames" in warning for warning in report["warnings"])
+    assert (scene.frame_current, scene.frame_subframe, scene.render.use_motion_blur) == (1, 0.0, True)
+    assert scene.camera.data.dof.use_dof

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.scene.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
-from curvrefl.curvrefl_addon.scene.render_depsgraph import with_render_depsgraph
+from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, find_reflectors, open_blend, view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import with_render_depsgraph
 from extraction import add, empty_scene, link
 from mathutils import Vector
 

@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import WorldArrays
-from curvrefl.curvrefl_addon.scene.blend_file import view_of_camera
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.world import SKY_COLORS
 from extraction import cycles_picture, empty_scene, extracted, link
 
@@ -131,7 +131,9 @@ def test_colors(world: bpy.types.World) -> None:
     assert extracted().world.color == (0.0, 0.0, 0.0)
     world.node_tree.nodes.clear()
     world.color = (0.25, 0.5, 0.75)
-    assert extracted().world.color == (0.25, 0.5, 0.75)
+    assert extracted().world.color == (0.0, 0.0, 0.0)
+    bpy.context.scene.camera = link(bpy.data.objects.new("camera", bpy.data.cameras.new("camera")))
+    assert not cycles_picture(4, 4, 1).any()
     bpy.context.scene.world = None
     assert extracted().world.color == (0.0, 0.0, 0.0)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_rendered
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_rendered
 from curvrefl.curvrefl_addon.scene.unseen import SHARP
 from scenes.awkward import SCENES
 

@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read
 from curvrefl.curvrefl_addon.renderer.shading.diagnostics import DiagnosticPass
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.views import look_at
 
 EYE = np.array([0.8, -4.0, 1.0])

@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.compare import Comparison
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.study.charts.chart import open_scene_steps
 from curvrefl.curvrefl_addon.study.charts.vertex_count import shell_positions
 from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth

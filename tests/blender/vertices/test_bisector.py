@@ -20,7 +20,7 @@ from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.bounding_grid import bounding_grid
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from scenes.mirror_room import Room
 from scenes.radial_maps import SURFACES, radial_map, vertices_around

@@ -24,7 +24,7 @@ from curvrefl.curvrefl_addon.renderer.vertices.curved_edges import SHORTEST
 from curvrefl.curvrefl_addon.renderer.vertices.solution import Pieces, SolvedChunk, VertexSolution
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture
 from scenes.mirror_halls import slab
 from scenes.star_meshes import star_mesh, torus

@@ -20,7 +20,7 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
 from curvrefl.curvrefl_addon.renderer.vertices.solve import MOST_STRAGGLERS_AT_ONCE, Reflector, solve_vertices
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.study.solvers.regimes import make_cases
 from curvrefl.curvrefl_addon.study.solvers.solver_table import study_view
 from curvrefl.curvrefl_addon.study.solvers.study_reflector import StudyReflector

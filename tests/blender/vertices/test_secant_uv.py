@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.mirrors.parametric_map import ParametricMap
 from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
 from curvrefl.curvrefl_addon.renderer.vertices.solve import SAMPLERS, Reflector, solve_vertices
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from mirrors.uv_meshes import SHAPES, bake, rigid, uv_sphere
 from scenes.views import look_at
 

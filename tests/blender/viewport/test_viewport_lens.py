@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
-from curvrefl.curvrefl_addon.scene.render_depsgraph import read_render_scene
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.settings_table import Settings
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture, view_of
 from scenes.file_settings.blurred_stage import build_blurred_stage

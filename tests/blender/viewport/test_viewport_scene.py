@@ -108,6 +108,21 @@ def test_linked_mirrors_and_scenery(session: Session, tmp_path: Path) -> None:
     assert session.mirrors() == ["Mirror", "Other"]
 
 
+def test_a_mirror_that_is_only_instanced(session: Session) -> None:
+    group = bpy.data.collections.new("library")
+    mirror = bpy.data.objects["Mirror"]
+    for place in (0.0, 5.0):
+        holder = bpy.data.objects.new("Place", None)
+        holder.instance_type, holder.instance_collection = "COLLECTION", group
+        holder.location.x = place
+        bpy.context.scene.collection.objects.link(holder)
+    for collection in mirror.users_collection:
+        collection.objects.unlink(mirror)
+    group.objects.link(mirror)
+    assert session.mirrors() == ["Mirror", "Mirror"]
+    assert session.scene.messages == []
+
+
 def test_a_shape_that_cannot_be_a_mirror_is_named_until_it_can(session: Session) -> None:
     bpy.ops.mesh.primitive_torus_add(location=(0.0, 5.0, 0.0))
     bpy.context.object.name = "Ring"

@@ -40,6 +40,7 @@ def rendered(
         result = subprocess.run(command, env=home(installed), capture_output=True, text=True, timeout=SECONDS)
         session.seen["background"] = result.stdout + result.stderr
         assert result.returncode == 0, session.seen["background"]
+    session.seen["installed"] = str(installed)
     return session
 
 
@@ -72,6 +73,24 @@ def test_the_viewport_goes_on(rendered: Session) -> None:
     assert seen["sessions"] == 0
     for printed in (rendered.printed, seen["background"]):
         assert "Traceback" not in printed and "Error" not in printed.replace("EGL Error", "")
+
+
+@pytest.mark.parametrize(("problem", "said"), [("panorama", "is panoramic"), ("driver", "no OpenGL 4.3 context")])
+def test_what_cannot_be_rendered_ends_with_a_sentence(
+    rendered: Session, window_blender: WindowBlender, tmp_path: Path, problem: str, said: str
+) -> None:
+    change = 'import bpy; bpy.context.scene.camera.data.type = "PANO"' if problem == "panorama" else ""
+    missing = {} if problem == "panorama" else {"__EGL_VENDOR_LIBRARY_FILENAMES": str(tmp_path / "none.json")}
+    command = [
+        *window_blender.headless,
+        *("--background", str(rendered.folder / "marked.blend"), "-E", "CURVREFL", "--python-expr", change),
+        *("-o", str(tmp_path / "picture_"), "-f", "1"),
+    ]
+    installed = home(Path(rendered.seen["installed"]))
+    result = subprocess.run(command, env={**installed, **missing}, capture_output=True, text=True, timeout=SECONDS)
+    assert result.returncode == 1
+    assert (result.stdout + result.stderr).count(said) == 1
+    assert not list(tmp_path.iterdir())
 
 
 def layers(path: Path, session: Session) -> dict[str, np.ndarray]:

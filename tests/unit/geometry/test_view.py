@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.view import View, with_depths
+from curvrefl.curvrefl_addon.scene.camera.view import View, with_depths
 from scenes.views import look_at
 
 EYE, TARGET = np.array([1.0, -5.0, 2.0]), np.zeros(3)

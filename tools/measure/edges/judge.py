@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
 from curvrefl.curvrefl_addon.renderer.vertices.solution import VertexSolution
 from curvrefl.curvrefl_addon.renderer.vertices.solve import Reflector, solve_vertices
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, Float64Array
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 
 VIEWS = ((0.0, 1.0), (90.0, 1.0), (200.0, 1.0), (300.0, 0.6))
 """Degrees about the mirror's vertical axis, share of the camera's distance"""

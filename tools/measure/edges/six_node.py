@@ -10,7 +10,7 @@ from curvrefl.curvrefl_addon.renderer.device.records import read_records
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import Float64Array, SceneArrays
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from edges.judge import NEAR, VIEWS, Judge, Seen, numbers, turned
 
 LONG = 4.0

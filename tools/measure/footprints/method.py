@@ -26,7 +26,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import Found, MirrorSolver
 from curvrefl.curvrefl_addon.renderer.vertices.solution import SolvedChunk
-from curvrefl.curvrefl_addon.scene.view import View
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from footprints.programs import GROUP, bounds_shader, draw_shader, middles_shader
 from footprints.topology import Topology, are_same, read_topology
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ..errors import InputError
-from .camera.lens import lens_of
-from .finite import problem_of_place
-from .view import View
+from ...errors import InputError
+from ..camera.lens import lens_of
+from ..camera.view import View
+from ..finite import problem_of_place
 
 EXACT_DEPTHS = 1.001e4
 """Blender's projections, in single precision, tell where they end as long as that is no more times where they begin"""
@@ -142,6 +142,19 @@ def find_reflectors(scene: bpy.types.Scene, names: Sequence[str]) -> list[bpy.ty
     if not names:
         raise InputError("No reflector is chosen: name at least one object.")
     return [_find_reflector(scene, name) for name in dict.fromkeys(names)]
+
+
+def objects_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Those of the scene, and those that are only in a collection that one of them instances."""
+    found = {obj.session_uid: obj for obj in scene.objects}
+    unseen = list(found.values())
+    while unseen:
+        group = unseen.pop().instance_collection
+        for obj in () if group is None else group.all_objects:
+            if obj.session_uid not in found:
+                found[obj.session_uid] = obj
+                unseen.append(obj)
+    return list(found.values())
 
 
 def _find_reflector(scene: bpy.types.Scene, name: str) -> bpy.types.Object:

@@ -10,8 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import Float64Array
-from .camera.lens import Lens
+from ..arrays import Float64Array
+from .lens import Lens
 
 DEEPEST = 1.01e5
 """Depths in a projection, farthest over nearest, that are compared as they come: Blender's viewport has 1e5"""

@@ -13,14 +13,14 @@ from typing import Any
 
 import bpy
 
-from ..errors import InputError
-from .arrays import MaterialArrays, SceneArrays
+from ...errors import InputError
+from ..arrays import MaterialArrays, SceneArrays
+from ..camera.shutter import Moment, read_moments
+from ..camera.view import View
+from ..changes import Changes
+from ..extract import SceneReader
 from .blend_file import find_camera, find_reflectors, view_of_camera
-from .camera.shutter import Moment, read_moments
-from .changes import Changes
-from .extract import SceneReader
 from .temporary_settings import TemporarySettings, temporary_settings
-from .view import View
 
 _READER = "CURVREFL_READER"
 

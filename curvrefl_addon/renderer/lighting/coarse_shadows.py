@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a view is so close that the texels of shadow maps, which hold the whole scene, are too large. Pure numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...scene.arrays import Float64Array
+from ...scene.camera.view import View
+from .shadow_views import ShadowView
+
+
+@dataclass(frozen=True, slots=True)
+class Coarseness:
+    """A texel is too large that is both."""
+
+    pixels: float
+    """Of the view"""
+    share: float
+    """Of an object's radius, half the diagonal of its box"""
+
+
+LAMPS, WORLD = Coarseness(12.0, 1.0 / 25.0), Coarseness(48.0, 1.0 / 10.0)
+"""Against Cycles fur and a rough mesh are off in more than 2 % of a picture's blocks with larger ones. The shadows of
+the world, the mean of many maps, are wider"""
+SEEN = 0.25
+"""Of the picture's height, across an object's ball: what is smaller shadows too little of the picture"""
+
+
+def are_too_coarse(
+    views: Sequence[ShadowView],
+    resolution: int,
+    limit: Coarseness,
+    view: View,
+    centers: Float64Array,
+    radii: Float64Array,
+) -> bool:
+    """Whether the texels of these maps are too large for any of the objects, in balls (n, 3), (n,), before the eye."""
+    if not views:
+        return False
+    points = np.column_stack([centers, np.ones(len(centers))])
+    depth = points @ view.world_to_clip[3]
+    if view.is_orthographic:
+        pixel = np.full(len(centers), 1.0 / view.focal_pixels)
+        before = np.ones(len(centers), bool)
+    else:
+        away = np.linalg.norm(centers - view.eye[:3], axis=1) - radii
+        # (What the eye is in the ball of, a floor, shows the shadows of other things.)
+        before = (depth > 0.0) & (away > 0.0)
+        pixel = np.maximum(away, 0.0) / view.focal_pixels
+    clip = points @ view.world_to_clip.T
+    reach = radii[:, None] * np.linalg.norm(view.world_to_clip[:2, :3], axis=1)
+    before &= (np.abs(clip[:, :2]) - reach <= np.abs(clip[:, 3:])).all(axis=1)
+    before &= 2.0 * radii > SEEN * view.height * pixel
+    if not before.any():
+        return False
+    points, least = points[before], np.maximum(limit.pixels * pixel, limit.share * radii)[before]
+    return any(bool((_texels(one, resolution, points) > least).any()) for one in views)
+
+
+def _texels(view: ShadowView, resolution: int, points: Float64Array) -> Float64Array:
+    """(n,) sizes in meters of a map's texels at homogeneous points (n, 4)."""
+    if view.is_perspective:
+        return view.texel_slope * np.maximum(points @ view.world_to_clip[3], 0.0)
+    return np.full(len(points), 2.0 / resolution / np.linalg.norm(view.world_to_clip[:2, :3], axis=1).min())
