@@ -36,6 +36,18 @@ float spread_share(int base, float cosine)
   float tangent = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 1e-6);
   return half_spread == 0.0 ? 1.0 : max(half_spread - tangent, 0.0) * lighting_data[base + 2].w;
 }
+
+// Its mean over the lamp: from sample to sample of few sub-frames a narrow one would be seen as rings.
+float mean_spread_share(int base, vec3 position)
+{
+  float sum = 0.0;
+  for (int k = 0; k < 16; k++) {
+    vec2 at = 0.5 * vec2(k % 4, k / 4) - 0.75;
+    vec3 point = lighting_data[base + 2].xyz + at.x * lighting_data[base + 4].xyz + at.y * lighting_data[base + 5].xyz;
+    sum += spread_share(base, dot(normalize(position - point), lighting_data[base + 3].xyz));
+  }
+  return sum / 16.0;
+}
 #endif
 
 float lamp_shadow(int base, vec3 position)
@@ -120,7 +132,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
         // no closer than a share of its own size: a point stands for its surroundings
         distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
 #ifdef LIGHTING_SPREAD
-        irradiance *= spread_share(base, facing);
+        irradiance *= mean_spread_share(base, s.position);
 #endif
       }
       else if (kind == LAMP_SPOT) {

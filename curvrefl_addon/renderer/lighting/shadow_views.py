@@ -28,6 +28,8 @@ LOOSE = 0.02
 """Distance over the scene's size that the box of something that moves may reach through a plane of the hull"""
 WIDEST_TANGENT = 2.5
 """A lamp whose receivers and casters lie within this slope of one axis gets one map instead of the six of a cube"""
+FAR_AWAY = 0.5
+"""Least over greatest distance from a lamp of what casts, above which its map begins there"""
 MARGIN_TEXELS = 2.0
 """Free border of a fitted map"""
 
@@ -153,6 +155,10 @@ class SceneExtent:
                 if np.any(high < low):
                     return ()
             low, high = _widened(low, high, resolution, 1e-3)
+            nearest = float(-(cast @ axes[2]).max())
+            if nearest > FAR_AWAY * far:
+                # The map's depths are all for what is there: of so far a lamp the others' rounding is meters.
+                near = 0.99 * nearest
             return (_perspective(place, axes, low, high, near, far, resolution, idle),)
         low, high = _widened(np.array([-1.0, -1.0]), np.array([1.0, 1.0]), resolution, 0.0)
         centers, radii, groups = self._caster_balls

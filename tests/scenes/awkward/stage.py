@@ -111,7 +111,11 @@ def add_lamp(kind: str, place: Place, energy: float, target: Place = (0.0, 0.0, 
 
 
 def wall_of(material: bpy.types.Material) -> bpy.types.Object:
-    """A wall behind the camera, for the mirror, and a ball for the eye: Wall, which is returned, and Sample."""
+    """A wall behind the camera, for the mirror, and a ball for the eye: Wall, which is returned, and Sample.
+
+    They are bright and large: the light that goes on from them is another matter.
+    """
+    bpy.context.scene.cycles.diffuse_bounces = 0
     add_ball("Sample", (-1.2, -1.9, 0.55), 0.55, material)
     return add_sheet("Wall", (0.0, -5.5, 2.0), (6.0, 4.0), material, (-np.pi / 2.0, 0.0, np.pi))
 

@@ -66,7 +66,7 @@ def spot_wide(folder: Path) -> None:
 
 @awkward("a large spot")
 def spot_large(folder: Path) -> None:
-    lit("SPOT", energy=1500.0, spot_size=0.7, spot_blend=0.2, shadow_soft_size=0.8)
+    lit("SPOT", energy=1500.0, spot_size=0.7, spot_blend=0.2, shadow_soft_size=0.5)
 
 
 @awkward("a spot scaled unevenly: an oval cone", words=("cone",))

@@ -154,7 +154,7 @@ def world_scaled(folder: Path) -> None:
     tree.links.new(mapping.outputs[0], made.inputs["Vector"])
 
 
-@awkward("a world picture of 20,000 x 8 pixels", words=("scaled", "larger", "wide", "texture"))
+@awkward("a world picture of 20,000 x 8 pixels", words=("fewer pixels",))
 def world_wide(folder: Path) -> None:
     stage()
     _environment(_panorama(20000, 8, is_float=False))
@@ -222,7 +222,7 @@ def world_emission(folder: Path) -> None:
     tree.links.new(emission.outputs[0], output_of(tree).inputs["Surface"])
 
 
-@awkward("blackbody as the world")
+@awkward("blackbody as the world", words=("blackbody",))
 def world_blackbody(folder: Path) -> None:
     _colored("Blackbody", Temperature=3000.0)
 

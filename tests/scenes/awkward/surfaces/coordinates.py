@@ -77,12 +77,12 @@ def coordinates_object(folder: Path) -> None:
     _by_coordinate("Object")
 
 
-@awkward("window coordinates", words=("window", "coordinate"))
+@awkward("window coordinates", words=("without a UV map",))
 def coordinates_window(folder: Path) -> None:
     _by_coordinate("Window")
 
 
-@awkward("reflection coordinates", words=("reflection", "coordinate"))
+@awkward("reflection coordinates", words=("without a UV map",))
 def coordinates_reflection(folder: Path) -> None:
     _by_coordinate("Reflection")
 
@@ -197,7 +197,7 @@ def attribute_missing(folder: Path) -> None:
     wall_of(material)
 
 
-@awkward("an attribute of the object")
+@awkward("an attribute of the object", words=("attributes of the object",))
 def attribute_of_object(folder: Path) -> None:
     stage()
     material = matte("Attributed", (0.8, 0.8, 0.8))

@@ -170,7 +170,7 @@ def image_non_color(folder: Path) -> None:
     wall_of(textured("Data", image)[0])
 
 
-@awkward("a float image over 1")
+@awkward("a float image over 1", words=("emission",))
 def image_float(folder: Path) -> None:
     stage()
     material, tree, texture = textured("Bright", picture("Bright", 3.0 * stripes(), is_float=True))

@@ -84,7 +84,7 @@ def ambient_occlusion(folder: Path) -> None:
     _colored("AmbientOcclusion")
 
 
-@awkward("blackbody color")
+@awkward("blackbody color", words=("blackbody",))
 def blackbody(folder: Path) -> None:
     _colored("Blackbody", Temperature=2500.0)
 
@@ -134,7 +134,7 @@ def mix_clamp_result(folder: Path) -> None:
     _mixed("ADD", 1.0, True)
 
 
-@awkward("Mix by addition, over 1")
+@awkward("Mix by addition, over 1", words=("emission",))
 def mix_over_one(folder: Path) -> None:
     _mixed("ADD", 1.0, False)
 
@@ -144,7 +144,7 @@ def mix_dodge(folder: Path) -> None:
     _mixed("DODGE", 0.7, False)
 
 
-@awkward("Mix with a factor of two")
+@awkward("Mix with a factor of two", words=("emission",))
 def mix_factor_two(folder: Path) -> None:
     _mixed("MIX", 2.0, False)
 

@@ -82,19 +82,19 @@ def shiny_ball(folder: Path) -> None:
     give("Blue", principled("Chrome 2", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.02))
 
 
-@awkward("rough metal", words=("roughness", "gloss"))
+@awkward("rough metal", words=("only mirrors reflect",))
 def rough_metal(folder: Path) -> None:
     stage()
     wall_of(principled("Steel", (0.8, 0.7, 0.5), metallic=1.0, roughness=0.5))
 
 
-@awkward("the Metallic shader", words=("metallic", "gloss", "shader"))
+@awkward("the Metallic shader", words=("only mirrors reflect",))
 def metallic_shader(folder: Path) -> None:
     stage()
     wall_of(surface("Gold", "BsdfMetallic", Base_Color=(0.9, 0.6, 0.2, 1.0), Roughness=0.6))
 
 
-@awkward("an old Glossy shader", words=("gloss",))
+@awkward("an old Glossy shader", words=("only mirrors reflect",))
 def glossy_shader(folder: Path) -> None:
     stage()
     wall_of(surface("Glossy", "BsdfAnisotropic", Color=(0.3, 0.7, 0.9, 1.0), Roughness=0.5))
