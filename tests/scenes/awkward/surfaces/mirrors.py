@@ -161,7 +161,7 @@ def mirror_thin_film(folder: Path) -> None:
     _metal(Thin_Film_Thickness=450.0)
 
 
-@awkward("a mirror of an emitter alone", words=("emission", "emit", "roughness", "reflect"))
+@awkward("a mirror of an emitter alone", words=("emission",))
 def mirror_emitter(folder: Path) -> None:
     stage()
     _of(emitter("Lamp", (0.7, 0.5, 0.2)))

@@ -195,7 +195,7 @@ def mix_by_backfacing(folder: Path) -> None:
     wall.rotation_euler.z = 0.0
 
 
-@awkward("emission from Principled over its own color")
+@awkward("emission from Principled over its own color", words=("emission",))
 def principled_emission(folder: Path) -> None:
     stage()
     wall_of(principled("Glow", (0.1, 0.1, 0.1), emission=(0.8, 0.3, 0.05)))
