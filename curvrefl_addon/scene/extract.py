@@ -39,7 +39,7 @@ from .reads import (
     with_kept,
 )
 from .remarks import Remark, sentences
-from .unseen import rough_mirrors, unseen
+from .unseen import of_view_layer, rough_mirrors, unseen
 from .visibility import rays_of
 from .world import read_world
 
@@ -75,7 +75,7 @@ class SceneReader:
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
         self._world_warnings: list[Remark] = []
-        self._unseen: list[Remark] = []
+        self._unseen: list[Remark | str] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
         self._listing: tuple[Any, ...] = ()
@@ -152,7 +152,7 @@ class SceneReader:
                 evaluated = obj.evaluated_get(depsgraph)
                 placed = PlainObject(evaluated, evaluated.matrix_world)
                 self._shown[uid, 0, 0] = self._read_instance(placed, uid, 0, view_layer, self._shown[uid, 0, 0])
-        world = view_layer.world_override or scene.world
+        world = (view_layer.world_override or scene.world) if view_layer.use_sky else None
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
         self._last = self._arrays(reflectors, *bounces_of(scene))
@@ -200,7 +200,7 @@ class SceneReader:
         self._meshes.begin()
         before, self._shown = self._shown, {}
         self._instancers = set()
-        self._unseen = []
+        self._unseen = list(of_view_layer(view_layer))
         counts: dict[tuple[int, int], int] = {}
         for instance in depsgraph.object_instances:
             self._unseen += unseen(instance, view_layer, depsgraph.mode == "RENDER")

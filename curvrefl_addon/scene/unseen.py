@@ -20,8 +20,20 @@ UNSEEN = {
     "GREASEPENCIL": "Grease pencil strokes {of} are not shown.",
 }
 """By type of object"""
+WIDEST_FILTER = 3.0
+"""Pixels of Cycles' filter, which is 1.5 wide by default, up to which the picture looks as sharp"""
 SHARP = 0.05
 """Roughness up to which a reflection looks sharp"""
+
+
+def of_view_layer(view_layer: bpy.types.ViewLayer) -> Iterator[Remark | str]:
+    """What pictures of a whole view layer lack; the original layer, not an evaluated one."""
+    if not view_layer.use_solid:
+        yield f'View layer "{view_layer.name}" leaves out solid surfaces: they are shown all the same.'
+    # Cycles is an add-on, and may be off.
+    cycles: Any = getattr(view_layer.id_data, "cycles", None)
+    if cycles is not None and cycles.pixel_filter_type != "BOX" and cycles.filter_width > WIDEST_FILTER:
+        yield f"The pixel filter of {cycles.filter_width:.3g} pixels is not followed: pictures are sharper than that."
 
 
 def unseen(instance: Any, view_layer: bpy.types.ViewLayer, is_render: bool) -> Iterator[Remark]:
@@ -47,7 +59,6 @@ def rough_mirrors(
 
 
 def _is_blurred(material: MaterialArrays) -> bool:
-    reflects = (
-        material.metallic > 0.0 or material.glossy_only or (material.specular_level > 0.0 and material.ior != 1.0)
-    )
+    is_dielectric = material.specular_level > 0.0 and material.ior != 1.0
+    reflects = material.metallic > 0.0 or material.glossy_only or is_dielectric
     return reflects and material.roughness > SHARP

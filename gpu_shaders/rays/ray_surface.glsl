@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface where a ray of ray_walk.glsl has hit: attributes of its triangle's corners by barycentric weights.
 #include "surfaces/vertex_color.glsl"
+#include "surfaces/reflecting_outward.glsl"
 
 struct RaySurface {
   vec3 position;  // world space
@@ -42,6 +43,10 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   RaySurface surface;
   surface.position = origin + hit.range * direction;
   surface.normal = normalize(normal.x * x + normal.y * y + normal.z * z) * (is_front ? 1.0 : -1.0);
+  if (about.y > 0.5) {
+    vec3 facet = normalize(outward) * (dot(outward, direction) < 0.0 ? 1.0 : -1.0);
+    surface.normal = reflecting_outward(facet, -direction, surface.normal);
+  }
   surface.uv = uv_color.xy;
   surface.color = color;
   surface.object_id = about.x;

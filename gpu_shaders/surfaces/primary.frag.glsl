@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaces/surface_color.glsl"
+#include "surfaces/raised_normal.glsl"
 #ifdef RELIEF
 #include "surfaces/relief.glsl"
 #endif
@@ -18,10 +19,14 @@ void main()
   vec3 normal = normalize(world_normal);
 #ifdef RELIEF
   normal = ids.y > 0.5 ? bent_normal(normal) : normal;
+#else
+  if (is_followed > 0.5 && ids.y > 0.5) {
+    normal = raised_normal(normal);
+  }
 #endif
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
   // (See SurfaceBuffer; a hole has a material below 0.)
-  float shows = ids.y > 0.5 ? ids.y : (material < -0.5 ? -2.0 : -1.0);
+  float shows = material < -0.5 ? -2.0 : (ids.y > 0.5 ? ids.y : -1.0);
   surface_color_out = vec4(surface_color(), shows);
 }

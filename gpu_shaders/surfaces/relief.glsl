@@ -3,30 +3,7 @@
 // Shading normals bent by a normal map or by heights, as Cycles' nodes Normal Map (in tangent space) and Bump bend
 // them. Tangents come from screen-space derivatives. Needs the uniform block `view`, the interpolated `world_position`
 // and `uv`, and of renderer/surfaces/materials.py: `relief` (is bump, strength, distance), `relief_transform`,
-// `relief_turn` and `relief_image`.
-
-// Steepest normal towards `bent` whose mirrored ray leaves the surface (Cycles' ensure_valid_specular_reflection).
-// `facing`: geometric normal; `to_eye`; all unit, on one side of the surface.
-vec3 reflecting_outward(vec3 facing, vec3 to_eye, vec3 bent)
-{
-  float eye_z = dot(to_eye, facing);
-  float least = min(0.9 * eye_z, 0.01);
-  if (dot(facing, 2.0 * dot(bent, to_eye) * bent - to_eye) >= least) {
-    return bent;
-  }
-  vec3 aside = bent - dot(bent, facing) * facing;
-  if (dot(aside, aside) < 1e-12) {
-    return facing;
-  }
-  aside = normalize(aside);
-  float eye_x = dot(to_eye, aside);
-  float a = eye_x * eye_x + eye_z * eye_z;
-  float b = 2.0 * (a + eye_z * least);
-  float c = (least + eye_z) * (least + eye_z);
-  float root = sqrt(max(b * b - 4.0 * a * c, 0.0));
-  float z = clamp(0.25 * (eye_x < 0.0 ? b + root : b - root) / a, 0.0, 1.0);
-  return sqrt(1.0 - z) * aside + sqrt(z) * facing;
-}
+// `relief_turn` and `relief_image`. Goes behind raised_normal.glsl.
 
 // `normal`: unit, outward.
 vec3 bent_normal(vec3 normal)
@@ -66,9 +43,5 @@ vec3 bent_normal(vec3 normal)
     }
   }
   bent = dot(bent, bent) > 0.0 ? normalize(bent) : normal;
-  float side = gl_FrontFacing ? 1.0 : -1.0;
-  vec3 to_eye = normalize(view.eye.xyz - world_position * view.eye.w);
-  vec3 facing = normalize(cross(right, up));
-  facing *= dot(facing, to_eye) < 0.0 ? -1.0 : 1.0;
-  return side * reflecting_outward(facing, to_eye, side * bent);
+  return raised_normal(bent);
 }

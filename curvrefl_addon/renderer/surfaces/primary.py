@@ -20,6 +20,8 @@ from .windows import Window
 type Depths = tuple[float, float, float]
 """Distances from the eye's plane where a view begins and ends, and the one that has the depth 1"""
 LINEAR_DEPTH = Piece(constants={"depths": "VEC3"}, defines=flags("LINEAR_DEPTH"), writes_depth=True)
+FOLLOWED = Piece(constants={"is_followed": "FLOAT"})
+"""Whether rays go on from the surface: shading normals must not send them into the facet that they are on"""
 ENDLESS = 3e38
 
 
@@ -45,7 +47,8 @@ def draw_primary(
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
     `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
-    mirror `with_reliefs` the normals are those of its bumps and normal maps, else of the smooth surface. `depths`: what
+    mirror `with_reliefs`, which rays go on from, the normals are those of its bumps and normal maps and send no ray
+    into the surface; else they are those of the smooth surface. `depths`: what
     `depths_of` says of the view; `mirrored` whether left and right are swapped in it.
     """
     with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), target.frame_buffer.bind():
@@ -66,6 +69,8 @@ def draw_primary(
                 shader.uniform_block("view", view_uniforms)
                 for chunk, batches in seen:
                     hide_faces(hidden_faces(chunk))
+                    if kind != "RELIEF":
+                        shader.uniform_float("is_followed", 1.0 if with_reliefs(chunk) else 0.0)
                     shader.uniform_sampler("positions", chunk.positions)
                     shader.uniform_sampler("corners", chunk.corners)
                     if kind != "RELIEF":
@@ -96,7 +101,7 @@ def _primary_shader(kind: str, has_linear_depth: bool) -> Any:
         VIEW,
         CHUNK,
         PLAIN if kind == "PLAIN" else TEXTURED,
-        *((RELIEF,) if kind == "RELIEF" else ()),
+        RELIEF if kind == "RELIEF" else FOLLOWED,
         *((LINEAR_DEPTH,) if has_linear_depth else ()),
         SURFACE_OUTPUTS,
         Piece(

@@ -14,8 +14,8 @@ from ..stage import DARK, add_lamp, stage
 
 
 def lit(kind: str, place: tuple[float, float, float] = (1.5, -3.0, 3.0), energy: float = 300.0, **more: Any) -> Any:
-    """The usual things in the dark, with one lamp."""
-    stage(sky=DARK, sun=0.0)
+    """The usual things in the dark, with one lamp, whose light goes no further: in the dark even that little shows."""
+    stage(sky=DARK, sun=0.0).cycles.diffuse_bounces = 0
     return add_lamp(kind, place, energy, **more)
 
 

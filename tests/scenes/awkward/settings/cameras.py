@@ -44,7 +44,7 @@ def dof_blades(folder: Path) -> None:
 @awkward("depth of field of an orthographic camera", words=("depth of field",))
 def dof_orthographic(folder: Path) -> None:
     camera = _camera(type="ORTHO", ortho_scale=5.0)
-    camera.dof.use_dof, camera.dof.focus_distance, camera.dof.aperture_fstop = True, 2.5, 0.03
+    camera.dof.use_dof, camera.dof.focus_distance, camera.dof.aperture_fstop = True, 2.5, 0.4
 
 
 @awkward("a thing that moves while the shutter is open", words=("motion blur",))

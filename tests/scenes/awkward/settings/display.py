@@ -53,7 +53,7 @@ def view_raw(folder: Path) -> None:
 
 @awkward("colors by exposure")
 def view_false_color(folder: Path) -> None:
-    _shown("False Color")
+    _shown("False Color").cycles.diffuse_bounces = 0
 
 
 @awkward("Khronos' neutral view transform")
@@ -168,7 +168,7 @@ def border_cropped(folder: Path) -> None:
     bpy.context.scene.render.use_crop_to_border = True
 
 
-@awkward("a wide pixel filter")
+@awkward("a wide pixel filter", words=("pixel filter",))
 def pixel_filter(folder: Path) -> None:
     cycles = stage().cycles
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 6.0
@@ -185,7 +185,7 @@ def view_layer_material(folder: Path) -> None:
     from ..stage import matte
 
     stage()
-    bpy.context.view_layer.material_override = matte("Clay", (0.5, 0.4, 0.3))
+    bpy.context.view_layer.material_override = matte("Clay", (0.12, 0.09, 0.06))
 
 
 @awkward("the world of a view layer in place of the scene's")
@@ -202,7 +202,7 @@ def view_layer_no_sky(folder: Path) -> None:
     bpy.context.view_layer.use_sky = False
 
 
-@awkward("a view layer that leaves out solid things", words=("view layer", "solid"))
+@awkward("a view layer that leaves out solid things", words=("solid",))
 def view_layer_no_solid(folder: Path) -> None:
     stage()
     bpy.context.view_layer.use_solid = False
