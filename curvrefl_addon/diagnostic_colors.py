@@ -13,7 +13,7 @@ import numpy as np
 from .errors import InputError
 from .optics.catalog import METHODS, label_of
 from .scene.arrays import Float32Array, Float64Array
-from .settings_table import DIAGNOSTIC_CHOICES
+from .settings_choices import DIAGNOSTIC_CHOICES
 
 type Color = tuple[float, float, float]
 

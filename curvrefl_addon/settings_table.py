@@ -15,6 +15,7 @@ from math import pi
 
 from .optics.catalog import METHODS, Method
 from .setting import Choice, Flag, setting, settings_in
+from .settings_choices import DIAGNOSTIC_CHOICES, ENVIRONMENT_CHOICES, FRESNEL_CHOICES, METHOD_CHOICES, MOTION_CHOICES
 
 STILL_SAMPLES = 16
 """Sub-frames of a saved picture where nothing is chosen"""
@@ -23,42 +24,6 @@ LARGEST_SIDE = 8192
 MOST_REFERENCE_SAMPLES = 65536
 """Of Cycles, in a comparison"""
 
-METHOD_CHOICES = tuple(
-    Choice(name, method.label, f"{method.source}. Assumes: {method.assumes}") for name, method in METHODS.items()
-)
-MOTION_CHOICES = (
-    Choice("FULL", "Full", "Every pixel, also while something moves"),
-    Choice("HALF", "Half", "A quarter of the pixels while something moves"),
-    Choice("QUARTER", "Quarter", "A sixteenth of the pixels while something moves"),
-)
-ENVIRONMENT_CHOICES = (
-    Choice(
-        "VIEWPORT",
-        "As the Viewport",
-        "The studio light in Material Preview where it is on, else the scene's world and lights",
-    ),
-    Choice("SCENE", "Scene", "The scene's world and lights, however the viewport is shaded"),
-    Choice("IMAGE", "Image", "An equirectangular image in place of the world, and the scene's lights"),
-)
-DIAGNOSTIC_CHOICES = (
-    Choice("ITERATIONS", "Iterations", "How many steps the search for the reflection point took"),
-    Choice("STATUS", "Status", "Which vertices have a reflection, are hidden by the mirror, or were not found"),
-    Choice(
-        "ANGLE_ERROR",
-        "Angle Error",
-        "How far what is shown stands from the reflected ray of its pixel, in degrees",
-    ),
-    Choice("METHOD", "Method", "Which method drew what"),
-    Choice(
-        "ZEBRA", "Zebra Stripes", "Black and white bands around an axis, infinitely far away, to inspect the surface"
-    ),
-    Choice("LINES", "Line Lights", "Long thin lamps along an axis, infinitely far away, to inspect the surface"),
-)
-FRESNEL_CHOICES = (
-    Choice("METAL", "Metal", "Reflects the tint face on, and white at grazing angles"),
-    Choice("DIELECTRIC", "Dielectric", "Reflects little face on and all at grazing angles, by the index of refraction"),
-    Choice("CONSTANT", "Constant", "Reflects the tint at every angle"),
-)
 _SHADOW_RAYS = "shadow what rays hit by rays, not by depth maps (exact)"
 
 

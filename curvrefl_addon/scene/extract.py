@@ -15,7 +15,6 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..errors import InputError
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
@@ -25,18 +24,18 @@ from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
 from .reads import (
-    SURELY_REGULAR,
     PlainObject,
     ShownInstance,
     bounces_of,
     is_diced,
     is_same_light,
-    is_singular,
     listing_of,
     needs_of,
     object_of,
+    require_reflectors,
     slot_materials,
     uid_of_block,
+    unplaced,
     with_kept,
 )
 from .remarks import Remark, sentences
@@ -256,19 +255,8 @@ class SceneReader:
             return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
-        if problem := problem_of_place(matrix, 0.0):
-            return ShownInstance(
-                warnings=(f'"{name}" {problem} and is left out.',) if rays.any else (),
-                error=f'"{name}" {problem}: clear its location, rotation and scale.',
-            )
-        # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
-        determinant = instance.matrix_world.to_3x3().determinant()
-        squared = float(np.vdot(matrix[:3, :3], matrix[:3, :3]))
-        if not abs(determinant) > SURELY_REGULAR * squared**1.5 and is_singular(matrix):
-            return ShownInstance(
-                warnings=(f'"{name}" is flattened by a zero or endless scale and left out.',) if rays.any else (),
-                error=f'"{name}" is flattened by a zero or endless scale: clear the scale.',
-            )
+        if (nowhere := unplaced(name, matrix, rays.any)) is not None:
+            return nowhere
         slots = self._slots(obj, uid, view_layer.material_override)
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks]
         if uid not in self._mapped and any(slot.has_relief for slot in slots):
@@ -276,7 +264,7 @@ class SceneReader:
         needs = needs_of(obj, slots, warnings)
         if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
-        stored = self._meshes.read(obj, parent or uid, needs, determinant < 0.0)
+        stored = self._meshes.read(obj, parent or uid, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
         error = (
             f'"{name}" has vertices at no finite place or too far out: repair its mesh or choose another.'
@@ -329,7 +317,7 @@ class SceneReader:
 
     def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
-        self._check(chosen)
+        require_reflectors(self._shown, chosen, self._id)
         instances = [
             item.instance
             for key, item in self._shown.items()
@@ -351,16 +339,3 @@ class SceneReader:
             diffuse_bounces=diffuse_bounces,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)
-
-    def _check(self, chosen: Mapping[int, str]) -> None:
-        """Raises InputError where a reflector cannot be one."""
-        seen = {uid: [item for key, item in self._shown.items() if key[0] == uid] for uid in chosen}
-        for uid, items in seen.items():
-            for item in items:
-                if item.error:
-                    raise InputError(item.error, self._id(uid))
-            if not any(item.instance for item in items):
-                problem = "is hidden or not in the scene: show it or choose another reflector."
-                if items:
-                    problem = "has no faces: choose a reflector with a surface."
-                raise InputError(f'"{chosen[uid]}" {problem}', self._id(uid))

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from operator import is_
 from typing import Any
@@ -12,7 +12,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..errors import InputError
 from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
+from .finite import problem_of_place
 from .materials.materials import ReadMaterial
 from .meshes.meshes import GENERATED, MeshNeeds
 from .remarks import Remark
@@ -64,6 +66,27 @@ class ShownInstance:
     """Anything can see it"""
     name: str = ""
     """Of the object"""
+
+
+def unplaced(name: str, matrix: Float64Array, is_seen: bool) -> ShownInstance | None:
+    """What an object shows whose matrix (4, 4) puts it nowhere or makes it flat; None for any other."""
+    if problem := problem_of_place(matrix, 0.0):
+        remedy = "clear its location, rotation and scale"
+    elif is_flat(matrix):
+        problem, remedy = "is flattened by a zero or endless scale", "clear the scale"
+    else:
+        return None
+    warnings = (f'"{name}" {problem} and is left out.',) if is_seen else ()
+    return ShownInstance(warnings=warnings, error=f'"{name}" {problem}: {remedy}.')
+
+
+def is_flat(matrix: Float64Array) -> bool:
+    """Whether a matrix (4, 4) leaves no volume of what it places."""
+    # A safe bound first, for scenes of thousands: least stretch >= |determinant| / greatest stretch squared.
+    (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    squared = a * a + b * b + c * c + d * d + e * e + f * f + g * g + h * h + i * i
+    return not abs(determinant) > SURELY_REGULAR * squared**1.5 and is_singular(matrix)
 
 
 def object_of(uid: int, name: str) -> bpy.types.Object | None:
@@ -182,3 +205,19 @@ def is_singular(matrix: Float64Array) -> bool:
         return True
     stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
     return bool(stretches[-1] <= SMALLEST_STRETCH * stretches[0] or stretches[0] < SMALLEST_SIZE)
+
+
+def require_reflectors(
+    shown: Mapping[tuple[int, int, int], ShownInstance], chosen: Mapping[int, str], id_of: Callable[[int], int]
+) -> None:
+    """Raises InputError where a reflector cannot be one. `chosen`: names by session_uid."""
+    for uid, name in chosen.items():
+        items = [item for key, item in shown.items() if key[0] == uid]
+        for item in items:
+            if item.error:
+                raise InputError(item.error, id_of(uid))
+        if not any(item.instance for item in items):
+            problem = "is hidden or not in the scene: show it or choose another reflector."
+            if items:
+                problem = "has no faces: choose a reflector with a surface."
+            raise InputError(f'"{name}" {problem}', id_of(uid))

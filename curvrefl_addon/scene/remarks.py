@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-MOST_NAMES = 3
-"""Named in a sentence; the others are counted"""
+from .names import listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +33,6 @@ def sentences(remarks: Iterable[Remark | str]) -> tuple[str, ...]:
 
 
 def _sentence(cause: str, kind: str, names: list[str]) -> str:
-    named = [f'"{name}"' for name in names]
-    if len(named) == 1:
-        of = f"of {kind} {named[0]}"
-    else:
-        shown, rest = named[:MOST_NAMES], len(named) - MOST_NAMES
-        listed = f"{', '.join(shown)} and {rest} more" if rest > 0 else f"{', '.join(shown[:-1])} and {shown[-1]}"
-        of = f"of {len(named)} {kind}s ({listed})"
+    of = f"of {kind} {listed(names)}" if len(names) == 1 else f"of {len(names)} {kind}s ({listed(names)})"
     # (Not str.format: names of nodes in a cause may have braces.)
     return cause.replace("{of}", of)

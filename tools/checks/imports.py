@@ -14,6 +14,7 @@ from pathlib import Path
 TIERS: tuple[tuple[str, ...], ...] = (
     ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
     ("memory", "output", "optics", "setting"),
+    ("settings_choices",),
     ("settings_table",),
     ("scene", "renderer.settings"),
     ("diagnostic_colors",),

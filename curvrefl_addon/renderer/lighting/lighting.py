@@ -228,8 +228,10 @@ class Lighting:
         # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
         found = (*self._lamp_warnings, *self._left_out)
         odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
-        what = "shade the world's light as that of lamps: their visibility to diffuse rays is left out."
-        return (*found, f"{listed(odd)} {what}") if odd and self._world_is_lit else found
+        if not odd or not self._world_is_lit:
+            return found
+        what = "as that of lamps: visibility to diffuse rays is left out."
+        return (*found, f"The world's light is shadowed by {listed(odd)} {what}")
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]

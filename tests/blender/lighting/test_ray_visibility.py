@@ -201,8 +201,8 @@ def odd_objects() -> None:
         (few_bounces, 'Lamp "area" lights all that mirrors show: its limit of 0 bounces is left out.'),
         (
             odd_objects,
-            '"floor", "mirror", "cube" and 1 more shade the world\'s light as that of lamps: '
-            "their visibility to diffuse rays is left out.",
+            'The world\'s light is shadowed by "floor", "mirror", "cube" and 1 more as that of lamps: '
+            "visibility to diffuse rays is left out.",
         ),
     ],
     ids=lambda item: getattr(item, "__name__", ""),

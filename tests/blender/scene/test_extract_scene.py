@@ -196,7 +196,7 @@ def test_a_flattened_object() -> None:
     flat.matrix_world = Matrix.Diagonal((1.0, 1.0, 0.0, 1.0))
     scene = extracted(mirror)
     assert [instance.object_name for instance in scene.instances] == ["mirror"]
-    assert scene.warnings == ('"flat" is flattened by a zero or endless scale and left out.',)
+    assert scene.warnings == ('"flat" is flattened by a zero or endless scale and is left out.',)
     with pytest.raises(InputError, match='"flat" is flattened'):
         extracted(flat)
 

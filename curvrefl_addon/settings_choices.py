@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a user chooses from, in settings with choices."""
+
+from __future__ import annotations
+
+from .optics.catalog import METHODS
+from .setting import Choice
+
+METHOD_CHOICES = tuple(
+    Choice(name, method.label, f"{method.source}. Assumes: {method.assumes}") for name, method in METHODS.items()
+)
+MOTION_CHOICES = (
+    Choice("FULL", "Full", "Every pixel, also while something moves"),
+    Choice("HALF", "Half", "A quarter of the pixels while something moves"),
+    Choice("QUARTER", "Quarter", "A sixteenth of the pixels while something moves"),
+)
+ENVIRONMENT_CHOICES = (
+    Choice(
+        "VIEWPORT",
+        "As the Viewport",
+        "The studio light in Material Preview where it is on, else the scene's world and lights",
+    ),
+    Choice("SCENE", "Scene", "The scene's world and lights, however the viewport is shaded"),
+    Choice("IMAGE", "Image", "An equirectangular image in place of the world, and the scene's lights"),
+)
+DIAGNOSTIC_CHOICES = (
+    Choice("ITERATIONS", "Iterations", "How many steps the search for the reflection point took"),
+    Choice("STATUS", "Status", "Which vertices have a reflection, are hidden by the mirror, or were not found"),
+    Choice(
+        "ANGLE_ERROR",
+        "Angle Error",
+        "How far what is shown stands from the reflected ray of its pixel, in degrees",
+    ),
+    Choice("METHOD", "Method", "Which method drew what"),
+    Choice(
+        "ZEBRA", "Zebra Stripes", "Black and white bands around an axis, infinitely far away, to inspect the surface"
+    ),
+    Choice("LINES", "Line Lights", "Long thin lamps along an axis, infinitely far away, to inspect the surface"),
+)
+FRESNEL_CHOICES = (
+    Choice("METAL", "Metal", "Reflects the tint face on, and white at grazing angles"),
+    Choice("DIELECTRIC", "Dielectric", "Reflects little face on and all at grazing angles, by the index of refraction"),
+    Choice("CONSTANT", "Constant", "Reflects the tint at every angle"),
+)
