@@ -70,8 +70,13 @@ def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
         or any(not mirror.facts.never_sees_itself for mirror in mirrors)
         or _enclosing(members, sub_frame) != IN_THE_OPEN
     )
-    # (One more than the file follows shows what shines by itself.)
-    return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces + 1) if may_meet_another else 1
+    # (One more than are followed shows what shines by itself.)
+    return _followed(members, sub_frame) + 1 if may_meet_another else 1
+
+
+def _followed(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
+    """Mirrors one after the other that show what they reflect, as far as the file goes."""
+    return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces)
 
 
 def _enclosing(members: Sequence[ShownRays], sub_frame: SubFrame) -> Enclosing:
@@ -109,5 +114,5 @@ def _bounces(
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
         )
-        yield Bounce(seen, path, window, goes_on, number >= stage.shade.mirror_bounces)
+        yield Bounce(seen, path, window, goes_on, number >= _followed(members, sub_frame))
         seen = path
