@@ -26,6 +26,7 @@ from .shown.vertices import ShownVertices
 from .vertices.mirror_solver import MirrorSolver
 
 EYE_INSIDE = 'The eye is inside of "{}", which shows itself there: choose Automatic or Exact, else it is black.'
+CUT_OPEN = 'The near clip distance cuts "{}" open: its inside is shown as if light got in.'
 SHARP = "Depth of field is left out: it takes more than one sample."
 
 
@@ -124,6 +125,8 @@ class Preparation:
         warnings: list[str],
     ) -> Shown:
         """By a method of the catalog; `warnings` gets what is not shown."""
+        if mirror.is_cut_open(view, mirror.shape(settings.map_resolution)):
+            warnings.append(CUT_OPEN.format(mirror.object_name))
         method = settings.entry
         if method.follows_rays:
             stage.rays()

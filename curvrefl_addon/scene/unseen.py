@@ -32,6 +32,8 @@ def of_view_layer(view_layer: bpy.types.ViewLayer) -> Iterator[Remark | str]:
         yield f'View layer "{view_layer.name}" leaves out solid surfaces: they are shown all the same.'
     # Cycles is an add-on, and may be off.
     cycles: Any = getattr(view_layer.id_data, "cycles", None)
+    if cycles is not None and cycles.sample_clamp_direct > 0.0:
+        yield "The clamping of direct light, a setting of Cycles, is not followed."
     if cycles is not None and cycles.pixel_filter_type != "BOX" and cycles.filter_width > WIDEST_FILTER:
         yield f"The pixel filter of {cycles.filter_width:.3g} pixels is not followed: pictures are sharper than that."
 

@@ -36,7 +36,7 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
             verb = "shows" if len(set(names)) == 1 else "show"
             found.append(f"Only mirrors reflect objects: {listed(names)} {verb} the world and lamps alone.")
     if strong:
-        names = list(_made_of(scene, scene.instances, strong))
+        names = list(_made_of(scene, scene.instances, strong, lights=True))
         if names:
             found.append(f"Only lamps and the world give light: the emission of {listed(names)} lights nothing else.")
     return tuple(found)
@@ -67,10 +67,13 @@ def _shown(radiance: float) -> float:
     return 12.92 * linear if linear < 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
 
 
-def _made_of(scene: SceneArrays, instances: Iterable[InstanceArrays], wanted: set[int]) -> Iterator[str]:
-    """Names of those that can be seen and have enough of these materials."""
+def _made_of(
+    scene: SceneArrays, instances: Iterable[InstanceArrays], wanted: set[int], lights: bool = False
+) -> Iterator[str]:
+    """Names of those that can be seen, or that can light what is seen, and have enough of these materials."""
     for instance in instances:
-        if instance.holdout or not (instance.visible_camera or instance.visible_glossy):
+        matters = instance.visible_camera or instance.visible_glossy or (lights and instance.visible_diffuse)
+        if instance.holdout or not matters:
             continue
         slots = [slot for slot, material in enumerate(instance.materials) if material in wanted]
         if not slots:

@@ -156,6 +156,20 @@ class Mirror:
                 return distance < radius
         return self.facts.is_closed and self._mesh_holds(np.linalg.solve(self._instance.matrix, view.start)[:3])
 
+    def is_cut_open(self, view: View, shape: BakedShape) -> bool:
+        """Whether a picture without perspective begins inside of it: some lines of sight do, others do not."""
+        if not view.is_orthographic or not self.facts.is_closed:
+            return False
+        near = view.clip_range[0]
+        toward = -view.world_to_view[2]
+        center = np.linalg.inv(shape.world_to_map)[:, 3]
+        if abs(float(toward @ center) - near) >= shape.bound:
+            return False
+        depth = self.facts.mesh.positions @ (toward @ self._instance.matrix)[:3] + float(
+            toward @ self._instance.matrix[:, 3]
+        )
+        return bool(depth.min() < near < depth.max())
+
     def _mesh_holds(self, eye: Float64Array) -> bool:
         """Whether the closed mesh holds a point (3,), object space.
 

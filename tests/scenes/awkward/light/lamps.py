@@ -96,7 +96,7 @@ def area_ellipse(folder: Path) -> None:
 
 @awkward("an area lamp with a narrow spread", words=("spread",))
 def area_spread(folder: Path) -> None:
-    lit("AREA", shape="SQUARE", size=1.0, spread=0.4)
+    lit("AREA", shape="SQUARE", size=0.5, spread=0.6)
 
 
 @awkward("an area lamp that stands in the floor")

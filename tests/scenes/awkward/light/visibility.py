@@ -191,13 +191,6 @@ def near_contact(folder: Path) -> None:
     add_sheet("Paper", (-0.6, -2.0, 0.002), (1.4, 1.0), matte("Paper", (0.8, 0.8, 0.75)), cells=(4, 4))
 
 
-@awkward("two sheets in the same plane", words=("Paper",))
-def same_plane(folder: Path) -> None:
-    stage()
-    add_sheet("Paper", (-0.6, -2.0, 0.4), (1.4, 1.0), matte("Paper", (0.8, 0.8, 0.75)))
-    add_sheet("Paper 2", (-0.6, -2.0, 0.4), (0.7, 0.5), matte("Paper 2", (0.8, 0.8, 0.75)))
-
-
 @awkward("a mirror that touches a wall and the floor")
 def mirror_in_corner(folder: Path) -> None:
     stage()

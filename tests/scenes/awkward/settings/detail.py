@@ -105,7 +105,7 @@ def modifier_viewport_only(folder: Path) -> None:
 
 @awkward("a screw with other steps in renders")
 def screw_steps(folder: Path) -> None:
-    stage(things=False)
+    stage(things=False).cycles.diffuse_bounces = 0
     from ..stage import mesh_of
 
     thing = mesh_of("Vase", [(0.6, 0, 0), (0.9, 0, 0.5), (0.4, 0, 1.2)], [], matte("Vase", (0.7, 0.4, 0.05)))

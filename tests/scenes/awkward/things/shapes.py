@@ -251,13 +251,13 @@ def shape_zero_area(folder: Path) -> None:
     mesh_of(MIRROR, positions, polygons, chrome, smooth=True).location = (0.0, 0.0, 1.0)
 
 
-@awkward("every face twice")
+@awkward("faces that are there twice: Cycles itself shows noise where all are")
 def shape_duplicated(folder: Path) -> None:
     chrome = empty_stage()
     shape = ball(1.0, 48)
     n = len(shape.positions)
     positions = np.concatenate((shape.positions, shape.positions))
-    polygons = [*shape.polygons, *(tuple(i + n for i in p) for p in shape.polygons)]
+    polygons = [*shape.polygons, *(tuple(i + n for i in p) for p in shape.polygons[::60])]
     mesh_of(MIRROR, positions, polygons, chrome, smooth=True).location = (0.0, 0.0, 1.0)
 
 
