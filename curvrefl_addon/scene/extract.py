@@ -234,7 +234,7 @@ class SceneReader:
         self, instance: Any, view_layer: bpy.types.ViewLayer, before: ShownInstance | None
     ) -> ShownInstance:
         obj = instance.object
-        warnings: list[str] = []
+        warnings: list[Remark | str] = []
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
         if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):

@@ -14,6 +14,7 @@ from .arrays import Float64Array, LightArrays
 from .finite import LARGEST_PLACE, LARGEST_POWER, is_usable, problem_of_place
 from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
+from .remarks import Remark
 from .visibility import RayVisibility
 
 FEW_BOUNCES = 4
@@ -21,7 +22,7 @@ FEW_BOUNCES = 4
 
 
 def read_light(
-    obj: bpy.types.Object, matrix: Float64Array, rays: RayVisibility, warnings: list[str]
+    obj: bpy.types.Object, matrix: Float64Array, rays: RayVisibility, warnings: list[Remark | str]
 ) -> LightArrays | None:
     """The lamp of `obj` placed by `matrix` (4, 4) and seen by `rays`; None for one without light or place.
 
@@ -113,7 +114,7 @@ def read_light(
     )
 
 
-def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[str]) -> None:
+def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[Remark | str]) -> None:
     """What limits the reach of a lamp in Cycles and is not followed."""
     linking = obj.original.light_linking
     for collection, what in (
@@ -128,7 +129,7 @@ def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[str]) -> 
         )
 
 
-def _node_color(light: bpy.types.Light, name: str, warnings: list[str]) -> Float64Array:
+def _node_color(light: bpy.types.Light, name: str, warnings: list[Remark | str]) -> Float64Array:
     """(3,) what the lamp's nodes multiply its color with."""
     tree = light.node_tree
     outputs = [node for node in tree.nodes if node.type == "OUTPUT_LIGHT"] if tree is not None else []
@@ -145,6 +146,5 @@ def _node_color(light: bpy.types.Light, name: str, warnings: list[str]) -> Float
     reader = ColorReader(lambda _: None, notes)
     strength = reader.number(source.input("Strength"), "strength")
     color = reader.color(source.input("Color")).mean()
-    if notes:
-        warnings.append(f'Lamp "{name}" is drawn roughly: {"; ".join(dict.fromkeys(notes))}.')
+    warnings += [Remark(cause, "lamp", name) for cause in dict.fromkeys(notes)]
     return np.array(color, np.float64) * strength
