@@ -155,10 +155,12 @@ class SceneExtent:
                 if np.any(high < low):
                     return ()
             low, high = _widened(low, high, resolution, 1e-3)
-            nearest = float(-(cast @ axes[2]).max())
+            depths = -(cast @ axes[2])
+            nearest, deepest = float(depths.min()), float(depths.max())
             if nearest > FAR_AWAY * far:
                 # The map's depths are all for what is there: of so far a lamp the others' rounding is meters.
-                near = 0.99 * nearest
+                slack = 0.05 * (deepest - nearest) + 1e-4 * self.size
+                near, far = nearest - slack, deepest + slack
             return (_perspective(place, axes, low, high, near, far, resolution, idle),)
         low, high = _widened(np.array([-1.0, -1.0]), np.array([1.0, 1.0]), resolution, 0.0)
         centers, radii, groups = self._caster_balls

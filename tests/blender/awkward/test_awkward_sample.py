@@ -13,7 +13,7 @@ from awkward import judge
 pytestmark = pytest.mark.usefixtures("gpu")
 SETTINGS = (
     *("view_agx", "film_transparent", "border", "view_layer_no_sky", "subdivision_of_mirror", "hidden_by_eye"),
-    *("dof_on_mirror", "motion_blur_thing", "camera_scaled"),
+    *("dof_on_mirror", "motion_blur_thing", "camera_scaled", "orthographic_near"),
 )
 SURFACES = ("gltf_leather", "fog_cube", "glass", "shiny_ball", "image_alpha_unlinked", "mapping_rotation", "uv_named")
 LIGHT = ("area_spread", "lamp_far", "light_linking", "world_one_pixel", "world_invisible_to_camera")

@@ -47,6 +47,29 @@ def test_hair_that_is_off_in_renders_is_not_missed(tmp_path: Path) -> None:
     assert "Hair" not in warnings_of("particles_objects", tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("clamp_direct", "The clamping of direct light, a setting of Cycles, is not followed."),
+        ("pixel_filter", "The pixel filter of 6 pixels is not followed: pictures are sharper than that."),
+        ("view_layer_no_solid", 'View layer "ViewLayer" leaves out solid surfaces: they are shown all the same.'),
+    ],
+)
+def test_settings_of_whole_pictures_are_named(name: str, sentence: str, tmp_path: Path) -> None:
+    assert sentence in warnings_of(name, tmp_path)
+    SCENES["plain"].build(tmp_path)
+    assert sentence not in said()
+
+
+def test_a_view_layer_without_its_sky_is_dark(tmp_path: Path) -> None:
+    SCENES["view_layer_no_sky"].build(tmp_path)
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    assert scene is not None and layer is not None
+    assert read_rendered(scene, layer, ["Mirror"]).world.color == (0.0, 0.0, 0.0)
+    layer.use_sky = True
+    assert max(read_rendered(scene, layer, ["Mirror"]).world.color) > 0.1
+
+
 def test_rough_mirrors_are_named(tmp_path: Path) -> None:
     SCENES["plain"].build(tmp_path)
     shader = bpy.data.materials["Chrome"].node_tree.nodes["Principled BSDF"]

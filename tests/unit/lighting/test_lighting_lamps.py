@@ -137,6 +137,21 @@ def test_far_lamp_gets_one_map_and_a_lamp_among_the_casters_a_cube() -> None:
     assert all(face is not None for face in around)
 
 
+@pytest.mark.parametrize("distance", [20.0, 2e3, 2e5])
+def test_a_map_of_a_lamp_far_away_tells_depths_apart(distance: float) -> None:
+    """In single precision a hundredth of the box's height is still a difference."""
+    positions, triangles = floor_and_box()
+    place = distance * np.array([0.48, 0.6, 0.64])
+    (view,) = extent_of(positions, triangles).point_views(place, 512)
+    assert view is not None
+    above = positions[4:].mean(axis=0)
+    height = float(np.ptp(positions[4:, 2]))
+    ways = np.stack([above, above + 0.01 * height * place / distance])
+    clip = np.column_stack([ways, np.ones(2)]) @ view.world_to_clip.T
+    depths = (0.5 + 0.5 * clip[:, 2] / clip[:, 3]).astype(np.float32)
+    assert depths[0] - depths[1] > 1e-4
+
+
 def test_depth_terms_are_the_projections() -> None:
     positions, triangles = floor_and_box()
     extent = extent_of(positions, triangles)
