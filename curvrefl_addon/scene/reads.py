@@ -86,7 +86,8 @@ def is_flat(matrix: Float64Array) -> bool:
     (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     squared = a * a + b * b + c * c + d * d + e * e + f * f + g * g + h * h + i * i
-    return not abs(determinant) > SURELY_REGULAR * squared**1.5 and is_singular(matrix)
+    is_surely_not = squared > 3.0 * SMALLEST_SIZE**2 and abs(determinant) > SURELY_REGULAR * squared**1.5
+    return not is_surely_not and is_singular(matrix)
 
 
 def object_of(uid: int, name: str) -> bpy.types.Object | None:

@@ -181,8 +181,9 @@ def test_rays_take_any_shape(change: Change, tmp_path: Path, capfd: pytest.Captu
 
 
 def test_triangles_too_far_out_are_left_out_with_a_warning(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    code, output = render(saved(tmp_path, with_a_vertex_far_out), "--method", "exact")
-    assert "too far out" in warned(code, capfd)
+    file = saved(tmp_path, lambda _ball: with_a_vertex_far_out(bpy.data.objects["Block"]))
+    code, output = render(file, "--method", "exact")
+    assert 'of "Block" have a corner at no finite place or too far out' in warned(code, capfd)
     assert np.isfinite(load_exr(output)).all()
 
 

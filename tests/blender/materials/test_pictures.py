@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.lighting import lighting
+from curvrefl.curvrefl_addon.renderer.lighting.left_out import INDIRECT
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.surfaces import materials
@@ -55,7 +56,7 @@ def test_a_turned_image_is_that_of_cycles(extension: str) -> None:
     matt(add_square(size=2.0), lambda tree: turned_image(tree, extension))
     look_down(1.8)
     frame = picture_of()
-    assert frame.warnings == ()
+    assert set(frame.warnings) <= {INDIRECT}
     error = np.abs(frame.color()[..., :3] - cycles_picture(SIZE, SIZE, 64)).max(axis=-1)
     # (Where an image ends there is an edge.)
     assert np.quantile(error, 0.9) < 0.02
@@ -103,7 +104,7 @@ def test_a_missing_attribute_and_missing_coordinates_are_those_of_cycles() -> No
         matt(square, color)
     look_down(2.0)
     frame = picture_of()
-    assert frame.warnings == ()
+    assert set(frame.warnings) <= {INDIRECT}
     ours, cycles = frame.color()[..., :3], cycles_picture(SIZE, SIZE, 64)
     for column in (12, 36):
         np.testing.assert_allclose(ours[24, column], cycles[24, column], atol=0.02)
@@ -126,11 +127,11 @@ def test_images_beyond_the_largest_texture_are_made_smaller(monkeypatch: pytest.
     tree.links.new(sky.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     look_down(2.0)
     whole = picture_of()
-    assert whole.warnings == ()
+    assert set(whole.warnings) <= {INDIRECT}
     for module in (materials, lighting):
         monkeypatch.setattr(module, "largest_texture", lambda: 64)
     smaller = picture_of()
-    assert smaller.warnings == (
+    assert tuple(warning for warning in smaller.warnings if warning != INDIRECT) == (
         'Fewer pixels of image "wide" are drawn than there are: as many as the graphics driver takes.',
         "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
     )
