@@ -51,11 +51,6 @@ def view_raw(folder: Path) -> None:
     _shown("Raw")
 
 
-@awkward("colors by exposure")
-def view_false_color(folder: Path) -> None:
-    _shown("False Color").cycles.diffuse_bounces = 0
-
-
 @awkward("Khronos' neutral view transform")
 def view_khronos(folder: Path) -> None:
     _shown("Khronos PBR Neutral")
