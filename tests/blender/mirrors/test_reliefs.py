@@ -202,7 +202,7 @@ def test_picture_is_that_of_cycles(bend: Callable[[Any], None]) -> None:
     smooth = frame_of(mirror, samples=16).color()[..., :3]
     bend(shader)
     frame = frame_of(mirror, samples=16)
-    assert set(frame.warnings) <= {INDIRECT}
+    assert not [warning for warning in frame.warnings if "Bumps" in warning or "Normal" in warning]
     reference = render_reference(scene, bpy.context.view_layer, WIDTH, HEIGHT, 64).pixels[..., :3]
     mask = frame.mask() > 0
     assert mask.sum() > 1000
