@@ -17,6 +17,8 @@ from .materials.node_links import source_of
 from .remarks import Remark
 from .visibility import RayVisibility
 
+NARROW_SPREAD = 0.5
+"""Radians under which the few places on a lamp that light is looked up from tell"""
 FEW_BOUNCES = 4
 """A lamp that lights what is seen after so many mirrors or more is as good as one without a limit"""
 
@@ -74,6 +76,8 @@ def read_light(
         if area == 0.0:
             return None
         spread = light.spread
+        if spread < NARROW_SPREAD:
+            warnings.append(Remark("The narrow spread {of} is drawn roughly.", "lamp", name))
     elif isinstance(light, (bpy.types.PointLight, bpy.types.SpotLight)):
         radius = light.shadow_soft_size
         is_ball = radius > 0.0 and not light.use_soft_falloff

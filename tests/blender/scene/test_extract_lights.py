@@ -105,6 +105,13 @@ def test_area_lamps_are_scaled(shape: str, size: tuple[float, float], ellipse: b
     assert area.ellipse is ellipse
 
 
+@pytest.mark.parametrize("spread, said", [(0.3, 1), (1.0, 0)])
+def test_a_narrow_spread_is_said(spread: float, said: int) -> None:
+    lamp("AREA", spread=spread)
+    sentence = 'The narrow spread of lamp "lamp" is drawn roughly.'
+    assert [sentence] * said == [text for text in extracted().warnings if "spread" in text]
+
+
 def test_lamps_that_give_no_light() -> None:
     lamp("POINT", energy=0.0)
     lamp("AREA", size=0.0)

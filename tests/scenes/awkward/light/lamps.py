@@ -99,6 +99,11 @@ def area_spread(folder: Path) -> None:
     lit("AREA", shape="SQUARE", size=0.5, spread=0.6)
 
 
+@awkward("an area lamp with a spread so narrow that few of its places light a point", words=("spread",))
+def area_spread_narrow(folder: Path) -> None:
+    lit("AREA", shape="SQUARE", size=1.0, spread=0.4)
+
+
 @awkward("an area lamp that stands in the floor")
 def area_low(folder: Path) -> None:
     lit("AREA", (1.6, -2.6, 0.4), 120.0, target=(0.0, 0.0, 0.6), shape="RECTANGLE", size=0.5, size_y=0.8)
