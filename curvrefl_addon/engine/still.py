@@ -14,6 +14,7 @@ from ..errors import InputError
 from ..scene.opened.blend_file import find_camera
 from ..scene.opened.render_depsgraph import use_camera
 from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
+from ..written_files import error_in
 from .engine import ENGINE
 from .job import Job, asked_for
 
@@ -23,7 +24,7 @@ def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path
 
     All else is as in the file: view layers, border, film, compositor, stamp. The file's own outputs of the compositor
     are not written. Settings are as before at the end. Raises InputError for what the user can put right: the camera,
-    the reflectors; RuntimeError where Blender does not finish.
+    the reflectors; OSError where Blender cannot write, RuntimeError where it was stopped.
     """
     chosen = find_camera(scene, camera)
     with temporary_settings() as changes, asked_for(job):
@@ -42,7 +43,9 @@ def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path
         names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
         raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
     if not path.is_file():
-        raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": {reason or "it was stopped"}.')
+        if reason:
+            raise error_in(reason, path)
+        raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": it was stopped.')
 
 
 def _use_engine(changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int, path: Path) -> None:
