@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -28,6 +29,9 @@ else:
     # The same cases every time, and no clock: a test fails for what changed, not for a busy machine.
     settings.register_profile("repeatable", deadline=None, derandomize=True)
     settings.load_profile("repeatable")
+
+# The supervisor of a run of the tests is not that of the verbs that they call.
+os.environ.pop("CURVREFL_RUN", None)
 
 TESTS = Path(__file__).resolve().parent
 # Helpers beside the tests that use them, those of a room as `room.helper`; tests/scenes is a package of scene builders.

@@ -154,6 +154,11 @@ class CurvreflEngine(bpy.types.RenderEngine):
             job.warnings.append(sentence)
 
 
+def sessions_kept() -> int:
+    """How many view layers a render that goes on has read; none once it has ended."""
+    return len(_state.sessions)
+
+
 def is_stopped(engine: bpy.types.RenderEngine) -> bool:
     """Whether the user has asked for the render's end."""
     return engine.test_break()

@@ -34,7 +34,9 @@ def test_session_runs_to_its_end(session: Session) -> None:
     found = session.seen
     assert "error" not in found, found.get("error")
     assert found["finished"]
-    assert [step["messages"] for step in found["steps"]] == [[]] * len(found["steps"])
+    # (The kettle's handle is shiny and no mirror.)
+    said = {message for step in found["steps"] for message in step["messages"]}
+    assert said <= {'Only mirrors reflect objects: "Handle" shows the world and lamps alone.'}
 
 
 def test_only_what_changed_is_done_again(session: Session) -> None:

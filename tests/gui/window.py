@@ -112,4 +112,6 @@ def home(folder: Path) -> dict[str, str]:
     """Environment of a Blender that keeps its settings and extensions below `folder`."""
     place = folder / "home"
     place.mkdir(exist_ok=True)
-    return {**os.environ, "HOME": str(place), "BLENDER_USER_RESOURCES": str(place)}
+    # (Blender as a module puts its own color configuration there.)
+    inherited = {name: value for name, value in os.environ.items() if name != "OCIO"}
+    return {**inherited, "HOME": str(place), "BLENDER_USER_RESOURCES": str(place)}

@@ -85,7 +85,7 @@ def played() -> Script:
     yield rests
     yield from rendered("again")
     seen["messages"] = extension("curvrefl_addon.viewport.handlers").messages()
-    seen["sessions"] = len(extension("curvrefl_addon.engine.engine")._state.sessions)
+    seen["sessions"] = extension("curvrefl_addon.engine.engine").sessions_kept()
     seen["enabled"] = bpy.context.window_manager.curvrefl_enabled
 
 
