@@ -318,11 +318,10 @@ class Renderer:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
         targets, shadows = self._targets.of(view.width, view.height), reflection.ray_shadows(self.rays)
         sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows)
-        smooth = {
-            id(self.geometry.of_instance(shown.mirror.index)[0]) for shown in reflection.shown if not shown.has_reliefs
-        }
-        if not reflection.shown and self.settings.entry.solves_vertices:
-            smooth = {id(self.geometry.of_instance(mirror.index)[0]) for mirror in self.mirrors}
+        mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
+        if not reflection.shown and not self.settings.entry.solves_vertices:
+            mirrors = self.mirrors
+        followed = {id(self.geometry.of_instance(mirror.index)[0]) for mirror in mirrors}
         draw_primary(
             sub_frame.targets.seen,
             self.geometry.seen(view),
@@ -330,7 +329,7 @@ class Renderer:
             sub_frame.uniforms,
             None if everywhere else window,
             lambda chunk: self.geometry.hidden_faces(chunk, view),
-            with_reliefs=lambda chunk: id(chunk) not in smooth,
+            is_followed=lambda chunk: id(chunk) in followed,
             depths=depths_of(view),
             mirrored=view.is_mirrored,
         )

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surfaces/surface_color.glsl"
+#ifdef FOLLOWED
 #include "surfaces/raised_normal.glsl"
 #ifdef RELIEF
 #include "surfaces/relief.glsl"
+#endif
 #endif
 
 void main()
@@ -17,12 +19,10 @@ void main()
   gl_FragDepth = distance_ahead / depths.z;
 #endif
   vec3 normal = normalize(world_normal);
-#ifdef RELIEF
-  normal = ids.y > 0.5 ? bent_normal(normal) : normal;
-#else
-  if (is_followed > 0.5 && ids.y > 0.5) {
-    normal = raised_normal(normal);
-  }
+#if defined(RELIEF)
+  normal = bent_normal(normal);
+#elif defined(FOLLOWED)
+  normal = raised_normal(normal);
 #endif
   surface_position = vec4(world_position, ids.x);
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);

@@ -20,8 +20,8 @@ from .windows import Window
 type Depths = tuple[float, float, float]
 """Distances from the eye's plane where a view begins and ends, and the one that has the depth 1"""
 LINEAR_DEPTH = Piece(constants={"depths": "VEC3"}, defines=flags("LINEAR_DEPTH"), writes_depth=True)
-FOLLOWED = Piece(constants={"is_followed": "FLOAT"})
-"""Whether rays go on from the surface: shading normals must not send them into the facet that they are on"""
+FOLLOWED = Piece(defines=flags("FOLLOWED"))
+"""Rays go on from the surface: shading normals must not send them into the facet that they are on"""
 ENDLESS = 3e38
 
 
@@ -40,68 +40,57 @@ def draw_primary(
     view_uniforms: Any,
     window: Window | None = None,
     hidden_faces: Callable[[Chunk], str] = lambda _chunk: "NONE",
-    with_reliefs: Callable[[Chunk], bool] = lambda _chunk: False,
+    is_followed: Callable[[Chunk], bool] = lambda _chunk: False,
     depths: Depths | None = None,
     mirrored: bool = False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
-    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a
-    mirror `with_reliefs`, which rays go on from, the normals are those of its bumps and normal maps and send no ray
-    into the surface; else they are those of the smooth surface. `depths`: what
-    `depths_of` says of the view; `mirrored` whether left and right are swapped in it.
+    `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a mirror that
+    `is_followed`, which rays go on from, the normals are those of its bumps and normal maps and send no ray into the
+    surface; else they are those of the smooth surface. `depths`: what `depths_of` says of the view; `mirrored` whether
+    left and right are swapped in it.
     """
+
+    def kind_of(chunk: Chunk, material: int) -> str:
+        if materials.has_relief(material) and is_followed(chunk):
+            return "RELIEF"
+        return "PLAIN" if materials.is_plain(material) else "TEXTURED"
+
     with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), target.frame_buffer.bind():
         set_viewport(0, 0, target.width, target.height)
         target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
-            reliefs = {
-                (id(chunk), material)
-                for chunk, batches in seen
-                for material, _ in batches
-                if materials.has_relief(material) and with_reliefs(chunk)
-            }
-            for kind in ("PLAIN", "TEXTURED", *(("RELIEF",) if reliefs else ())):
-                shader = _primary_shader(kind, depths is not None)
-                shader.bind()
-                if depths is not None:
-                    shader.uniform_float("depths", depths)
-                shader.uniform_block("view", view_uniforms)
+            for kind in ("PLAIN", "TEXTURED", "RELIEF"):
                 for chunk, batches in seen:
-                    hide_faces(hidden_faces(chunk))
-                    if kind != "RELIEF":
-                        shader.uniform_float("is_followed", 1.0 if with_reliefs(chunk) else 0.0)
+                    chosen = [item for item in batches if kind_of(chunk, item[0]) == kind]
+                    if not chosen:
+                        continue
+                    shader = _primary_shader(kind, is_followed(chunk), depths is not None)
+                    shader.bind()
+                    if depths is not None:
+                        shader.uniform_float("depths", depths)
+                    shader.uniform_block("view", view_uniforms)
                     shader.uniform_sampler("positions", chunk.positions)
                     shader.uniform_sampler("corners", chunk.corners)
-                    if kind != "RELIEF":
-                        smooth = tuple(item for item in batches if (id(chunk), item[0]) not in reliefs)
-                        draw_batches(shader, smooth, materials, kind == "PLAIN")
-                        continue
-                    for material, batch in batches:
-                        if (id(chunk), material) not in reliefs:
-                            continue
+                    hide_faces(hidden_faces(chunk))
+                    for material, batch in chosen:
                         materials.bind(shader, material)
-                        materials.bind_relief(shader, material)
+                        if kind == "RELIEF":
+                            materials.bind_relief(shader, material)
                         batch.draw(shader)
 
 
-def draw_batches(shader: Any, batches: Batches, materials: Materials, is_plain: bool) -> None:
-    """Those whose materials are plain, or the others, with a bound shader for them."""
-    for material, batch in batches:
-        if materials.is_plain(material) == is_plain:
-            materials.bind(shader, material)
-            batch.draw(shader)
-
-
 @gpu_cache
-def _primary_shader(kind: str, has_linear_depth: bool) -> Any:
+def _primary_shader(kind: str, is_followed: bool, has_linear_depth: bool) -> Any:
     """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
     return build_shader(
         f"primary {kind}",
         VIEW,
         CHUNK,
         PLAIN if kind == "PLAIN" else TEXTURED,
-        RELIEF if kind == "RELIEF" else FOLLOWED,
+        *((RELIEF,) if kind == "RELIEF" else ()),
+        *((FOLLOWED,) if is_followed else ()),
         *((LINEAR_DEPTH,) if has_linear_depth else ()),
         SURFACE_OUTPUTS,
         Piece(

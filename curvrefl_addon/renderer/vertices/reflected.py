@@ -14,7 +14,6 @@ from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK
 from ..surfaces.materials import PLAIN, TEXTURED, Materials
-from ..surfaces.primary import draw_batches
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -67,7 +66,10 @@ def draw_reflected(
                 shader.uniform_sampler("corners", part.chunk.corners)
                 shader.uniform_sampler("reflection_points", part.solution.reflection_points)
                 shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
-                draw_batches(shader, part.batches, materials, is_plain)
+                for material, batch in part.batches:
+                    if materials.is_plain(material) == is_plain:
+                        materials.bind(shader, material)
+                        batch.draw(shader)
 
 
 @gpu_cache
