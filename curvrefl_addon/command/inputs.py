@@ -59,11 +59,9 @@ def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[
 
     Raises InputError for a picture that is too large, also for the memory that is free.
     """
-    scale = scene.render.resolution_percentage / 100.0
-    width, height = options.resolution or (
-        max(int(scene.render.resolution_x * scale), 1),
-        max(int(scene.render.resolution_y * scale), 1),
-    )
+    from ..scene.camera.film import rendered_size
+
+    width, height = options.resolution or rendered_size(scene.render)
     if max(width, height) > LARGEST_SIDE:
         raise InputError(
             f"The scene renders with {width}x{height} pixels, more than {LARGEST_SIDE} a side: choose a --resolution."

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..scene.arrays import Float32Array
+from ..scene.camera.film import rendered_size
 from ..scene.camera.view import View
 
 
@@ -44,8 +45,7 @@ class Area:
 
 def area_of(render: Any) -> Area:
     """Of a scene's `RenderSettings`, rounded as Blender does."""
-    scale = render.resolution_percentage / 100.0
-    width, height = (max(int(side * scale), 1) for side in (render.resolution_x, render.resolution_y))
+    width, height = rendered_size(render)
     if not render.use_border:
         return Area(width, height, 0, 0, width, height)
     left, right = (int(np.float32(share) * np.float32(width)) for share in (render.border_min_x, render.border_max_x))

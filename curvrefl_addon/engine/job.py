@@ -11,9 +11,6 @@ from dataclasses import dataclass, field
 from ..scene.arrays import Float32Array
 from ..settings_table import Settings
 
-PASSES = ("position", "object", "iterations")
-"""What a verb can ask for beside the color, of what the mirrors show"""
-
 
 @dataclass(slots=True)
 class Job:
@@ -23,7 +20,7 @@ class Job:
     """Names of the mirrors, in place of those that are marked"""
     settings: Settings
     passes: tuple[str, ...] = ()
-    """Of PASSES"""
+    """What to read beside the color: names of `passes.OF_MIRRORS`"""
     missing: set[str] = field(default_factory=set)
     """Reflectors that no view layer has shown yet"""
     arrays: dict[str, Float32Array] = field(default_factory=dict)

@@ -41,6 +41,10 @@ PASSES = (
 )
 
 
+OF_MIRRORS = {item.name.lower(): item.read for item in PASSES if item.read is not None}
+"""What the mirrors show, by the names that verbs have for it"""
+
+
 def passes_of(view_layer: Any) -> list[Pass]:
     """Those that are switched on."""
     return [item for item in PASSES if getattr(view_layer.curvrefl, item.setting)]

@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
-import numpy as np
 
 from ..errors import InputError
 from ..options import mirrors_in, overrides_of, settings_of
@@ -27,7 +26,7 @@ from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors, view_of_camera
 from .area import Area, area_of
 from .job import Job
-from .passes import COMBINED, MIRROR, Pass
+from .passes import COMBINED, MIRROR, OF_MIRRORS, Pass
 
 
 class RenderSession:
@@ -159,12 +158,7 @@ class RenderSession:
 
     def _tell(self, job: Job, frame: Frame, area: Area) -> None:
         assert self._arrays is not None
-        arrays: dict[str, Callable[[], Any]] = {
-            "position": frame.reflected_position,
-            "object": lambda: frame.reflected_object().astype(np.float32),
-            "iterations": frame.iterations,
-        }
-        job.arrays = {name: area.uncropped(arrays[name]()) for name in job.passes}
+        job.arrays = {name: area.uncropped(OF_MIRRORS[name](frame)) for name in job.passes}
         job.object_names = {instance.object_id: instance.object_name for instance in self._arrays.instances}
 
 

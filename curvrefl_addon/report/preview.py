@@ -14,7 +14,7 @@ import bpy
 from ..options import overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
-from ..scene.camera.film import on_film
+from ..scene.camera.film import on_film, rendered_size
 from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors
 from ..scene.opened.render_depsgraph import read_render_moments
@@ -39,9 +39,7 @@ class PreviewRenderer:
         """
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
-        scale = scene.render.resolution_percentage / 100.0
-        width = max(int(scene.render.resolution_x * scale), 1)
-        height = max(int(scene.render.resolution_y * scale), 1)
+        width, height = rendered_size(scene.render)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
         overrides = overrides_of(find_reflectors(scene, self._mirrors))
         settings = replace(settings_of(scene.curvrefl, self._samples), film_transparent=scene.render.film_transparent)

@@ -20,6 +20,13 @@ class _OfEngine:
     def poll(cls, context: bpy.types.Context) -> bool:
         return getattr(context, "engine", "") == ENGINE
 
+    def _column(self) -> Any:
+        """The layout, for settings one below the other."""
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        return layout
+
 
 class CURVREFL_RENDER_PT_quality(_OfEngine, bpy.types.Panel):
     """How renders find reflections"""
@@ -28,9 +35,7 @@ class CURVREFL_RENDER_PT_quality(_OfEngine, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout: Any = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self._column()
         for item in OF_SCENES:
             # (Samples and motion are the viewports'.)
             if item.panel == "Quality" and item.name not in ("samples", "motion_resolution"):
@@ -44,9 +49,7 @@ class CURVREFL_VIEW_LAYER_PT_passes(_OfEngine, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout: Any = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self._column()
         for item in OF_VIEW_LAYERS:
             layout.prop(context.view_layer.curvrefl, item.name)
 

@@ -42,6 +42,16 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
     return tuple(found)
 
 
+def oddly_seen(scene: SceneArrays) -> tuple[str, ...]:
+    """Where the world lights: objects that diffuse rays see and shadow rays do not, or the other way; one sentence."""
+    # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
+    odd = [item.object_name for item in scene.instances if item.visible_diffuse != item.visible_shadow]
+    if not odd:
+        return ()
+    what = "as that of lamps: visibility to diffuse rays is left out."
+    return (f"The world's light is shadowed by {listed(odd)} {what}",)
+
+
 def is_lit_indirectly(scene: SceneArrays) -> bool:
     """Whether the file's own renders follow light on from surfaces that scatter it."""
     used = {index for instance in scene.instances for index in instance.materials}

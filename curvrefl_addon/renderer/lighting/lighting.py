@@ -16,14 +16,13 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.view import View
 from ...scene.materials.pixels import averaged
-from ...scene.names import listed
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
-from .left_out import left_out
+from .left_out import left_out, oddly_seen
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
@@ -94,7 +93,7 @@ class Lighting:
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
-        self._left_out = left_out(scene)
+        self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -105,6 +104,8 @@ class Lighting:
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene, self._balls = self._scene, scene, None
+        if scene.instances is not before.instances:
+            self._oddly_seen = oddly_seen(scene)
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
@@ -225,13 +226,7 @@ class Lighting:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
-        # Cycles draws rays for the light of an even world by the surface, and of an image by its brightness as well.
-        found = (*self._lamp_warnings, *self._left_out)
-        odd = [item.object_name for item in self._scene.instances if item.visible_diffuse != item.visible_shadow]
-        if not odd or not self._world_is_lit:
-            return found
-        what = "as that of lamps: visibility to diffuse rays is left out."
-        return (*found, f"The world's light is shadowed by {listed(odd)} {what}")
+        return (*self._lamp_warnings, *self._left_out, *(self._oddly_seen if self._world_is_lit else ()))
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
