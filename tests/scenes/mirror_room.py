@@ -10,6 +10,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
+from scenes.views import lines_of_sight
 
 MIRROR = 1
 """object_id of the mirror ball: radius 1 about the origin"""
@@ -122,16 +123,7 @@ class Room:
     def seen_in_ball(self, view: View) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Per pixel (h, w): whether the mirror ball is on the line of sight and not covered, the object_id that it
         shows, and the point (h, w, 3) that it shows (for the background: the direction)."""
-        y, x = np.mgrid[0 : view.height, 0 : view.width]
-        near, far = (
-            np.stack(
-                [(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.full(x.shape, z), np.ones(x.shape)], -1
-            )
-            @ np.linalg.inv(view.world_to_clip).T
-            for z in (-1.0, 1.0)
-        )
-        origin = near[..., :3] / near[..., 3:]
-        direction = unit(far[..., :3] / far[..., 3:] - origin)
+        origin, direction = lines_of_sight(view)
         b = (origin * direction).sum(-1)
         root = b * b - (origin**2).sum(-1) + 1.0
         t = -b - np.sqrt(np.maximum(root, 0.0))

@@ -18,9 +18,9 @@ def radial_map(surface: RadialSurface, resolution: int = 128) -> np.ndarray:
     return np.column_stack([r, gradient]).reshape(6, resolution, resolution, 4).astype(np.float32)
 
 
-def vertices_around(surface: RadialSurface, count: int) -> np.ndarray:
-    """Outside the surface, from a hundredth to ten radii away: (count, 3), with no more digits than a shader has."""
+def vertices_around(surface: RadialSurface, count: int, nearest: float = 1e-2) -> np.ndarray:
+    """Outside the surface, from `nearest` to ten radii away: (count, 3), with no more digits than a shader has."""
     rng = np.random.default_rng(7)
     u = unit(rng.normal(size=(count, 3)))
-    vertices = u * (surface.radius(u)[0] + 10 ** rng.uniform(-2, 1, count))[:, None]
+    vertices = u * (surface.radius(u)[0] + 10 ** rng.uniform(np.log10(nearest), 1, count))[:, None]
     return vertices.astype(np.float32).astype(np.float64)

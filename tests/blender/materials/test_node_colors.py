@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.scene.materials.node_formulas import BLENDS, NUMBER_OPERATIONS, VECTOR_OPERATIONS
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, material_of, new_material
-from scene.color_nodes import COLOR, OTHER, BuildColor, Tree, node, smooth_image
+from scene.color_nodes import COLOR, OTHER, BuildColor, Tree, mix, node, smooth_image
 
 
 @pytest.fixture(autouse=True)
@@ -24,17 +24,6 @@ def _color(tree: Tree, color: tuple[float, ...] = COLOR) -> Any:
     made = node(tree, "ShaderNodeRGB")
     made.outputs[0].default_value = color
     return made.outputs[0]
-
-
-def _mix(blend: str, factor: float, **more: Any) -> BuildColor:
-    return lambda tree: node(
-        tree,
-        "ShaderNodeMix",
-        {"Factor_Float": factor, "A_Color": COLOR, "B_Color": OTHER},
-        data_type="RGBA",
-        blend_type=blend,
-        **more,
-    ).outputs[2]
 
 
 def _bright(**more: Any) -> BuildColor:
@@ -132,7 +121,7 @@ def _to_number(output: str) -> BuildColor:
 
 KINDS = ("LINEAR", "STEPPED", "SMOOTHSTEP", "SMOOTHERSTEP")
 CONSTANTS: dict[str, BuildColor] = {
-    **{f"{blend} {factor}": _mix(blend, factor) for blend in BLENDS for factor in (0.3, 1.0)},
+    **{f"{blend} {factor}": mix(blend, factor) for blend in BLENDS for factor in (0.3, 1.0)},
     "clamped factor": _bright(clamp_factor=True),
     "clamped result": _bright(clamp_factor=False, clamp_result=True),
     "no clamp": _bright(clamp_factor=False),

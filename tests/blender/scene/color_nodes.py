@@ -34,6 +34,18 @@ COLOR = (0.6, 0.3, 0.1, 1.0)
 OTHER = (0.2, 0.5, 0.9, 1.0)
 
 
+def mix(blend: str, factor: float, **properties: Any) -> BuildColor:
+    """Of COLOR and OTHER."""
+    return lambda tree: node(
+        tree,
+        "ShaderNodeMix",
+        {"Factor_Float": factor, "A_Color": COLOR, "B_Color": OTHER},
+        data_type="RGBA",
+        blend_type=blend,
+        **properties,
+    ).outputs[2]
+
+
 def smooth_image(name: str = "smooth", float_buffer: bool = True) -> bpy.types.Image:
     """16 x 8 pixels without symmetry."""
     height, width = 8, 16

@@ -11,22 +11,12 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays
 from extraction import add, add_square, cycles_picture, empty_scene, extracted, look_down, material_of, new_material
-from scene.color_nodes import COLOR, OTHER, BuildColor, Tree, node
+from scene.color_nodes import COLOR, OTHER, BuildColor, Tree, mix, node
 
 
 @pytest.fixture(autouse=True)
 def _scene() -> None:
     empty_scene()
-
-
-def _mix(blend: str, factor: float) -> BuildColor:
-    return lambda tree: node(
-        tree,
-        "ShaderNodeMix",
-        {"Factor_Float": factor, "A_Color": COLOR, "B_Color": OTHER},
-        data_type="RGBA",
-        blend_type=blend,
-    ).outputs[2]
 
 
 def _ramp(tree: Tree) -> Any:
@@ -62,11 +52,11 @@ def _muted(tree: Tree) -> Any:
 
 CONSTANTS: dict[str, BuildColor] = {
     **{
-        f"{blend} {factor}": _mix(blend, factor)
+        f"{blend} {factor}": mix(blend, factor)
         for blend in ("MIX", "MULTIPLY", "ADD", "SCREEN")
         for factor in (0.3, 1.0)
     },
-    **{blend: _mix(blend, 0.7) for blend in ("SUBTRACT", "DARKEN", "LIGHTEN", "DIFFERENCE")},
+    **{blend: mix(blend, 0.7) for blend in ("SUBTRACT", "DARKEN", "LIGHTEN", "DIFFERENCE")},
     "old mix": lambda tree: node(
         tree, "ShaderNodeMixRGB", {"Fac": 0.25, "Color1": COLOR, "Color2": OTHER}, blend_type="MULTIPLY"
     ).outputs[0],

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.shading.diagnostics import DiagnosticPass
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block
 from curvrefl.curvrefl_addon.scene.camera.view import View
-from scenes.views import look_at
+from scenes.views import lines_of_sight, look_at
 
 EYE = np.array([0.8, -4.0, 1.0])
 VIEW = look_at(EYE, np.zeros(3), 160, 120, np.radians(36))
@@ -29,16 +29,7 @@ class Ball:
 
     def __init__(self, view: View = VIEW) -> None:
         self.view = view
-        y, x = np.mgrid[0 : view.height, 0 : view.width]
-        near, far = (
-            np.stack(
-                [(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.full(x.shape, z), np.ones(x.shape)], -1
-            )
-            @ np.linalg.inv(view.world_to_clip).T
-            for z in (-1.0, 1.0)
-        )
-        origin = near[..., :3] / near[..., 3:]
-        direction = unit(far[..., :3] / far[..., 3:] - origin)
+        origin, direction = lines_of_sight(view)
         along = (origin * direction).sum(-1)
         root = along**2 - (origin**2).sum(-1) + 1.0
         self.mask = root > 0

@@ -60,12 +60,13 @@ def test_shader_follows_the_reference(name: str, orthographic: bool) -> None:
     assert counts["reflected"] + counts["hidden"] + counts["unconverged"] == counts["vertices"] == len(world)
 
 
-def test_broken_vertices_are_marked() -> None:
+@pytest.mark.parametrize("method", ["secant_star", "newton"])
+def test_broken_vertices_are_marked(method: str) -> None:
     faces = radial_map(Ellipsoid())
     places = np.array([[np.nan, 0, 0], [np.inf, 0, 0], [0, 0, 2], [0, 0, 0]], np.float32)
     view = look_at(np.array([0.0, -4.0, 1.0]), np.zeros(3), 320, 240, np.radians(40))
     solution = solve_vertices(
-        "secant_star",
+        method,
         view,
         Reflector(np.eye(4), 1.0, {"radial": cube_texture(faces)}),
         record_texture(np.column_stack([places, np.ones(4)])),

@@ -152,6 +152,18 @@ def surface(name: str, kind: str, **inputs: Any) -> bpy.types.Material:
     return material
 
 
+def joined(name: str, kind: str, first: tuple[str, dict[str, Any]], second: tuple[str, dict[str, Any]]) -> Any:
+    """A material of two shader nodes, each a kind and values, in a MixShader or AddShader: (it, its tree, the join)."""
+    material = bpy.data.materials.new(name)
+    tree: Any = material.node_tree
+    tree.nodes.clear()
+    both = node(tree, kind)
+    for socket, (shader, inputs) in zip(list(both.inputs)[-2:], (first, second), strict=True):
+        tree.links.new(node(tree, shader, **inputs).outputs[0], socket)
+    tree.links.new(both.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material, tree, both
+
+
 def output_of(tree: Any) -> Any:
     return next(item for item in tree.nodes if item.type.startswith("OUTPUT"))
 
@@ -216,6 +228,7 @@ __all__ = [
     "emitter",
     "find",
     "give",
+    "joined",
     "link",
     "matte",
     "mesh_of",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import MeshPieces, mesh_pieces, outline
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
-from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
+from scenes.mirror_room import mesh
 
 hypothesis = pytest.importorskip("hypothesis")
 from hypothesis import given, strategies  # noqa: E402
@@ -21,18 +21,7 @@ FLOOR_TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def pieces_of(positions: np.ndarray, triangles: np.ndarray) -> MeshPieces:
-    return mesh_pieces(
-        MeshArrays(
-            "mesh",
-            positions.astype(np.float32),
-            np.arange(len(positions), dtype=np.int32),
-            np.zeros((len(positions), 3), np.float32),
-            None,
-            None,
-            triangles.astype(np.int32),
-            np.zeros(len(triangles), np.int32),
-        )
-    )
+    return mesh_pieces(mesh("mesh", positions, np.zeros_like(positions), triangles))
 
 
 def grid(side: int, height: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -11,6 +11,7 @@ from curvrefl.curvrefl_addon.renderer.lighting.ggx import IOR_SLICES, TABLE_SIZE
 from curvrefl.curvrefl_addon.renderer.lighting.lamps import lamp_points, lamp_records
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MeshArrays
+from scenes.mirror_room import mesh
 
 
 def lamp(kind: str, **more: object) -> LightArrays:
@@ -86,16 +87,7 @@ def extent_of(positions: np.ndarray, triangles: np.ndarray) -> SceneExtent:
 
 
 def mesh_of(positions: np.ndarray, triangles: np.ndarray) -> MeshArrays:
-    return MeshArrays(
-        "mesh",
-        positions.astype(np.float32),
-        np.arange(len(positions), dtype=np.int32),
-        np.zeros((len(positions), 3), np.float32),
-        None,
-        None,
-        triangles.astype(np.int32),
-        np.zeros(len(triangles), np.int32),
-    )
+    return mesh("mesh", positions, np.zeros_like(positions), triangles)
 
 
 def test_floor_does_not_widen_the_map_of_a_sun_above_or_below() -> None:

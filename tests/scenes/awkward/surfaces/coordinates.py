@@ -23,40 +23,32 @@ from ..stage import (
 )
 
 
-@awkward("a rotated mapping")
-def mapping_rotation(folder: Path) -> None:
+def _mapped(kind: str = "POINT", **values: tuple[float, float, float]) -> None:
+    """Stripes placed by a Mapping node of this kind with these values for its sockets."""
     stage()
     material, tree, texture = textured("Turned", picture("Stripes", stripes()))
     mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
-    mapping.inputs["Rotation"].default_value = (0.0, 0.0, 0.8)
+    mapping.vector_type = kind
+    for name, value in values.items():
+        mapping.inputs[name].default_value = value
     tree.links.new(coordinate.outputs["UV"], mapping.inputs["Vector"])
     tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
     wall_of(material)
+
+
+@awkward("a rotated mapping")
+def mapping_rotation(folder: Path) -> None:
+    _mapped(Rotation=(0.0, 0.0, 0.8))
 
 
 @awkward("a mapping as of a texture", words=("mapping",))
 def mapping_texture_type(folder: Path) -> None:
-    stage()
-    material, tree, texture = textured("Turned", picture("Stripes", stripes()))
-    mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
-    mapping.vector_type = "TEXTURE"
-    mapping.inputs["Rotation"].default_value = (0.0, 0.0, 0.8)
-    mapping.inputs["Scale"].default_value = (0.5, 2.0, 1.0)
-    mapping.inputs["Location"].default_value = (0.3, 0.1, 0.0)
-    tree.links.new(coordinate.outputs["UV"], mapping.inputs["Vector"])
-    tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
-    wall_of(material)
+    _mapped("TEXTURE", Rotation=(0.0, 0.0, 0.8), Scale=(0.5, 2.0, 1.0), Location=(0.3, 0.1, 0.0))
 
 
 @awkward("a mapping turned about X", words=("mapping",))
 def mapping_about_x(folder: Path) -> None:
-    stage()
-    material, tree, texture = textured("Turned", picture("Stripes", stripes()))
-    mapping, coordinate = node(tree, "Mapping"), node(tree, "TexCoord")
-    mapping.inputs["Rotation"].default_value = (1.0, 0.0, 0.7)
-    tree.links.new(coordinate.outputs["UV"], mapping.inputs["Vector"])
-    tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
-    wall_of(material)
+    _mapped(Rotation=(1.0, 0.0, 0.7))
 
 
 def _by_coordinate(output: str) -> None:

@@ -16,6 +16,7 @@ from ..stage import (
     emitter,
     find,
     give,
+    joined,
     matte,
     mirror,
     node,
@@ -188,47 +189,31 @@ def mirror_metallic_physical(folder: Path) -> None:
     _of(material)
 
 
-def _mixed(weight: str) -> None:
+def _mixed(name: str, first: tuple[str, dict[str, Any]], gloss: dict[str, Any], by_fresnel: bool) -> None:
     stage()
-    material = bpy.data.materials.new("Mixed")
-    tree: Any = material.node_tree
-    tree.nodes.clear()
-    mix, output = node(tree, "MixShader"), tree.nodes.new("ShaderNodeOutputMaterial")
-    first = node(tree, "BsdfDiffuse", Color=(0.6, 0.05, 0.05, 1.0))
-    second = node(tree, "BsdfAnisotropic", Color=(1.0, 1.0, 1.0, 1.0), Roughness=0.0)
-    if weight == "Fresnel":
-        fresnel = node(tree, "Fresnel", IOR=2.0)
-        tree.links.new(fresnel.outputs[0], mix.inputs[0])
-    tree.links.new(first.outputs[0], mix.inputs[1])
-    tree.links.new(second.outputs[0], mix.inputs[2])
-    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    material, tree, mix = joined(name, "MixShader", first, ("BsdfAnisotropic", {**gloss, "Roughness": 0.0}))
+    if by_fresnel:
+        tree.links.new(node(tree, "Fresnel", IOR=2.0).outputs[0], mix.inputs[0])
     _of(material)
+
+
+PAINT: tuple[str, dict[str, Any]] = ("BsdfDiffuse", {"Color": (0.6, 0.05, 0.05, 1.0)})
+WHITE = {"Color": (1.0, 1.0, 1.0, 1.0)}
 
 
 @awkward("car paint: diffuse and glossy mixed by Fresnel", words=("mix", "diffuse", "fresnel"))
 def mirror_mix_fresnel(folder: Path) -> None:
-    _mixed("Fresnel")
+    _mixed("Mixed", PAINT, WHITE, by_fresnel=True)
 
 
 @awkward("diffuse and glossy, half and half", words=("mix", "diffuse"))
 def mirror_mix_half(folder: Path) -> None:
-    _mixed("")
+    _mixed("Mixed", PAINT, WHITE, by_fresnel=False)
 
 
 @awkward("an old transparent and glossy mix: lazy glass", words=("transparen", "mix"))
 def mirror_lazy_glass(folder: Path) -> None:
-    stage()
-    material = bpy.data.materials.new("Lazy")
-    tree: Any = material.node_tree
-    tree.nodes.clear()
-    mix, output = node(tree, "MixShader"), tree.nodes.new("ShaderNodeOutputMaterial")
-    first, second = node(tree, "BsdfTransparent"), node(tree, "BsdfAnisotropic", Roughness=0.0)
-    fresnel = node(tree, "Fresnel", IOR=2.0)
-    tree.links.new(fresnel.outputs[0], mix.inputs[0])
-    tree.links.new(first.outputs[0], mix.inputs[1])
-    tree.links.new(second.outputs[0], mix.inputs[2])
-    tree.links.new(mix.outputs[0], output.inputs["Surface"])
-    _of(material)
+    _mixed("Lazy", ("BsdfTransparent", {}), {}, by_fresnel=True)
 
 
 @awkward("a tinted mirror by an image")

@@ -10,10 +10,10 @@ from typing import Any
 from ..registry import awkward
 from ..stage import (
     add_ball,
-    bpy,
     emitter,
     find,
     give,
+    joined,
     matte,
     node,
     output_of,
@@ -151,32 +151,16 @@ def background_on_surface(folder: Path) -> None:
 @awkward("Add Shader of two")
 def add_shader(folder: Path) -> None:
     stage()
-    material = bpy.data.materials.new("Sum")
-    tree: Any = material.node_tree
-    tree.nodes.clear()
-    add, output = node(tree, "AddShader"), tree.nodes.new("ShaderNodeOutputMaterial")
-    first = node(tree, "BsdfDiffuse", Color=(0.5, 0.1, 0.1, 1.0))
-    second = node(tree, "Emission", Color=(0.0, 0.2, 0.4, 1.0))
-    tree.links.new(first.outputs[0], add.inputs[0])
-    tree.links.new(second.outputs[0], add.inputs[1])
-    tree.links.new(add.outputs[0], output.inputs["Surface"])
-    wall_of(material)
+    first = ("BsdfDiffuse", {"Color": (0.5, 0.1, 0.1, 1.0)})
+    wall_of(joined("Sum", "AddShader", first, ("Emission", {"Color": (0.0, 0.2, 0.4, 1.0)}))[0])
 
 
 @awkward("Mix Shader by Fresnel", words=("fresnel", "mix", "layer weight"))
 def mix_by_fresnel(folder: Path) -> None:
     stage()
-    material = bpy.data.materials.new("Mixed")
-    tree: Any = material.node_tree
-    tree.nodes.clear()
-    mix, output = node(tree, "MixShader"), tree.nodes.new("ShaderNodeOutputMaterial")
-    first = node(tree, "BsdfDiffuse", Color=(0.7, 0.1, 0.1, 1.0))
-    second = node(tree, "Emission", Color=(0.0, 0.3, 1.0, 1.0))
-    weight = node(tree, "LayerWeight", Blend=0.5)
-    tree.links.new(weight.outputs["Facing"], mix.inputs[0])
-    tree.links.new(first.outputs[0], mix.inputs[1])
-    tree.links.new(second.outputs[0], mix.inputs[2])
-    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    first = ("BsdfDiffuse", {"Color": (0.7, 0.1, 0.1, 1.0)})
+    material, tree, mix = joined("Mixed", "MixShader", first, ("Emission", {"Color": (0.0, 0.3, 1.0, 1.0)}))
+    tree.links.new(node(tree, "LayerWeight", Blend=0.5).outputs["Facing"], mix.inputs[0])
     wall_of(material)
 
 
