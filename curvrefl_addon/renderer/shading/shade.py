@@ -144,7 +144,7 @@ class ShadePass:
             self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                features = self._features(shadows) | ({MIRRORS_END} if self.mirror_bounces == 0 else frozenset())
+                features = self._features(shadows, ends=self.mirror_bounces == 0)
                 shader = _shade_shader(kind, features)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
@@ -186,9 +186,12 @@ class ShadePass:
             shader = _front_shader(False, self._lighting.features, by_camera)
             self._draw(shader, kind, seen, view_uniforms, weight)
 
-    def _features(self, shadows: RayShadows | None, is_seen: bool = False) -> Features:
-        """Of the lighting, for what mirrors show, or for what the eye sees itself."""
+    def _features(self, shadows: RayShadows | None, is_seen: bool = False, ends: bool = False) -> Features:
+        """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow."""
         features = self._lighting.features
+        if ends:
+            # (What has its own light alone is in no shadow.)
+            return features | {MIRRORS_END}
         if shadows is None or (is_seen and not shadows.everywhere):
             return features
         # Without anything in shadow there is no ray to follow.
@@ -200,8 +203,8 @@ class ShadePass:
         self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayShadows | None
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
-        features = self._features(shadows)
-        shader = _path_shader(bounce.goes_on, features | ({MIRRORS_END} if bounce.ends else frozenset()))
+        features = self._features(shadows, ends=bounce.ends)
+        shader = _path_shader(bounce.goes_on, features)
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):

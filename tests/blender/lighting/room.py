@@ -74,9 +74,11 @@ class Judged:
         return float((np.abs(_blocks(self.ours) - _blocks(self.cycles)).max(axis=-1) > OFF).mean())
 
 
-def judge_room(samples: int = 48, mirrors: tuple[str, ...] = ("mirror",), method: str = "exact") -> Judged:
+def judge_room(
+    samples: int = 48, mirrors: tuple[str, ...] = ("mirror",), method: str = "exact", shadow_rays: bool = False
+) -> Judged:
     """The open scene by both."""
-    ours, warnings = our_room(mirrors, method)
+    ours, warnings = our_room(mirrors, method, shadow_rays)
     scene: Any = bpy.context.scene
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
@@ -94,12 +96,14 @@ def judge_room(samples: int = 48, mirrors: tuple[str, ...] = ("mirror",), method
         return Judged(ours, load_exr(path)[..., :3], warnings)
 
 
-def our_room(mirrors: tuple[str, ...] = ("mirror",), method: str = "exact") -> tuple[np.ndarray, tuple[str, ...]]:
+def our_room(
+    mirrors: tuple[str, ...] = ("mirror",), method: str = "exact", shadow_rays: bool = False
+) -> tuple[np.ndarray, tuple[str, ...]]:
     """Picture and warnings of the open scene as a render shows it."""
     scene: Any = bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()
     arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors])
-    renderer = Renderer(arrays, Settings(method=method, samples=16))
+    renderer = Renderer(arrays, Settings(method=method, samples=16, shadow_rays=shadow_rays))
     size = (scene.render.resolution_x, scene.render.resolution_y)
     frame = renderer.render(view_of_camera(scene, scene.camera, *size, depsgraph))
     picture = frame.color()[..., :3]

@@ -36,6 +36,14 @@ def test_mirrors_end_where_the_files_renders_do(glossy: int) -> None:
     assert not judged.warnings
 
 
+@pytest.mark.parametrize("glossy", [0, 2])
+def test_mirrors_that_end_need_no_shadow_rays(glossy: int) -> None:
+    """What follows no more mirrors has no lamps to shadow either."""
+    three_mirrors(glossy)
+    judged = judge_room(mirrors=MIRRORS, shadow_rays=True)
+    assert judged.share_off < 0.02
+
+
 def test_without_glossy_bounces_solved_vertices_are_dark_too() -> None:
     build_room().cycles.max_bounces = 0
     judged = judge_room(method="newton")
