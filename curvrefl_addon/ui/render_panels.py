@@ -12,6 +12,13 @@ from ..engine.engine import ENGINE
 from ..settings_table import OF_SCENES, OF_VIEW_LAYERS
 
 
+def _column(layout: Any) -> Any:
+    """A layout, for settings one below the other."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
+
+
 class _OfEngine:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -19,13 +26,6 @@ class _OfEngine:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return getattr(context, "engine", "") == ENGINE
-
-    def _column(self) -> Any:
-        """The layout, for settings one below the other."""
-        layout: Any = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        return layout
 
 
 class CURVREFL_RENDER_PT_quality(_OfEngine, bpy.types.Panel):
@@ -35,7 +35,7 @@ class CURVREFL_RENDER_PT_quality(_OfEngine, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self._column()
+        layout = _column(self.layout)
         for item in OF_SCENES:
             # (Samples and motion are the viewports'.)
             if item.panel == "Quality" and item.name not in ("samples", "motion_resolution"):
@@ -49,7 +49,7 @@ class CURVREFL_VIEW_LAYER_PT_passes(_OfEngine, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self._column()
+        layout = _column(self.layout)
         for item in OF_VIEW_LAYERS:
             layout.prop(context.view_layer.curvrefl, item.name)
 
