@@ -59,11 +59,15 @@ def are_too_coarse(
     if not before.any():
         return False
     points, least = points[before], np.maximum(limit.pixels * pixel, limit.share * radii)[before]
-    return any(bool((_texels(one, resolution, points) > least).any()) for one in views)
+    return bool((_largest_texels(views, resolution, points) > least).any())
 
 
-def _texels(view: ShadowView, resolution: int, points: Float64Array) -> Float64Array:
-    """(n,) sizes in meters of a map's texels at homogeneous points (n, 4)."""
-    if view.is_perspective:
-        return view.texel_slope * np.maximum(points @ view.world_to_clip[3], 0.0)
-    return np.full(len(points), 2.0 / resolution / np.linalg.norm(view.world_to_clip[:2, :3], axis=1).min())
+def _largest_texels(views: Sequence[ShadowView], resolution: int, points: Float64Array) -> Float64Array:
+    """(n,) in meters, of any of the maps at each of homogeneous points (n, 4)."""
+    # (All at once: this is asked for each view of an orbit.)
+    matrices = np.array([one.world_to_clip for one in views])
+    is_perspective = np.array([one.is_perspective for one in views])
+    parallel, others = matrices[~is_perspective], matrices[is_perspective]
+    widest = (2.0 / resolution / np.linalg.norm(parallel[:, :2, :3], axis=2).min(axis=1)).max(initial=0.0)
+    slopes = np.array([one.texel_slope for one in views])[is_perspective]
+    return np.maximum(slopes * (points @ others[:, 3].T), 0.0).max(axis=1, initial=widest)
