@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,8 +83,30 @@ class ReliefArrays:
 
 
 @dataclass(frozen=True, slots=True)
+class ScalarsArrays:
+    """An image whose channels take the place of a material's roughness, metallic, transmission and alpha."""
+
+    image: int
+    """Index into `SceneArrays.images`"""
+    uv_scale: tuple[float, float] = (1.0, 1.0)
+    uv_turn: tuple[float, float] = (0.0, 0.0)
+    uv_offset: tuple[float, float] = (0.0, 0.0)
+
+
+class Glass(IntEnum):
+    """What tints light at an interface that lets light through."""
+
+    PRINCIPLED = 0
+    """What is reflected by the specular tint, what goes in by the square root of the base color"""
+    GLASS = 1
+    """Both by the base color"""
+    REFRACTION = 2
+    """Nothing is reflected; what goes in by the base color"""
+
+
+@dataclass(frozen=True, slots=True)
 class MaterialArrays:
-    """The part of the Principled BSDF that the renderer shades (also made from Diffuse, Glossy and Emission nodes)."""
+    """The part of the Principled BSDF that the renderer shades (also made from the other BSDF nodes)."""
 
     name: str
     base_color: tuple[float, float, float] = (0.8, 0.8, 0.8)
@@ -106,6 +129,41 @@ class MaterialArrays:
     """A Glossy BSDF: reflectance is the base color at every angle, without diffuse part"""
     relief: ReliefArrays | None = None
     """Shown where it is a mirror's"""
+    specular_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    anisotropy: float = 0.0
+    """Principled "Anisotropic", 0..1; -1..1 of a Glossy or Metallic BSDF"""
+    anisotropic_rotation: float = 0.0
+    """Turns, of the tangent about the normal"""
+    tangent_by_uv: bool = False
+    """The tangent is that of the UV map, else about the object's Z axis"""
+    coat_weight: float = 0.0
+    coat_roughness: float = 0.03
+    coat_ior: float = 1.5
+    coat_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    film_thickness: float = 0.0
+    """Nanometers"""
+    film_ior: float = 1.33
+    transmission: float = 0.0
+    """Share that goes through an interface, of what is no metal"""
+    glass: Glass = Glass.PRINCIPLED
+    thin_wall: bool = False
+    """One surface stands for both sides of a pane"""
+    absorption: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Inside, per meter: of a volume that absorbs and does not scatter"""
+    alpha: float = 1.0
+    """Share that is there at all; what is not lets light straight on"""
+    transparent_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    """Of light that goes straight on"""
+    alpha_threshold: float = -1.0
+    """From 0 up: alpha looked up above it counts as 1, else as 0"""
+    alpha_inverted: bool = False
+    """The other way round: what is above the threshold is not there"""
+    scalars: ScalarsArrays | None = None
+
+    @property
+    def is_seen_through(self) -> bool:
+        """Light goes on behind it, at least at some places."""
+        return self.transmission > 0.0 or self.alpha < 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,6 +241,7 @@ class InstanceArrays:
     visible_diffuse: bool = True
     visible_glossy: bool = True
     visible_shadow: bool = True
+    visible_transmission: bool = True
     holdout: bool = False
 
 
@@ -203,5 +262,9 @@ class SceneArrays:
     """What could not be represented, one sentence each"""
     mirror_bounces: int = UNLIMITED_BOUNCES
     """Mirrors one after the other that the file's own renders follow; the last shows only what shines by itself"""
+    transmission_bounces: int = UNLIMITED_BOUNCES
+    """Interfaces that they follow light through"""
+    transparent_bounces: int = UNLIMITED_BOUNCES
+    """Surfaces that they follow light straight through"""
     diffuse_bounces: int = 0
     """Surfaces one after the other from which they follow scattered light"""

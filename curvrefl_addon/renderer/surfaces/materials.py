@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import ImageArrays, MaterialArrays, SceneArrays
+from ...scene.arrays import Float32Array, ImageArrays, MaterialArrays, SceneArrays
 from ...scene.materials.pixels import averaged
 from ...scene.remarks import Remark, sentences
 from ..device.records import record_texture
@@ -16,7 +16,7 @@ from ..device.shaders import Piece, flags, named
 from ..device.textures import largest_texture, texture_2d
 from ..geometry.chunk import HOLDOUT
 
-RECORDS = 5
+RECORDS = 13
 """Per material"""
 TABLE = Piece(samplers={"materials": "FLOAT_2D"}, defines={"MATERIAL_RECORDS": RECORDS})
 """What `material_records.glsl` needs: `Materials.table`"""
@@ -63,6 +63,7 @@ class Materials:
             record[2] = (*material.base_color, float(material.uses_vertex_color))
             record[3] = (*material.uv_scale, *material.uv_offset)
             record[4, :3] = (material.image, *material.uv_turn)
+            _fill_path_records(record[5:], material)
         self.table = record_texture(records.reshape(-1, 4))
 
     @property
@@ -111,6 +112,21 @@ class Materials:
         shader.uniform_float("uv_turn", material.uv_turn)
         shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
         shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image][1])
+
+
+def _fill_path_records(record: Float32Array, material: MaterialArrays) -> None:
+    """What only paths need to know (`path_material.glsl`)."""
+    flags = material.thin_wall + 2 * material.tangent_by_uv + 4 * material.alpha_inverted
+    record[0] = (material.coat_weight, material.coat_roughness, material.coat_ior, material.transmission)
+    record[1] = (*material.coat_tint, float(material.glass))
+    record[2] = (*material.specular_tint, material.film_thickness)
+    record[3] = (*material.absorption, material.film_ior)
+    record[4] = (*material.transparent_tint, material.alpha)
+    record[5] = (material.alpha_threshold, material.anisotropy, material.anisotropic_rotation, float(flags))
+    record[7, 0] = -1.0
+    if (scalars := material.scalars) is not None:
+        record[6] = (*scalars.uv_scale, *scalars.uv_offset)
+        record[7, :3] = (scalars.image, *scalars.uv_turn)
 
 
 def _texture(image: ImageArrays) -> Any:
