@@ -23,6 +23,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.geometry",),
     ("renderer.surfaces",),
     ("renderer.mirrors",),
+    ("renderer.paths",),
     ("renderer.vertices", "renderer.rays", "renderer.lighting"),
     ("renderer.shading",),
     ("renderer.environments",),
