@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from ...optics.scattering.sampler import path_point
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
@@ -23,10 +24,11 @@ from .media import ABSORBING
 from .object_frames import OBJECT_FRAMES
 from .path_classes import PathClass
 from .path_vertices import PathVertices
-from .sampler import SAMPLER, path_point
 
 IMAGES_AT_ONCE = 8
 """That one pass looks up"""
+SAMPLER = Piece(constants={"path_point": "IVEC4"})
+"""What `random.glsl` needs"""
 
 
 @dataclass(frozen=True, slots=True)
