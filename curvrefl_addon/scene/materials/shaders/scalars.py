@@ -17,11 +17,11 @@ CHANNELS = ("roughness", "metallic", "transmission", "alpha")
 def packed_scalars(surface: Surface, notes: list[str]) -> SurfaceTexture | None:
     """An image with all scalars, None where none has a texture; one that lies elsewhere is its mean, with a note."""
     # What decides whether there is a surface at all goes first.
-    textures = [surface.textures[name].texture for name in reversed(CHANNELS) if name in surface.textures]
+    textures = [_texture(surface.textures[name]) for name in reversed(CHANNELS) if name in surface.textures]
     if not textures:
         return None
-    first = textures[0]
-    grid = max((texture for texture in textures if _lies_on(texture, first)), key=lambda texture: texture.colors().size)
+    aligned = [texture for texture in textures if _lies_on(texture, textures[0])]
+    grid = max(aligned, key=lambda texture: texture.image.pixels.size)
     height, width = grid.image.pixels.shape[:2]
     pixels = np.empty((height, width, 4), np.float32)
     for channel, name in enumerate(CHANNELS):
