@@ -93,7 +93,7 @@ def _rough_lobes(layers: Layers, chances: Array, viewer: Array, light: Array, be
     h = _middle(viewer, light)
     cosine = np.clip((viewer * h).sum(axis=1), 0.0, 1.0)
 
-    def add(where: Array, chance: Array, fresnel: Array, alpha: Array, bound: Array | float) -> None:
+    def add(where: NDArray[np.bool_], chance: Array, fresnel: Array, alpha: Array, bound: Array | float) -> None:
         nonlocal value, pdf
         pdf = pdf + np.where(where, chance * reflected_density(viewer, h, alpha, bound), 0.0)
         lobe = fresnel * reflected_value(viewer, light, h, alpha)[:, None]
