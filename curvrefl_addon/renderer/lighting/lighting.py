@@ -15,19 +15,20 @@ import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.view import View
-from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import largest_texture, texture_2d, texture_layers
+from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
-from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
+from .shadow_alpha import HASHED_SAMPLES, ShadowAlpha
+from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, turns_of, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
+from .world_image import world_image
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
@@ -94,6 +95,7 @@ class Lighting:
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
+        self._alpha = ShadowAlpha(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -109,18 +111,21 @@ class Lighting:
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
+        was_hashed = bool(self._alpha.hashed)
+        drawn_anew = self._alpha.follow(scene) or bool(moved)
         planned = difference.structure or (bool(moved) and not self._holds(moved))
+        planned = planned or bool(self._alpha.hashed) != was_hashed
         if planned:
             self._read_geometry()
         if scene.world is not before.world:
             self._read_world()
         if planned or scene.lights is not before.lights or scene.world is not before.world:
             self._plan_lamps()
-        elif moved:
+        elif drawn_anew:
             self._lamp_maps.forget()
         if planned or scene.world is not before.world:
             self._plan_world_shadows()
-        elif moved:
+        elif drawn_anew:
             self._world_maps.forget()
         self.features = self._found_features()
         self._blocks.clear()
@@ -128,7 +133,7 @@ class Lighting:
     def _read_geometry(self) -> None:
         pieces, self._standing_apart = shadow_pieces(self._geometry)
         self._extent = SceneExtent(pieces)
-        self._casters = ShadowCasters(self._geometry, self._extent)
+        self._casters = ShadowCasters(self._geometry, self._extent, self._alpha)
         self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
 
     def _holds(self, moved: list[int]) -> bool:
@@ -226,7 +231,12 @@ class Lighting:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
-        return (*self._lamp_warnings, *self._left_out, *(self._oddly_seen if self._world_is_lit else ()))
+        return (
+            *self._lamp_warnings,
+            *self._left_out,
+            *self._alpha.warnings,
+            *(self._oddly_seen if self._world_is_lit else ()),
+        )
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
@@ -241,13 +251,17 @@ class Lighting:
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
+        if self._alpha.hashed:
+            # Maps of one point differ in what is there by chance.
+            least = min(samples, HASHED_SAMPLES)
+            points = [places if len(places) > 1 else np.repeat(places, least, axis=0) for places in points]
         resolution = LAMP_MAP_RESOLUTIONS[0]
         views: list[ShadowView] = []
         for resolution in LAMP_MAP_RESOLUTIONS:
             self._lamp_places, views = self._lamp_views(points, resolution)
             if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
                 break
-        self._lamp_maps.plan(views, resolution)
+        self._lamp_maps.plan(views, turns_of(self._lamp_places, len(views)), resolution)
 
     def _lamp_views(
         self, points: list[Float64Array], resolution: int
@@ -283,18 +297,7 @@ class Lighting:
         light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
-        self.world_warnings = ()
-        if world.image is None:
-            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
-        else:
-            pixels = averaged(world.image, largest_texture(), largest_texture())
-            if pixels.shape != world.image.shape:
-                self.world_warnings = (
-                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
-                )
-            image = np.ones((*pixels.shape[:2], 4), np.float32)
-            image[..., :3] = pixels
-            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
+        self._world_image, self.world_warnings = world_image(world)
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
@@ -306,7 +309,8 @@ class Lighting:
             if view is not None:
                 self._world_layers[index] = len(views)
                 views.append(view)
-        self._world_maps.plan(views)
+        # (Each direction is by chance on its own: the place that its ray comes through is another one's nowhere.)
+        self._world_maps.plan(views, [(number, 1) for number in range(len(views))])
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
         """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,12 @@ import numpy as np
 from ...scene.arrays import Float64Array
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
-from ..device.shaders import Piece, build_shader
+from ..device.shaders import Piece, build_shader, flags
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
+from ..geometry.chunk import CHUNK, Chunk, Pieces
 from ..geometry.scene_geometry import SceneGeometry
+from .shadow_alpha import ALONE, SHADOW_ALPHA, ShadowAlpha, Turn
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 
 SLOPE_LIMIT_TEXELS = 20.0
@@ -29,14 +31,41 @@ BORDER = 1
 class ShadowCasters:
     """What is drawn into the maps: the scene's chunks without what casts on nothing."""
 
-    def __init__(self, geometry: SceneGeometry, extent: SceneExtent) -> None:
+    def __init__(self, geometry: SceneGeometry, extent: SceneExtent, alpha: ShadowAlpha) -> None:
         self._geometry = geometry
         self._extent = extent
-        self._idle: dict[frozenset[int], dict[int, frozenset[tuple[int, int]]]] = {}
+        self._alpha = alpha
+        self._idle: dict[frozenset[int], dict[int, Pieces]] = {}
         self._revision = geometry.revision
 
-    def draw(self, shader: Any, view: ShadowView) -> None:
-        """All that casts in a view, with a bound shader."""
+    def draw(self, view: ShadowView, bias: tuple[float, float, float], turn: Turn) -> None:
+        """All that casts in a view."""
+        shader = _shadow_depth_shader()
+        shader.bind()
+        shader.uniform_float("world_to_clip", _matrix(view))
+        shader.uniform_float("bias", bias)
+        for chunk, idle in self._in_view(view):
+            batch = chunk.casters(idle, self._alpha.materials)
+            if batch is not None:
+                shader.uniform_sampler("positions", chunk.positions)
+                batch.draw(shader)
+        if not self._alpha.hashed:
+            return
+        shader = _hashed_depth_shader()
+        shader.bind()
+        shader.uniform_float("world_to_clip", _matrix(view))
+        shader.uniform_float("bias", bias)
+        shader.uniform_int("turn", turn)
+        self._alpha.bind(shader)
+        for chunk, idle in self._in_view(view):
+            for material, batch in chunk.casters_of(idle, self._alpha.hashed):
+                shader.uniform_sampler("positions", chunk.positions)
+                shader.uniform_sampler("corners", chunk.corners)
+                shader.uniform_int("material", material)
+                batch.draw(shader)
+
+    def _in_view(self, view: ShadowView) -> Iterator[tuple[Chunk, Pieces]]:
+        """Chunks, and what of them casts on nothing."""
         idle_planes = view.idle_planes
         if self._revision != self._geometry.revision:
             self._revision = self._geometry.revision
@@ -45,14 +74,10 @@ class ShadowCasters:
             self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
         idle = self._idle[idle_planes]
         for chunk in self._geometry.chunks:
-            if not self._geometry.may_be_in(chunk, view.world_to_clip):
-                continue
-            batch = chunk.casters(idle.get(id(chunk), frozenset()))
-            if batch is not None:
-                shader.uniform_sampler("positions", chunk.positions)
-                batch.draw(shader)
+            if self._geometry.may_be_in(chunk, view.world_to_clip):
+                yield chunk, idle.get(id(chunk), frozenset())
 
-    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, frozenset[tuple[int, int]]]:
+    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, Pieces]:
         """By a chunk's id, pairs (instance in the chunk, piece)."""
         found: dict[int, set[tuple[int, int]]] = {}
         for index, piece in self._extent.pieces_in_planes(planes):
@@ -72,10 +97,11 @@ class ShadowMaps:
         self.texture: Any = None
         self._size = (0, 0)
         self._drawn: list[bool] = []
+        self._turns: Sequence[Turn] = ()
 
-    def plan(self, views: list[ShadowView], resolution: int | None = None) -> None:
-        """Hold these views from now on."""
-        self.views = views
+    def plan(self, views: list[ShadowView], turns: Sequence[Turn], resolution: int | None = None) -> None:
+        """Hold these views from now on, with what each lets through in its turn."""
+        self.views, self._turns = views, turns
         self.resolution = resolution or self.resolution
         size = (self.resolution if views else 1, max(len(views), 1))
         if self.texture is None or size != self._size:
@@ -93,7 +119,6 @@ class ShadowMaps:
         missing = [layer for layer in layers if not self._drawn[layer]]
         if not missing:
             return
-        shader = shadow_depth_shader()
         for layer in missing:
             view = self.views[layer]
             target = frame_buffer(depth=layer_of(self.texture, layer))
@@ -101,10 +126,7 @@ class ShadowMaps:
                 set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
-                shader.bind()
-                shader.uniform_float("world_to_clip", _matrix(view))
-                shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
-                casters.draw(shader, view)
+                casters.draw(view, (self._bias_texels, *_slope_limit(view)), self._turns[layer])
             self._drawn[layer] = True
 
     def hold(self, layers: Sequence[int], points: Float64Array) -> bool:
@@ -157,14 +179,46 @@ def fill_shadow_records(block: Float64Array, maps: ShadowMaps, layers: tuple[int
         block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
 
 
+def turns_of(lamps: Sequence[Sequence[tuple[Float64Array, tuple[int, ...]]]], count: int) -> list[Turn]:
+    """Of `count` layers, among those of the same lamp; `lamps`: of each its points with the layers of their maps."""
+    turns = [ALONE] * count
+    for planned in lamps:
+        for number, (_, layers) in enumerate(planned):
+            for layer in layers:
+                if layer >= 0:
+                    turns[layer] = (number, len(planned))
+    return turns
+
+
+_DEPTH = Piece(constants={"world_to_clip": "MAT4", "bias": "VEC3"}, writes_depth=True)
+
+
 @gpu_cache
-def shadow_depth_shader() -> Any:
+def _shadow_depth_shader() -> Any:
     return build_shader(
         "shadow depth",
+        _DEPTH,
         Piece(
             samplers={"positions": "FLOAT_2D"},
-            constants={"world_to_clip": "MAT4", "bias": "VEC3"},
-            writes_depth=True,
+            vertex="lighting/shadow_depth.vert.glsl",
+            fragment="lighting/shadow_depth.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _hashed_depth_shader() -> Any:
+    """For casters that let light straight on."""
+    return build_shader(
+        "hashed shadow depth",
+        _DEPTH,
+        CHUNK,
+        SHADOW_ALPHA,
+        Piece(
+            constants={"material": "INT", "turn": "IVEC2"},
+            smooth={"uv": "VEC2"},
+            flat={"surface": "IVEC2"},
+            defines=flags("HASHED"),
             vertex="lighting/shadow_depth.vert.glsl",
             fragment="lighting/shadow_depth.frag.glsl",
         ),
