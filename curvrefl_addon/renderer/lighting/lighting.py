@@ -9,6 +9,7 @@ view: they are drawn when a sub-frame first needs them and kept.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
 from .shadow_alpha import HASHED_SAMPLES, ShadowAlpha
-from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, turns_of, window_rows
+from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
@@ -261,7 +262,7 @@ class Lighting:
             self._lamp_places, views = self._lamp_views(points, resolution)
             if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
                 break
-        self._lamp_maps.plan(views, turns_of(self._lamp_places, len(views)), resolution)
+        self._lamp_maps.plan(views, resolution)
 
     def _lamp_views(
         self, points: list[Float64Array], resolution: int
@@ -271,7 +272,7 @@ class Lighting:
         lamps = []
         for light, places in zip(self._lights, points, strict=True):
             planned = []
-            for place in places:
+            for number, place in enumerate(places):
                 found: tuple[ShadowView | None, ...] = ()
                 if light.casts_shadow and light.kind == "SUN":
                     found = (self._extent.parallel_view(place[:3] / np.linalg.norm(place[:3]), resolution),)
@@ -281,7 +282,7 @@ class Lighting:
                 for view in found:
                     layers.append(-1 if view is None else len(views))
                     if view is not None:
-                        views.append(view)
+                        views.append(replace(view, turn=(number, len(places))))
                 planned.append((place, tuple(layers)))
             lamps.append(planned)
         return lamps, views
@@ -308,9 +309,9 @@ class Lighting:
             view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
             if view is not None:
                 self._world_layers[index] = len(views)
-                views.append(view)
-        # (Each direction is by chance on its own: the place that its ray comes through is another one's nowhere.)
-        self._world_maps.plan(views, [(number, 1) for number in range(len(views))])
+                # (What is there by chance in one direction's map has nothing to do with the others'.)
+                views.append(replace(view, turn=(index, 1)))
+        self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
         """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""

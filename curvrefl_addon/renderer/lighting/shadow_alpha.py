@@ -21,9 +21,6 @@ from ..device.records import TEXTURE_WIDTH, record_texture
 from ..device.shaders import Piece, named
 from ..device.textures import largest_texture, texture_2d
 
-type Turn = tuple[int, int]
-"""Which of how many maps of one lamp"""
-ALONE: Turn = (0, 1)
 ALPHA_RECORDS = 4
 SHADOW_ALPHA = Piece(
     samplers=named("FLOAT_2D", "caster_alphas", "caster_texels"), defines={"ALPHA_RECORDS": ALPHA_RECORDS}

@@ -17,7 +17,7 @@ from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
 from ..geometry.chunk import CHUNK, Chunk, Pieces
 from ..geometry.scene_geometry import SceneGeometry
-from .shadow_alpha import ALONE, SHADOW_ALPHA, ShadowAlpha, Turn
+from .shadow_alpha import SHADOW_ALPHA, ShadowAlpha
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 
 SLOPE_LIMIT_TEXELS = 20.0
@@ -38,7 +38,7 @@ class ShadowCasters:
         self._idle: dict[frozenset[int], dict[int, Pieces]] = {}
         self._revision = geometry.revision
 
-    def draw(self, view: ShadowView, bias: tuple[float, float, float], turn: Turn) -> None:
+    def draw(self, view: ShadowView, bias: tuple[float, float, float]) -> None:
         """All that casts in a view."""
         shader = _shadow_depth_shader()
         shader.bind()
@@ -55,7 +55,7 @@ class ShadowCasters:
         shader.bind()
         shader.uniform_float("world_to_clip", _matrix(view))
         shader.uniform_float("bias", bias)
-        shader.uniform_int("turn", turn)
+        shader.uniform_int("turn", view.turn)
         self._alpha.bind(shader)
         for chunk, idle in self._in_view(view):
             for material, batch in chunk.casters_of(idle, self._alpha.hashed):
@@ -97,11 +97,10 @@ class ShadowMaps:
         self.texture: Any = None
         self._size = (0, 0)
         self._drawn: list[bool] = []
-        self._turns: Sequence[Turn] = ()
 
-    def plan(self, views: list[ShadowView], turns: Sequence[Turn], resolution: int | None = None) -> None:
-        """Hold these views from now on, with what each lets through in its turn."""
-        self.views, self._turns = views, turns
+    def plan(self, views: list[ShadowView], resolution: int | None = None) -> None:
+        """Hold these views from now on."""
+        self.views = views
         self.resolution = resolution or self.resolution
         size = (self.resolution if views else 1, max(len(views), 1))
         if self.texture is None or size != self._size:
@@ -126,7 +125,7 @@ class ShadowMaps:
                 set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
-                casters.draw(view, (self._bias_texels, *_slope_limit(view)), self._turns[layer])
+                casters.draw(view, (self._bias_texels, *_slope_limit(view)))
             self._drawn[layer] = True
 
     def hold(self, layers: Sequence[int], points: Float64Array) -> bool:
@@ -177,17 +176,6 @@ def fill_shadow_records(block: Float64Array, maps: ShadowMaps, layers: tuple[int
         block[8] = [layers[4], layers[5], near_term, far_term]
         half = 0.5 * maps.resolution - BORDER
         block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
-
-
-def turns_of(lamps: Sequence[Sequence[tuple[Float64Array, tuple[int, ...]]]], count: int) -> list[Turn]:
-    """Of `count` layers, among those of the same lamp; `lamps`: of each its points with the layers of their maps."""
-    turns = [ALONE] * count
-    for planned in lamps:
-        for number, (_, layers) in enumerate(planned):
-            for layer in layers:
-                if layer >= 0:
-                    turns[layer] = (number, len(planned))
-    return turns
 
 
 _DEPTH = Piece(constants={"world_to_clip": "MAT4", "bias": "VEC3"}, writes_depth=True)
