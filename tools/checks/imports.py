@@ -26,6 +26,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.paths",),
     ("renderer.vertices", "renderer.rays", "renderer.lighting"),
     ("renderer.shading",),
+    ("renderer.tracing",),
     ("renderer.environments",),
     ("renderer.shown",),
     ("renderer",),
