@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much of a caster is there. Needs the samplers (FLOAT_2D) of renderer/lighting/shadow_alpha.py: `caster_alphas`,
-// of each material (alpha or -1 for an image, threshold, inverted, row where the image begins); (scale, offset of uv);
-// (turn of uv, width, height); (tint, extension, plus 4 for the nearest texel); `caster_texels`, the images' alphas.
+// How much of a caster is there. Needs the sampler (FLOAT_2D) `caster_alphas` of renderer/lighting/shadow_alpha.py:
+// records of each material (alpha or -1 for an image, threshold, inverted, row where the image begins); (scale, offset
+// of uv); (turn of uv, width, height); (tint, extension, plus 4 for the nearest texel); then the images' alphas.
 #include "common/records.glsl"
 
-// A texel of an image that begins at a row of `caster_texels`; beyond its border as the extension says.
+// A texel of an image that begins at a row; beyond its border as the extension says.
 float caster_texel(int row, ivec2 size, ivec2 place, int extension)
 {
   if (extension == 3 && (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, size)))) {
@@ -20,8 +20,8 @@ float caster_texel(int row, ivec2 size, ivec2 place, int extension)
     }
   }
   place = clamp(place, ivec2(0), size - 1);
-  ivec2 texel = texel_of_record(place.y * size.x + place.x);
-  return texelFetch(caster_texels, texel + ivec2(0, row), 0).r;
+  int texel = place.y * size.x + place.x;
+  return texelFetch(caster_alphas, texel_of_record(texel >> 2) + ivec2(0, row), 0)[texel & 3];
 }
 
 float caster_image(int row, ivec2 size, vec2 uv, int way)

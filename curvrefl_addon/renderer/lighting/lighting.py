@@ -23,7 +23,7 @@ from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
-from .shadow_alpha import HASHED_SAMPLES, ShadowAlpha
+from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
@@ -66,6 +66,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
             "lighting_world_maps": "FLOAT_2D_ARRAY",
             **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
+            **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
@@ -75,6 +76,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **LAMP_DEFINES,
             **WORLD_DEFINES,
             **GGX_DEFINES,
+            **SHADOW_ALPHA.defines,
         },
     )
 
@@ -113,10 +115,11 @@ class Lighting:
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
-        was_hashed = bool(self._alpha.hashed)
+        was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
-        planned = difference.structure or (bool(moved) and not self._holds(moved))
-        planned = planned or bool(self._alpha.hashed) != was_hashed
+        planned = (
+            difference.structure or (bool(moved) and not self._holds(moved)) or was_hashed != self._alpha.is_hashed
+        )
         if planned:
             self._read_geometry()
         if scene.world is not before.world:
@@ -190,6 +193,8 @@ class Lighting:
             found.add("LIGHTING_IMAGE")
         if self._world_is_lit:
             found.add("LIGHTING_WORLD")
+        if self._alpha.materials:
+            found.add(ALPHA)
         return frozenset(found)
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
@@ -220,6 +225,8 @@ class Lighting:
         shader.uniform_block("lighting_data", self._bound)
         shader.uniform_sampler("lighting_lamp_depth", self._lamp_maps.texture)
         shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
+        if ALPHA in self.features:
+            self._alpha.bind(shader)
         shader.uniform_sampler("lighting_world_maps", self._world_textures)
         shader.uniform_sampler("lighting_world_image", self._world_image)
         shader.uniform_sampler("lighting_ggx", self.ggx)
@@ -253,10 +260,7 @@ class Lighting:
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
         points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
-        if self._alpha.hashed:
-            # Maps of one point differ in what is there by chance.
-            least = min(samples, HASHED_SAMPLES)
-            points = [places if len(places) > 1 else np.repeat(places, least, axis=0) for places in points]
+        points = [self._alpha.repeated(places, samples) for places in points]
         resolution = LAMP_MAP_RESOLUTIONS[0]
         views: list[ShadowView] = []
         for resolution in LAMP_MAP_RESOLUTIONS:

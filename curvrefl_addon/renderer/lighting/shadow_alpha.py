@@ -14,18 +14,21 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, ImageArrays, MaterialArrays, SceneArrays
+from ...scene.arrays import Float32Array, Float64Array, ImageArrays, MaterialArrays, SceneArrays
 from ...scene.materials.pixels import averaged
 from ...scene.remarks import Remark, sentences
-from ..device.records import TEXTURE_WIDTH, record_texture
-from ..device.shaders import Piece, named
-from ..device.textures import largest_texture, texture_2d
+from ..device.records import TEXTURE_WIDTH, padded_count, record_texture
+from ..device.shaders import Piece
+from ..device.textures import largest_texture
+from ..paths.features import lets_straight_on
 
+ALPHA = "LIGHTING_ALPHA"
+"""Define of the shaders that light a scene with such casters"""
 ALPHA_RECORDS = 4
-SHADOW_ALPHA = Piece(
-    samplers=named("FLOAT_2D", "caster_alphas", "caster_texels"), defines={"ALPHA_RECORDS": ALPHA_RECORDS}
-)
+SHADOW_ALPHA = Piece(samplers={"caster_alphas": "FLOAT_2D"}, defines={"ALPHA_RECORDS": ALPHA_RECORDS})
 """What `shadow_alpha.glsl` needs"""
+ROW_TEXELS = 4 * TEXTURE_WIDTH
+"""Alphas of an image in one row of the texture"""
 HASHED_SAMPLES = 8
 """Maps of a lamp without size where something is there by chance"""
 GRAY = 0.02
@@ -38,17 +41,14 @@ class ShadowAlpha:
     """Of one scene."""
 
     def __init__(self, scene: SceneArrays) -> None:
-        self._clear: dict[int, tuple[ImageArrays, bool]] = {}
-        """By an image's id, whether its alpha is below 1 anywhere"""
         self._materials: tuple[MaterialArrays, ...] = ()
         self._images: tuple[ImageArrays, ...] = ()
         self.materials: frozenset[int] = frozenset()
         """Indices of those that are no opaque casters"""
         self.hashed: frozenset[int] = frozenset()
         """Those of them that cast a shadow at all"""
-        self.has_images = False
         self.warnings: tuple[str, ...] = ()
-        self._textures: tuple[Any, Any] | None = None
+        self._texture: Any = None
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> bool:
@@ -57,11 +57,9 @@ class ShadowAlpha:
             return False
         before = (self.materials, [self._key(index) for index in sorted(self.materials)])
         self._materials, self._images = scene.materials, scene.images
-        self._clear = {id(image): self._clear.get(id(image)) or (image, _is_clear(image)) for image in self._alphas()}
         through = [self._passes(index) for index in range(len(scene.materials))]
         self.materials = frozenset(index for index, share in enumerate(through) if share > 0.0)
         self.hashed = frozenset(index for index in self.materials if through[index] < 1.0)
-        self.has_images = any(self._image_of(index) is not None for index in self.hashed)
         cause = "Shadows {of} are gray where shadow maps serve: its tint is left out."
         tinted = [self._materials[index] for index in self.hashed]
         self.warnings = sentences(
@@ -69,25 +67,30 @@ class ShadowAlpha:
         )
         if before == (self.materials, [self._key(index) for index in sorted(self.materials)]):
             return False
-        self._textures = None
+        self._texture = None
         return True
+
+    @property
+    def is_hashed(self) -> bool:
+        """Whether maps of one point differ in what is there by chance."""
+        return bool(self.hashed)
+
+    def repeated(self, places: Float64Array, count: int) -> Float64Array:
+        """Points of a lamp (n, k), that of one without size as often as its maps differ in what they hold."""
+        if not self.hashed or len(places) > 1:
+            return places
+        return np.repeat(places, min(count, HASHED_SAMPLES), axis=0)
 
     def bind(self, shader: Any) -> None:
         """Set what `SHADOW_ALPHA` names on a bound shader."""
-        if self._textures is None:
-            self._textures = self._uploaded()
-        shader.uniform_sampler("caster_alphas", self._textures[0])
-        shader.uniform_sampler("caster_texels", self._textures[1])
-
-    def _alphas(self) -> list[ImageArrays]:
-        """Images in whose alpha materials have theirs."""
-        return [self._images[item.scalars.image] for item in self._materials if item.scalars is not None]
+        if self._texture is None:
+            self._texture = self._uploaded()
+        shader.uniform_sampler("caster_alphas", self._texture)
 
     def _image_of(self, index: int) -> ImageArrays | None:
-        """That makes a material let light through at some places."""
+        """In whose alpha a material has its own."""
         scalars = self._materials[index].scalars
-        image = None if scalars is None else self._images[scalars.image]
-        return image if image is not None and self._clear[id(image)][1] else None
+        return None if scalars is None else self._images[scalars.image]
 
     def _key(self, index: int) -> tuple[object, ...]:
         """What shadows depend on."""
@@ -97,30 +100,34 @@ class ShadowAlpha:
     def _passes(self, index: int) -> float:
         """Share of light that gets through; of a material with an image between 0 and 1."""
         item = self._materials[index]
+        if not lets_straight_on(item):
+            return 0.0
+        tint = float(np.mean(item.transparent_tint))
         if item.scalars is not None:
-            return 0.5 if self._image_of(index) is not None and max(item.transparent_tint) > 0.0 else 0.0
+            return 0.5 * min(tint, 1.0)
         alpha = item.alpha
         if item.alpha_threshold >= 0.0:
             alpha = float((alpha > item.alpha_threshold) != item.alpha_inverted)
-        return (1.0 - alpha) * float(np.mean(item.transparent_tint))
+        return (1.0 - alpha) * tint
 
-    def _uploaded(self) -> tuple[Any, Any]:
-        """Records of all materials, and the alphas of their images, row by row (see `shadow_alpha.glsl`)."""
-        records = np.zeros((len(self._materials), ALPHA_RECORDS, 4), np.float32)
-        rows: list[Float32Array] = []
+    def _uploaded(self) -> Any:
+        """Records of all materials, then the alphas of their images, each from a row of its own, four to a record (see
+        `shadow_alpha.glsl`)."""
+        records = np.zeros((padded_count(len(self._materials) * ALPHA_RECORDS), 4), np.float32)
+        rows = [records.reshape(-1, ROW_TEXELS)]
         starts: dict[int, tuple[int, int, int]] = {}
         images = {id(image): image for index in self.hashed if (image := self._image_of(index)) is not None}
         # (Fewer texels of each where all would not fit.)
-        room = largest_texture() * TEXTURE_WIDTH // max(len(images), 1) - TEXTURE_WIDTH
+        room = ((largest_texture() - len(rows[0])) // max(len(images), 1) - 1) * ROW_TEXELS
         for key, image in images.items():
             alpha = _shrunk(image.pixels[..., 3:], room)
             height, width = alpha.shape[:2]
             starts[key] = (sum(len(part) for part in rows), width, height)
-            flat = np.zeros(-(-width * height // TEXTURE_WIDTH) * TEXTURE_WIDTH, np.float32)
-            flat[: width * height] = alpha.ravel()
-            rows.append(flat.reshape(-1, TEXTURE_WIDTH))
-        for index in self.hashed:
-            item, record = self._materials[index], records[index]
+            texels = np.zeros(-(-width * height // ROW_TEXELS) * ROW_TEXELS, np.float32)
+            texels[: width * height] = alpha.ravel()
+            rows.append(texels.reshape(-1, ROW_TEXELS))
+        for index in self.materials:
+            item, record = self._materials[index], records[ALPHA_RECORDS * index :]
             record[0] = (item.alpha, item.alpha_threshold, float(item.alpha_inverted), 0.0)
             record[3, :3] = item.transparent_tint
             image = self._image_of(index)
@@ -131,12 +138,7 @@ class ShadowAlpha:
             record[1] = (*item.scalars.uv_scale, *item.scalars.uv_offset)
             record[2] = (*item.scalars.uv_turn, width, height)
             record[3, 3] = EXTENSIONS[image.extension] + IS_NEAREST * image.nearest
-        texels = np.concatenate(rows) if rows else np.ones((1, 1), np.float32)
-        return record_texture(records.reshape(-1, 4)), texture_2d(texels[..., None], "R16F")
-
-
-def _is_clear(image: ImageArrays) -> bool:
-    return bool(image.pixels[..., 3].min(initial=1.0) < 1.0)
+        return record_texture(np.concatenate(rows).reshape(-1, 4))
 
 
 def _shrunk(alpha: Float32Array, room: int) -> Float32Array:
