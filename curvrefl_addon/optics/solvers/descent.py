@@ -112,8 +112,8 @@ def second_derivative(
     """Of the path length at u in `frame`: xx, xy and yy, (n,) each.
 
     With P_i = r_i u + r e_i and P_ij . h = (r_ij - r d_ij) (h . u) + r_i (h . e_j) + r_j (h . e_i) it is
-    -P_ij . h plus, for each leg of length d in the direction t, (P_i . P_j - (P_i . t) (P_j . t)) / d, times `index` for
-    the leg to the vertex.
+    -P_ij . h plus, for each leg of length d in the direction t, (P_i . P_j - (P_i . t) (P_j . t)) / d; that of the
+    vertex counts `index` times.
     """
     first, second = frame
     to_vertex = vertices - at.position
@@ -172,8 +172,8 @@ def minimize(
         g = path_gradient(eye, target, here, at, index)
         frame = tangent_frame(here)
         derivative = second_derivative(surface, eye, target, here, at, frame, index)
-        derivative, regular = _shifted(derivative, any_kind)
-        newton = _solved(derivative, g, frame)
+        derivative, regular = shifted(derivative, any_kind)
+        newton = newton_step(derivative, g, frame)
         newton_length = np.linalg.norm(newton, axis=1)
         step = newton * np.minimum(1.0, LONGEST_STEP / np.maximum(newton_length, 1e-30))[:, None]
         iterations[active] += 1
@@ -205,7 +205,7 @@ def minimize(
             good = ~accepted & regular & contracts if any_kind else ~accepted & (descends | (regular & contracts))
             moved[good] = trial[good]
             if trial_number == 0:
-                correction[good] = _solved(derivative, g_there, frame)[good]
+                correction[good] = newton_step(derivative, g_there, frame)[good]
                 length_there = shortened
             accepted |= good
             factor = np.where(accepted, factor, SHORTENING * factor)
@@ -241,7 +241,7 @@ def _pixels(screen: Screen, at: SurfaceSample, step: Float64Array) -> Float64Arr
     return np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
 
 
-def _shifted(
+def shifted(
     derivative: tuple[Float64Array, Float64Array, Float64Array], any_kind: bool
 ) -> tuple[tuple[Float64Array, Float64Array, Float64Array], np.ndarray]:
     """The second derivative made positive, and whether (n,) it was so as it was; with `any_kind` only whether it can be
@@ -255,7 +255,7 @@ def _shifted(
     return (xx + shift, xy, yy + shift), (shift == 0.0) & (lowest > 0.0)
 
 
-def _solved(
+def newton_step(
     derivative: tuple[Float64Array, Float64Array, Float64Array],
     g: Float64Array,
     frame: tuple[Float64Array, Float64Array],
