@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the searches of `newton_refraction` start; mirrors optics/solvers/newton_refraction.py. Needs REFRACTS and the
+// Where the searches of `newton_refraction` start; mirrors optics/solvers/refraction_start.py. Needs REFRACTS and the
 // sampler `radial`.
 #include "solver_pieces/last_frame.glsl"
 #include "solver_pieces/snell.glsl"
 #include "solver_pieces/pierce.glsl"
-#from optics.solvers.newton_refraction import SCANNED, HALVINGS, SEEDS, GOLDEN_ANGLE, SUPPORT_STEPS, SUPPORT_TRIALS
+#from optics.solvers.refraction_start import SCANNED, HALVINGS, SEEDS, GOLDEN_ANGLE, SUPPORT_STEPS, SUPPORT_TRIALS
 
 #define PI 3.14159265358979
 // No angle.
@@ -31,8 +31,8 @@ vec3 on_circle(Circle circle, float x)
   return cos(x) * circle.start + sin(x) * circle.across;
 }
 
-// Slope of the path along the circle, of a sphere of this radius or, where that is 0, of the map; whether eye and vertex
-// see the surface there from their sides.
+// Slope of the path along the circle, of a sphere of this radius or, where that is 0, of the map; whether eye and
+// vertex see the surface there from their sides.
 float circle_slope(Circle circle, vec3 vertex, float radius, float x, out bool valid)
 {
   if (radius == 0.0) {

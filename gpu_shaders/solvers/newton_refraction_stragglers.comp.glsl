@@ -3,13 +3,14 @@
 // The clean-up pass of `newton_refraction`: vertices of the list climb the ladder of starts. Mirrors
 // optics/solvers/newton_refraction.py.
 #include "solver_pieces/refraction_start.glsl"
-#from optics.solvers.newton_refraction import STEPS, STARTS, ROOTS, NORMAL_ROUNDS, HORIZON_BISECTIONS
-#from optics.solvers.newton_refraction import FIRST_GUESS, ENTRY, CIRCLE, NORMAL, SEEDED, RUNG_COUNT
+#from optics.solvers.newton_refraction import STEPS, HORIZON_BISECTIONS
+#from optics.solvers.refraction_start import STARTS, ROOTS, NORMAL_ROUNDS
+#from optics.solvers.refraction_start import FIRST_GUESS, ENTRY, CIRCLE, NORMAL, SEEDED, RUNG_COUNT
 
 #define STEP_BITS 1023
 
-// Of a vertex that no search has found: hidden where it is beyond the last line of sight that passes the surface on its
-// side, or before the surface; it is placed as far past the horizon as it is past that ray.
+// Of a vertex that no search has found: hidden where it is beyond the last line of sight that passes the surface on
+// its side, or before the surface; it is placed as far past the horizon as it is past that ray.
 Solved not_found(int iterations, vec3 vertex, Circle circle)
 {
   float low = 0.0;

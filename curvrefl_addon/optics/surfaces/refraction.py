@@ -65,8 +65,8 @@ def sphere_points(
 
     eye (4,) or (n, 4) homogeneous, vertices (n, 3), `index` a number or (n,); `side` -1 for an eye inside. All are in
     the plane of eye, vertex and center, but for vertices in line with eye and center, whose other points are these
-    turned about the line. With the direction of P at the angle t there, eye e (w = 1, or 0 at infinity) and vertex v at the
-    angle g, in radii, the tangential parts of both legs cancel where
+    turned about the line. With the direction of P at the angle t there, eye e (w = 1, or 0 at infinity) and vertex v at
+    the angle g, in radii, the tangential parts of both legs cancel where
         e sin t / sqrt(e^2 + w - 2 w e cos t) = index v sin(g - t) / sqrt(v^2 + 1 - 2 v cos(g - t)).
     Squared that is a trigonometric polynomial of degree three, in z = exp(i t) a sextic; those of its roots on the unit
     circle that have the sign and see eye and vertex from their sides are polished by Newton on the angle.

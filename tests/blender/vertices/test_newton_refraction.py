@@ -4,14 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.fermat import sample, towards_eye
 from curvrefl.curvrefl_addon.optics.screen import Screen
-from curvrefl.curvrefl_addon.optics.snell import refracted, snell_error
+from curvrefl.curvrefl_addon.optics.snell import refracted
 from curvrefl.curvrefl_addon.optics.solvers import newton_refraction
 from curvrefl.curvrefl_addon.optics.surfaces.cube_map import CubeMapSurface
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import RadialSurface, unit
