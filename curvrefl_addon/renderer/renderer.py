@@ -25,6 +25,7 @@ from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
+from .paths.features import path_features
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
@@ -32,6 +33,7 @@ from .reflection import Diagnostic, Reflection
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
+from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
@@ -40,6 +42,7 @@ from .surfaces.pixel_filter import offsets
 from .surfaces.primary import depths_of, draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
+from .tracing.tracer import PathTracer
 from .vertices.mirror_solver import require
 
 
@@ -76,6 +79,12 @@ class Renderer:
         self._materials = Materials(self.scene)
         self._lighting = Lighting(self.scene, self.geometry, self.settings.samples)
         self._shade = ShadePass(self.scene, self._lighting, self._materials)
+        self._tracer = self._new_tracer()
+
+    def _new_tracer(self) -> PathTracer | None:
+        """Where the scene needs one."""
+        features = path_features(self.scene)
+        return PathTracer(self.scene, features, self._lighting, self._materials) if features else None
 
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
@@ -101,6 +110,8 @@ class Renderer:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
+        if scene.materials is not before.materials or scene.instances is not before.instances:
+            self._tracer = self._new_tracer()
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
 
@@ -114,6 +125,7 @@ class Renderer:
             self._lighting.free()
             self._lighting = Lighting(self.scene, self.geometry, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
+            self._tracer = self._new_tracer()
             self._preparation.forget_cubes()
         if settings.environment_resolution != before.environment_resolution:
             self._preparation.forget_cubes()
@@ -126,7 +138,7 @@ class Renderer:
         self.geometry = SceneGeometry()
         self._targets = TargetPool()
         self._preparation = Preparation()
-        self._diagnostics = self._rays = None
+        self._diagnostics = self._rays = self._tracer = None
 
     def _follow_scene(self, scene: SceneArrays, anew: bool = False) -> Difference:
         """Mirrors and geometry."""
@@ -150,7 +162,7 @@ class Renderer:
 
     @property
     def _stage(self) -> Stage:
-        return Stage(self.mirrors, self.geometry, self._materials, self._lighting, self._shade, self.rays)
+        return Stage(self.mirrors, self.geometry, self._materials, self._lighting, self._shade, self.rays, self._tracer)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -266,7 +278,7 @@ class Renderer:
         reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
-        sub_frame = self._draw_surfaces(view, reflection, window, everywhere=diagnostic is not None)
+        sub_frame = self._draw_surfaces(view, reflection, window, diagnostic is not None, index)
         groups = reflection.groups
         if diagnostic is not None:
             if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
@@ -284,6 +296,9 @@ class Renderer:
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
             light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
             kind.add_light(members, sub_frame, light)
+        by_rays = bool(groups) and groups[0][0] is ShownRays
+        if self._tracer is not None and self._tracer.sees_through and not (mirrors_only or by_rays):
+            trace_seen_through(self._tracer, sub_frame, canvas, weight, self.settings)
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -313,11 +328,16 @@ class Renderer:
             self._rays.improve()
 
     def _draw_surfaces(
-        self, view: View, reflection: Reflection, window: Window | None = None, everywhere: bool = False
+        self,
+        view: View,
+        reflection: Reflection,
+        window: Window | None = None,
+        everywhere: bool = False,
+        index: int = 0,
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
         targets, shadows = self._targets.of(view.width, view.height), reflection.ray_shadows(self.rays)
-        sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows)
+        sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows, index)
         mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
         if not reflection.shown and not self.settings.entry.solves_vertices:
             mirrors = self.mirrors
@@ -332,6 +352,8 @@ class Renderer:
             is_followed=lambda chunk: id(chunk) in followed,
             depths=depths_of(view),
             mirrored=view.is_mirrored,
+            has_paths=self._tracer is not None,
+            has_scalars=self._tracer is not None and self._tracer.has_scalars,
         )
         return sub_frame
 

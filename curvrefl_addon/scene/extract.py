@@ -24,6 +24,7 @@ from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
 from .reads import (
+    Bounces,
     PlainObject,
     ShownInstance,
     bounces_of,
@@ -155,7 +156,7 @@ class SceneReader:
         world = (view_layer.world_override or scene.world) if view_layer.use_sky else None
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
-        self._last = self._arrays(reflectors, *bounces_of(scene))
+        self._last = self._arrays(reflectors, bounces_of(scene))
         return self._last
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
@@ -258,11 +259,12 @@ class SceneReader:
         if (nowhere := unplaced(name, matrix, rays.any)) is not None:
             return nowhere
         slots = self._slots(obj, uid, view_layer.material_override)
-        warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks]
-        if uid not in self._mapped and any(slot.has_relief for slot in slots):
+        is_mirror = uid in self._mapped
+        warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
+        if not is_mirror and any(slot.has_relief for slot in slots):
             warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
         needs = needs_of(obj, slots, warnings)
-        if uid in self._mapped and needs.uv_map is None and len(obj.data.uv_layers):
+        if is_mirror and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
@@ -300,6 +302,7 @@ class SceneReader:
                 visible_diffuse=rays.diffuse,
                 visible_glossy=rays.glossy,
                 visible_shadow=rays.shadow,
+                visible_transmission=rays.transmission,
                 holdout=rays.holdout,
             )
         return ShownInstance(made, None, tuple(warnings), True, made_of, error, rays.any, name)
@@ -307,7 +310,7 @@ class SceneReader:
     def _slots(self, obj: bpy.types.Object, uid: int, override: bpy.types.Material | None) -> list[ReadMaterial]:
         if uid in self._overrides:
             return [self._materials.plain(self._overrides[uid])]
-        return [self._materials.read(material) for material in slot_materials(obj, override)]
+        return [self._materials.read(material, uid in self._mapped) for material in slot_materials(obj, override)]
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
@@ -315,7 +318,7 @@ class SceneReader:
         self._world_warnings = []
         self._world = read_world(world, self._images, self._world_warnings)
 
-    def _arrays(self, reflectors: Sequence[bpy.types.Object], mirror_bounces: int, diffuse_bounces: int) -> SceneArrays:
+    def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         require_reflectors(self._shown, chosen, self._id)
         instances = [
@@ -335,7 +338,9 @@ class SceneReader:
             world=self._world,
             reflectors=reflecting,
             warnings=sentences([*warnings, *self._unseen, *rough, *self._images.remarks, *self._world_warnings]),
-            mirror_bounces=mirror_bounces,
-            diffuse_bounces=diffuse_bounces,
+            mirror_bounces=bounces.mirror,
+            transmission_bounces=bounces.transmission,
+            transparent_bounces=bounces.transparent,
+            diffuse_bounces=bounces.diffuse,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)

@@ -98,13 +98,29 @@ def object_of(uid: int, name: str) -> bpy.types.Object | None:
     return next((obj for obj in bpy.data.objects if obj.session_uid == uid), None)
 
 
-def bounces_of(scene: bpy.types.Scene) -> tuple[int, int]:
-    """`SceneArrays.mirror_bounces` and `diffuse_bounces`."""
+@dataclass(frozen=True, slots=True)
+class Bounces:
+    """As `SceneArrays.mirror_bounces` and the like."""
+
+    mirror: int = UNLIMITED_BOUNCES
+    transmission: int = UNLIMITED_BOUNCES
+    transparent: int = UNLIMITED_BOUNCES
+    diffuse: int = 0
+
+
+def bounces_of(scene: bpy.types.Scene) -> Bounces:
+    """How far Cycles follows rays in the scene's renders."""
     # Cycles is an add-on, and may be off.
     cycles = getattr(scene, "cycles", None)
     if cycles is None:
-        return UNLIMITED_BOUNCES, 0
-    return min(cycles.max_bounces, cycles.glossy_bounces), min(cycles.max_bounces, cycles.diffuse_bounces)
+        return Bounces()
+    # (What light goes straight through does not count as a bounce there.)
+    return Bounces(
+        min(cycles.max_bounces, cycles.glossy_bounces),
+        min(cycles.max_bounces, cycles.transmission_bounces),
+        cycles.transparent_max_bounces,
+        min(cycles.max_bounces, cycles.diffuse_bounces),
+    )
 
 
 def uid_of_block(block: bpy.types.ID | None) -> int:
@@ -194,6 +210,8 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.world is last.world
         and result.reflectors == last.reflectors
         and result.mirror_bounces == last.mirror_bounces
+        and result.transmission_bounces == last.transmission_bounces
+        and result.transparent_bounces == last.transparent_bounces
         and result.diffuse_bounces == last.diffuse_bounces
         and result.warnings == last.warnings
     )

@@ -19,12 +19,13 @@ class RayVisibility:
     diffuse: bool
     glossy: bool
     shadow: bool
+    transmission: bool
     holdout: bool
 
     @property
     def any(self) -> bool:
         """Whether it can be in a picture at all."""
-        return self.camera or self.glossy or self.shadow
+        return self.camera or self.glossy or self.shadow or self.transmission
 
 
 def rays_of(instance: Any, view_layer: bpy.types.ViewLayer) -> RayVisibility:
@@ -42,5 +43,6 @@ def rays_of(instance: Any, view_layer: bpy.types.ViewLayer) -> RayVisibility:
         diffuse=all(obj.visible_diffuse for obj in objects),
         glossy=all(obj.visible_glossy for obj in objects),
         shadow=all(obj.visible_shadow for obj in objects),
+        transmission=all(obj.visible_transmission for obj in objects),
         holdout=bool(objects[-1].is_holdout or holder.holdout_get(view_layer=view_layer)),
     )

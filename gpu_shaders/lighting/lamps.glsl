@@ -87,6 +87,12 @@ float lamp_shadow(int base, vec3 position)
   return lit;
 }
 
+#ifdef PATH_LOBES
+// Of lobes that rays follow as well (paths/vertex_light.glsl): their value times the cosine and this sample's share.
+// `density`: of this sample, over directions; 0 where no ray can meet the lamp.
+vec3 followed_lobes(vec3 to_viewer, vec3 to_light, float density);
+#endif
+
 // Radiance towards the viewer from all lamps.
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
@@ -102,6 +108,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
     float width = lighting_data[base + 1].w;
     float range = 1e30;
+#ifdef PATH_LOBES
+    vec3 even_irradiance = irradiance;  // of a lamp that shines alike to all sides
+#endif
 #ifdef LIGHTING_NEAR_LAMPS
     if (kind != LAMP_SUN) {
       to_light = place.xyz - s.position;
@@ -140,6 +149,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       }
       // (Not endless at the lamp's own place.)
       irradiance = clamp(irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
+#ifdef PATH_LOBES
+      even_irradiance = clamp(even_irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
+#endif
     }
 #endif
     float cos_light = dot(s.normal, to_light);
@@ -163,6 +175,16 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
         scattered += glossy;
       }
+#ifdef PATH_LOBES
+      vec3 body = abs(lighting_data[base + 6].rgb) * (lighting_data[base + 5].w > 0.5 ? 1.0 : 0.0);
+      vec3 even = abs(even_irradiance);
+      float density = (body.r + body.g + body.b) / max(even.r + even.g + even.b, 1e-30);
+      vec3 followed = followed_lobes(to_viewer, to_light, density);
+#ifdef LIGHTING_PARTS
+      followed *= lighting_data[base + 11].z;
+#endif
+      scattered += followed;
+#endif
       sum += scattered * irradiance;
     }
     i++;
@@ -170,6 +192,23 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
   return sum;
 }
+
+#ifdef PATH_LIGHT
+// Density with which the ray was chosen among all that leave a rough surface, whose lobes samples of lamps light too; 0
+// of other rays.
+float ray_density = 0.0;
+
+// Share of a lamp that is met by chance in what rays and samples find of it (Veach and Guibas, "Optimally combining
+// sampling techniques for Monte Carlo rendering", 1995: the balance heuristic). `cosine` at the lamp, 1 over `falloff`
+// the squared distance.
+float share_of_ray(int base, float falloff, float cosine)
+{
+  vec3 intensity = abs(lighting_data[base + 1].rgb), body = abs(lighting_data[base + 6].rgb);
+  float area = (intensity.r + intensity.g + intensity.b) / max(body.r + body.g + body.b, 1e-30);
+  float density = 1.0 / max(area * falloff * cosine, 1e-30);
+  return ray_density > 0.0 ? ray_density / (ray_density + density) : 1.0;
+}
+#endif
 
 // Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
 // through lamps in Cycles); alpha 1 where any is hit. `by_camera`: those that the camera sees, else those in mirrors.
@@ -187,6 +226,9 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
     bool hit = false;
     if (kind == LAMP_SUN) {
       hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
+#ifdef PATH_LIGHT
+      radiance *= share_of_ray(base, 1.0, 1.0);
+#endif
     }
 #ifdef LIGHTING_NEAR_LAMPS
     else {
@@ -201,6 +243,9 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
         bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
                                                        max(abs(across.x), abs(across.y)) <= 1.0;
         hit = facing < 0.0 && t > 0.0 && t < distance && inside;
+#ifdef PATH_LIGHT
+        radiance *= share_of_ray(base, 1.0 / max(t * t, lighting_data[base + 1].w * lighting_data[base + 1].w), -facing);
+#endif
 #ifdef LIGHTING_SPREAD
         radiance *= spread_share(base, -facing);
 #endif
@@ -214,6 +259,16 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
         vec3 place = t * direction - middle;
         float radius = lighting_data[base + 2].w;
         hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
+#ifdef PATH_LIGHT
+        float falloff = 1.0 / max(t * t, 1e-30);
+#ifdef LIGHTING_BALLS
+        if (lighting_data[base + 5].x > 0.5) {
+          falloff = 1.0 / max(away * away - radius * radius, 1e-30);
+          facing = 1.0;
+        }
+#endif
+        radiance *= share_of_ray(base, falloff, facing);
+#endif
 #ifdef LIGHTING_BALLS
         if (lighting_data[base + 5].x > 0.5) {
           float nearest = away * facing;

@@ -39,6 +39,20 @@ vec3 world_seen(vec3 direction, bool by_camera)
 #endif
 }
 
+#ifdef PATH_LIGHT
+// The same as a ray that was chosen with this density among many meets it: to rough surfaces its suns are lamps.
+vec3 world_met(vec3 direction, bool by_camera, float density)
+{
+  vec3 radiance = world_seen(direction, by_camera);
+#ifdef LIGHTING_IMAGE
+  if (density > 0.0) {
+    radiance *= min(1.0, lighting_data[1].w / max(radiance.r + radiance.g + radiance.b, 1e-9));
+  }
+#endif
+  return radiance;
+}
+#endif
+
 vec2 octahedral_place(vec3 direction)
 {
   vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));

@@ -11,6 +11,7 @@ struct RaySurface {
   vec3 color;     // vertex color
   float object_id;
   float mirror;   // 1, 2, ... on a mirror
+  bool is_back;   // seen from the inside
   int material;
 };
 
@@ -43,7 +44,13 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   RaySurface surface;
   surface.position = origin + hit.range * direction;
   surface.normal = normalize(normal.x * x + normal.y * y + normal.z * z) * (is_front ? 1.0 : -1.0);
-  if (about.y > 0.5) {
+  int slot = min(int(numbers.w), slots - 1);
+  surface.material = int(fetch_record(rays, materials_of_slots + slot / 4)[slot % 4]);
+  bool is_followed = about.y > 0.5;
+#ifdef PATH_STEP
+  is_followed = is_followed || fetch_record(materials, MATERIAL_RECORDS * surface.material + 12).w > 0.5;
+#endif
+  if (is_followed) {
     vec3 facet = normalize(outward) * (dot(outward, direction) < 0.0 ? 1.0 : -1.0);
     surface.normal = reflecting_outward(facet, -direction, surface.normal);
   }
@@ -51,7 +58,6 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   surface.color = color;
   surface.object_id = about.x;
   surface.mirror = about.y;
-  int slot = min(int(numbers.w), slots - 1);
-  surface.material = int(fetch_record(rays, materials_of_slots + slot / 4)[slot % 4]);
+  surface.is_back = !is_front;
   return surface;
 }

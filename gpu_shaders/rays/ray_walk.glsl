@@ -36,6 +36,11 @@ struct Hit {
 #endif
 };
 
+#ifdef PATH_STEP
+// 1: the ray starts outside of the closed mesh that it starts on, -1: inside.
+float own_side = 1.0;
+#endif
+
 Ray ray_along(vec3 origin, vec3 direction)
 {
   Ray ray;
@@ -64,8 +69,8 @@ int packed_child(float link, float count)
   return (int(link) << 4) + int(count) + 1;
 }
 
-// `own`: mirror that the ray starts on, 0: none; a closed one then counts where it faces the ray, as a ray below the
-// facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With
+// `own`: mirror (of a step of paths: object_id of what) that the ray starts on, 0: none; a closed one then counts where
+// it faces the ray, as a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With
 // `any_hit` whatever is nearer than `farthest` ends the walk.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
@@ -138,9 +143,15 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
       int record = rays_top.y + INSTANCE_RECORDS * link;
       vec4 about = fetch_record(rays, record + 3);
       int flags = int(about.z);
+#ifdef PATH_STEP
+      bool is_own = abs(about.x - own) < 0.5;
+      bool never = own_side > 0.0 && (flags & NEVER_SEES_ITSELF) != 0;
+#else
       bool is_own = about.y > 0.5 && abs(about.y - own) < 0.5;
+      bool never = (flags & NEVER_SEES_ITSELF) != 0;
+#endif
       link = NOWHERE;
-      if ((flags & seen_by) != 0 && !(is_own && (flags & NEVER_SEES_ITSELF) != 0)) {
+      if ((flags & seen_by) != 0 && !(is_own && never)) {
 #ifdef WITH_COUNTS
         hit.entered += 1.0;
 #endif
@@ -154,6 +165,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         nearest = is_own ? about.w : 0.0;
         bool one_sided = is_own && (flags & IS_CLOSED) != 0;
         facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
+#ifdef PATH_STEP
+        facing *= own_side;
+#endif
         instance = record;
         nodes = REGION_UNIT * int(regions.x);
         triangles = REGION_UNIT * int(regions.y);

@@ -28,5 +28,16 @@ void main()
   surface_normal = vec4(gl_FrontFacing ? normal : -normal, material);
   // (See SurfaceBuffer; a hole has a material below 0.)
   float shows = material < -0.5 ? -2.0 : (ids.y > 0.5 ? ids.y : -1.0);
+#ifdef PATHS
+  // (See PathVertices.)
+  surface_normal.w += gl_FrontFacing ? 0.0 : 0.25;
+  shows = shows == -1.0 && seen_through > 0.5 ? SEEN_THROUGH : shows;
+#endif
   surface_color_out = vec4(surface_color(), shows);
+#ifdef WITH_SCALARS
+  surface_scalars = texture(scalars_image, uv * scalars_transform.xy + scalars_transform.zw + scalars_turn * uv.yx);
+#endif
+#ifdef NO_SCALARS
+  surface_scalars = vec4(0.0);
+#endif
 }

@@ -15,8 +15,8 @@ WORD = "[A-Z]?[a-z]+|[A-Z]+(?![a-z])"
 """The parts of names such as base_color and BaseColor"""
 FOLDERS = ("curvrefl_addon", "docs", "gpu_shaders", "operators", "tests", "tools")
 SUFFIXES = (".py", ".glsl", ".md", ".toml", ".sh", ".txt")
-NOT_OURS = "inout,lod,nd,ons,ot,shepard,sur,wronly"
-"""Words of GLSL and of systems, a name, a title's French, and parts of names"""
+NOT_OURS = "eto,inout,lod,nd,ons,ot,shepard,sur,wronly"
+"""Words of GLSL and of systems, names, a title's French, and parts of names"""
 BLENDERS = "(?<![A-Z])CANCELLED"
 
 

@@ -33,6 +33,44 @@ def ggx_table() -> Float32Array:
 
 
 def integrate_ggx(strata: int = 96) -> Float32Array:
+    """(2 * TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): `integrate_lobe` above `integrate_glass`."""
+    return np.concatenate([integrate_lobe(strata), integrate_glass(strata)])
+
+
+def integrate_glass(strata: int) -> Float32Array:
+    """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): as `integrate_lobe`, of an interface that reflects and refracts.
+
+    x: albedo of single scattering, seen from outside an object of this slice's IOR; y: of the next slice's; z, w: the
+    same from inside, where what is not refracted is reflected wholly. In the last slice but one, whose columns are the
+    slices' places 0..1 in place of cosines: x, z: the averages of x and z over all angles, cosine-weighted.
+    """
+    cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
+    table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
+    iors = _slice_iors()
+    places = np.linspace(0.0, 1.0, IOR_SLICES)
+    for row, rough in enumerate(np.linspace(0.0, 1.0, TABLE_SIZE)):
+        alpha = max(rough * rough, 1e-4)
+        weight, cos_difference, light = _sample_lobe(alpha, cosine, strata)
+        normal_z = (light[..., 2] + cosine[:, None]) / (2.0 * cos_difference)
+        averages = np.zeros((IOR_SLICES, 2))
+        for index, ior in enumerate(iors):
+            for side, eta in enumerate((ior, 1.0 / ior)):
+                reflected = fresnel_dielectric(cos_difference, eta)
+                inner = np.sqrt(np.maximum(1.0 - (1.0 - cos_difference**2) / eta**2, 0.0))
+                light_z = (cos_difference / eta - inner) * normal_z - cosine[:, None] / eta
+                lambda_view = _smith_lambda(alpha, cosine)[:, None]
+                lambda_light = _smith_lambda(alpha, np.maximum(-light_z, 1e-9))
+                bent = np.where(light_z < 0.0, (1.0 + lambda_view) / (1.0 + lambda_view + lambda_light), 0.0)
+                albedo = (reflected * weight + (1.0 - reflected) * bent).mean(axis=1)
+                table[row, index, :, 2 * side] = albedo
+                averages[index, side] = 2.0 * np.trapezoid(albedo * cosine, cosine)
+        table[row, :-2, :, 1::2] = table[row, 1:-1, :, 0::2]
+        for side in (0, 1):
+            table[row, -2, :, 2 * side] = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), places, averages[:, side])
+    return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
+
+
+def integrate_lobe(strata: int) -> Float32Array:
     """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): rows roughness, columns the viewer's cosine, once per slice.
 
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
@@ -68,11 +106,12 @@ def integrate_ggx(strata: int = 96) -> Float32Array:
 
 
 def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
-    """Unpolarized reflectance of a smooth dielectric, `ior` >= 1."""
-    g = np.sqrt(np.maximum(ior * ior - 1.0 + cosine * cosine, 1e-12))
+    """Unpolarized reflectance of a smooth dielectric."""
+    square = ior * ior - 1.0 + cosine * cosine
+    g = np.sqrt(np.maximum(square, 1e-12))
     a = (g - cosine) / (g + cosine)
     b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0)
-    return 0.5 * a * a * (1.0 + b * b)
+    return np.where(square > 0.0, 0.5 * a * a * (1.0 + b * b), 1.0)
 
 
 def _slice_iors() -> list[float]:

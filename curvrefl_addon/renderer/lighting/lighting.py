@@ -84,7 +84,8 @@ class Lighting:
         """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
         self.sub_frames = max(sub_frames, 1)
         self._geometry = geometry
-        self._ggx = texture_2d(ggx_table(), linear=True)
+        self.ggx = texture_2d(ggx_table(), linear=True)
+        """Texture of `ggx_table`"""
         self._lamp_maps = ShadowMaps(LAMP_MAP_RESOLUTIONS[0], bias_texels=1.0)
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
         self._blocks: dict[int, Any] = {}
@@ -215,12 +216,12 @@ class Lighting:
         shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
         shader.uniform_sampler("lighting_world_maps", self._world_textures)
         shader.uniform_sampler("lighting_world_image", self._world_image)
-        shader.uniform_sampler("lighting_ggx", self._ggx)
+        shader.uniform_sampler("lighting_ggx", self.ggx)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_ggx"):
+        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "ggx"):
             self.__dict__.pop(name, None)
 
     @property

@@ -80,8 +80,11 @@ def all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
         instance.object_id,
         instance.mesh,
         instance.materials,
+        instance.visible_camera,
         instance.visible_glossy,
         instance.visible_shadow,
+        instance.visible_transmission,
+        instance.holdout,
     )
 
 

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from enum import IntFlag
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,6 +26,33 @@ TRIANGLE_RECORDS = 4
 
 OUT_OF_THE_WAY = 1e30
 """Where a box is that no ray need enter"""
+
+
+class InstanceFlag(IntFlag):
+    """What is known of an instance."""
+
+    SEEN_IN_MIRRORS = 1
+    CASTS_SHADOWS = 2
+    NEVER_SEES_ITSELF = 4
+    """The next too: of mirrors and of what is seen through"""
+    IS_CLOSED = 8
+    IS_MIRRORED = 16
+    """Its matrix turns space inside out"""
+    SEEN_BY_CAMERA = 32
+    SEEN_THROUGH_GLASS = 64
+    HOLDS_OUT = 128
+    """A hole for rays of the camera"""
+
+
+def seen_by(instance: InstanceArrays) -> int:
+    """Flags of what an instance is there for."""
+    return (
+        InstanceFlag.SEEN_IN_MIRRORS * instance.visible_glossy
+        | InstanceFlag.CASTS_SHADOWS * instance.visible_shadow
+        | InstanceFlag.SEEN_BY_CAMERA * instance.visible_camera
+        | InstanceFlag.SEEN_THROUGH_GLASS * instance.visible_transmission
+        | InstanceFlag.HOLDS_OUT * instance.holdout
+    )
 
 
 def triangle_corners(mesh: MeshArrays, corners: Int32Array) -> tuple[Float32Array, Float32Array, Float32Array]:

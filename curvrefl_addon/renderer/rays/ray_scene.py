@@ -40,14 +40,14 @@ from .mesh_rays import (
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
+    InstanceFlag,
     corner_records,
     material_records,
     node_records,
+    seen_by,
     triangle_records,
 )
 
-SEEN_IN_MIRRORS, CASTS_SHADOWS, NEVER_SEES_ITSELF, IS_CLOSED, IS_MIRRORED = 1, 2, 4, 8, 16
-"""What sees an instance, how a mirror sees itself, and whether its matrix turns space inside out"""
 INSTANCE_RECORDS = 6
 STACK = 64
 """Levels of the top and the deepest mesh together"""
@@ -60,16 +60,12 @@ RAYS = Piece(
         "INSTANCE_RECORDS": INSTANCE_RECORDS,
         "TRIANGLE_RECORDS": TRIANGLE_RECORDS,
         "REGION_UNIT": UNIT,
-        "SEEN_IN_MIRRORS": SEEN_IN_MIRRORS,
-        "CASTS_SHADOWS": CASTS_SHADOWS,
-        "NEVER_SEES_ITSELF": NEVER_SEES_ITSELF,
-        "IS_CLOSED": IS_CLOSED,
-        "IS_MIRRORED": IS_MIRRORED,
+        **{flag.name: int(flag) for flag in InstanceFlag if flag.name is not None},
     },
 )
 """What `ray_walk.glsl` needs"""
 OWN_RANGE = 1e-4
-"""A ray that leaves a mirror does not see it nearer than this share of its size"""
+"""A ray that leaves a mirror, or what is seen through, does not see it nearer than this share of its size"""
 FEW = 4096
 """A mesh of no more triangles gets the best tree at once: 15 milliseconds at most in place of 8, and rays look at a
 third of the boxes, also while the mesh deforms and nothing can be improved"""
@@ -101,6 +97,8 @@ class RayScene:
         """Those that have triangles"""
         self._mesh_of: list[MeshArrays] = []
         self._mirrors: list[int] = []
+        self._seen_through: frozenset[int] = frozenset()
+        """Indices of materials"""
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         self._place_of: dict[int, int] = {}
         """Index in `_instances` by index in the scene"""
@@ -126,7 +124,9 @@ class RayScene:
 
         Raises InputError where the triangles do not fit into the graphics driver's largest texture.
         """
-        moved = self._moved(scene, numbers)
+        seen_through = frozenset(index for index, item in enumerate(scene.materials) if item.is_seen_through)
+        moved = self._moved(scene, numbers) if seen_through == self._seen_through else None
+        self._seen_through = seen_through
         self._followed = (scene, dict(numbers))
         if moved is not None:
             for index in moved:
@@ -305,16 +305,16 @@ class RayScene:
         self._low[places], self._high[places] = world_boxes(items, matrices)
         records = self._records[places]
         records[:, :3] = np.linalg.inv(matrices)[:, :3]
-        flags = np.array(
-            [SEEN_IN_MIRRORS * item.visible_glossy + CASTS_SHADOWS * item.visible_shadow for item in placed]
-        )
-        flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += IS_MIRRORED
+        flags = np.array([seen_by(item) for item in placed])
+        flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += InstanceFlag.IS_MIRRORED
         mirrors = [self._mirrors[place] for place in places]
         records[:, 3, 0] = [item.object_id for item in placed]
         records[:, 3, 1] = mirrors
-        for index in np.flatnonzero(mirrors):
+        lets_light_on = [not self._seen_through.isdisjoint(item.materials) for item in placed]
+        for index in np.flatnonzero(np.logical_or(mirrors, lets_light_on)):
             facts = self._facts.of(items[index].mesh)
-            flags[index] += NEVER_SEES_ITSELF * facts.never_sees_itself + IS_CLOSED * facts.is_closed
+            flags[index] += InstanceFlag.NEVER_SEES_ITSELF * facts.never_sees_itself
+            flags[index] += InstanceFlag.IS_CLOSED * facts.is_closed
             size = np.linalg.norm(matrices[index, :3, :3] @ (facts.box[1] - facts.box[0]))
             records[index, 3, 3] = OWN_RANGE * size
         records[:, 3, 2] = flags

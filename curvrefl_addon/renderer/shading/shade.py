@@ -33,7 +33,7 @@ RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
-_LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
+LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
@@ -134,23 +134,23 @@ class ShadePass:
         for kind in kinds:
             features = self._lighting.features
             if kind is PixelClass.SURFACE:
-                features = self._features(shadows, is_seen=True)
+                features = features_for(self._lighting, shadows, is_seen=True)
             if kind is PixelClass.BACKGROUND and film_transparent:
-                if not features & _LAMPS:
+                if not features & LAMPS:
                     continue
                 features |= {FILM_TRANSPARENT}
             as_camera = by_camera or kind != PixelClass.BACKGROUND
-            rays = _rays_of(features, shadows)
+            rays = rays_of(features, shadows)
             self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                features = self._features(shadows, ends=self.mirror_bounces == 0)
+                features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0)
                 shader = _shade_shader(kind, features)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
-                self._draw(shader, kind, seen, view_uniforms, weight, _rays_of(features, shadows))
+                self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows))
             return
         for environment in reflected or ():
             shader = _environment_shader(environment.lookup, self._lighting.features)
@@ -172,9 +172,9 @@ class ShadePass:
         mirrors = (PixelClass.MIRROR, PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
         if self._has_base:
             for kind in mirrors:
-                features = self._features(shadows, is_seen=True)
+                features = features_for(self._lighting, shadows, is_seen=True)
                 shader = _front_shader(True, features, by_camera)
-                self._draw(shader, kind, seen, view_uniforms, weight, _rays_of(features, shadows))
+                self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows))
         if mirrors_only:
             return
         kinds: list[PixelClass] = []
@@ -186,31 +186,18 @@ class ShadePass:
             shader = _front_shader(False, self._lighting.features, by_camera)
             self._draw(shader, kind, seen, view_uniforms, weight)
 
-    def _features(self, shadows: RayShadows | None, is_seen: bool = False, ends: bool = False) -> Features:
-        """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow."""
-        features = self._lighting.features
-        if ends:
-            # (What has its own light alone is in no shadow.)
-            return features | {MIRRORS_END}
-        if shadows is None or (is_seen and not shadows.everywhere):
-            return features
-        # Without anything in shadow there is no ray to follow.
-        if shadows.of_lamps and features & _SHADOWS:
-            features |= {RAY_SHADOWS}
-        return features | {WORLD_RAYS} if shadows.of_world and "LIGHTING_WORLD" in features else features
-
     def _add_path(
         self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayShadows | None
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
-        features = self._features(shadows, ends=bounce.ends)
+        features = features_for(self._lighting, shadows, ends=bounce.ends)
         shader = _path_shader(bounce.goes_on, features)
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
             set_viewport(0, 0, path.width, path.height)
             shader.bind()
-            if (rays := _rays_of(features, shadows)) is not None:
+            if (rays := rays_of(features, shadows)) is not None:
                 rays.bind(shader)
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("weight", weight)
@@ -261,12 +248,26 @@ _SEEN_BY_MIRROR = Piece(defines=flags("SEEN_BY_MIRROR"))
 _OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 
 
-def _lighting_pieces(features: Features) -> tuple[Piece, ...]:
+def features_for(lighting: Lighting, shadows: RayShadows | None, is_seen: bool = False, ends: bool = False) -> Features:
+    """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow."""
+    features = lighting.features
+    if ends:
+        # (What has its own light alone is in no shadow.)
+        return features | {MIRRORS_END}
+    if shadows is None or (is_seen and not shadows.everywhere):
+        return features
+    # Without anything in shadow there is no ray to follow.
+    if shadows.of_lamps and features & _SHADOWS:
+        features |= {RAY_SHADOWS}
+    return features | {WORLD_RAYS} if shadows.of_world and "LIGHTING_WORLD" in features else features
+
+
+def lighting_pieces(features: Features) -> tuple[Piece, ...]:
     """With the rays that shadow, where these are among the features."""
     return (lighting_piece(features), *((RAYS,) if features & {RAY_SHADOWS, WORLD_RAYS} else ()))
 
 
-def _rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
+def rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
     """What a shader with these features needs bound."""
     return shadows.rays if shadows is not None and features & {RAY_SHADOWS, WORLD_RAYS} else None
 
@@ -279,7 +280,7 @@ def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) 
         f"shade {kind.name}",
         *_OF_SEEN,
         *((_OF_REFLECTED,) if shows_surface else ()),
-        *_lighting_pieces(features),
+        *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
     )
@@ -307,7 +308,7 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
         Piece(samplers=named("FLOAT_2D", *_PATH)),
         _OF_REFLECTED,
         _LIGHT,
-        *_lighting_pieces(features),
+        *lighting_pieces(features),
         Piece(defines=flags("GOES_ON") if goes_on else {}, fragment="lighting/shade_path.frag.glsl"),
     )
 
@@ -317,7 +318,7 @@ def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
     return build_shader(
         "shade front",
         *_OF_SEEN,
-        *_lighting_pieces(features),
+        *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),
     )

@@ -12,10 +12,13 @@ from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
 from ..rays.ray_scene import OWN_RANGE
+from ..settings import Settings
 from ..shading.shade import RayShadows
+from ..surfaces.canvas import Canvas
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import union
-from .shown import Light, Shown, SubFrame
+from ..tracing.tracer import PathTracer
+from .shown import Light, Shown, SubFrame, chosen_mirrors
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,9 @@ class ShownRays(Shown):
     @classmethod
     def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
         stage = sub_frame.stage
+        if stage.tracer is not None:
+            _trace(stage.tracer, members, sub_frame, light)
+            return
         bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
         first = next(bounces)
         stage.shade.add(
@@ -51,6 +57,59 @@ class ShownRays(Shown):
         color = read_texture(path.color)
         color[..., 3] = read_texture(path.direction)[..., 3]
         return {"reflected_position": read_texture(path.position), "reflected_color": color}
+
+
+def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame, light: Light) -> None:
+    """By paths: first what stops the light, then one sample of what does not."""
+    stage, seen = sub_frame.stage, sub_frame.targets.seen
+    mirrors_only = sub_frame.window is not None or not light.with_others
+    shadows = _shadows(members, sub_frame)
+    if not mirrors_only:
+        stage.shade.add(
+            light.canvas,
+            seen,
+            None,
+            sub_frame.uniforms,
+            light.weight,
+            shadows=shadows,
+            chosen=chosen_mirrors([], len(stage.mirrors)),
+            film_transparent=light.film_transparent,
+        )
+    sees_through = tracer.sees_through and not mirrors_only
+    window = sub_frame.window if sees_through else union([shown.mirror.window(sub_frame.view) for shown in members])
+    tracer.add(
+        light.canvas,
+        light.weight,
+        seen,
+        stage.rays(),
+        sub_frame.uniforms,
+        window,
+        sub_frame.index,
+        members[0].settings.bounces,
+        light.chosen,
+        sees_through,
+        shadows,
+        light.film_transparent,
+    )
+
+
+def trace_seen_through(
+    tracer: PathTracer, sub_frame: SubFrame, canvas: Canvas, weight: float, settings: Settings
+) -> None:
+    """Where mirrors do not follow rays: what the eye sees of surfaces that do not stop the light."""
+    tracer.add(
+        canvas,
+        weight,
+        sub_frame.targets.seen,
+        sub_frame.stage.rays(),
+        sub_frame.uniforms,
+        None,
+        sub_frame.index,
+        settings.bounces,
+        chosen_mirrors([], len(sub_frame.stage.mirrors)),
+        shadows=sub_frame.shadows,
+        film_transparent=settings.film_transparent,
+    )
 
 
 def _shadows(members: Sequence[ShownRays], sub_frame: SubFrame) -> RayShadows | None:

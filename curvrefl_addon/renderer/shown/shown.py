@@ -29,6 +29,7 @@ from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
+from ..tracing.tracer import PathTracer
 from ..vertices.solution import SolvedChunk, VertexSolution
 from .targets import Targets
 
@@ -47,6 +48,8 @@ class Stage:
     shade: ShadePass
     rays: Callable[[], RayScene]
     """The scene as rays need it, made when first asked for"""
+    tracer: PathTracer | None = None
+    """Where rays do not only go from sharp mirror to sharp mirror"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +66,8 @@ class SubFrame:
     """Holds all mirrors, where nothing else is drawn"""
     shadows: RayShadows | None = None
     """Where maps are too coarse for the view"""
+    index: int = 0
+    """Its number"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from ..device.records import record_texture
 from ..device.shaders import Piece, flags, named
 from ..device.textures import largest_texture, texture_2d
 from ..geometry.chunk import HOLDOUT
+from .surface_buffer import SEEN_THROUGH
 
 RECORDS = 13
 """Per material"""
@@ -40,6 +41,17 @@ RELIEF = Piece(
     defines=flags("RELIEF"),
 )
 """What `relief.glsl` needs"""
+OF_PATHS = Piece(constants={"seen_through": "FLOAT"}, defines={"PATHS": "", "SEEN_THROUGH": SEEN_THROUGH})
+"""What the primary pass needs in scenes with paths"""
+NO_SCALARS = Piece(outputs={"surface_scalars": "VEC4"}, defines=flags("NO_SCALARS"))
+"""Of materials without an image of scalars, in scenes with some"""
+WITH_SCALARS = Piece(
+    constants={"scalars_transform": "VEC4", "scalars_turn": "VEC2"},
+    samplers={"scalars_image": "FLOAT_2D"},
+    outputs={"surface_scalars": "VEC4"},
+    defines=flags("WITH_SCALARS"),
+)
+"""Of materials with one; beside `TEXTURED`"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
 
 
@@ -92,6 +104,22 @@ class Materials:
         """Whether its normals are bent."""
         return self._of(index).relief is not None
 
+    def has_scalars(self, index: int) -> bool:
+        """Whether an image says how rough, metallic, transmitting or transparent it is."""
+        return self._of(index).scalars is not None
+
+    def bind_scalars(self, shader: Any, index: int) -> None:
+        """Set what `WITH_SCALARS` names."""
+        scalars = self._of(index).scalars
+        assert scalars is not None
+        shader.uniform_float("scalars_transform", (*scalars.uv_scale, *scalars.uv_offset))
+        shader.uniform_float("scalars_turn", scalars.uv_turn)
+        shader.uniform_sampler("scalars_image", self._images[scalars.image][1])
+
+    def bind_for_paths(self, shader: Any, index: int) -> None:
+        """Set what `OF_PATHS` names."""
+        shader.uniform_float("seen_through", float(self._of(index).is_seen_through))
+
     def bind_relief(self, shader: Any, index: int) -> None:
         """Set what `RELIEF` names."""
         relief = self._of(index).relief
@@ -123,7 +151,7 @@ def _fill_path_records(record: Float32Array, material: MaterialArrays) -> None:
     record[3] = (*material.absorption, material.film_ior)
     record[4] = (*material.transparent_tint, material.alpha)
     record[5] = (material.alpha_threshold, material.anisotropy, material.anisotropic_rotation, float(flags))
-    record[7, 0] = -1.0
+    record[7] = (-1.0, 0.0, 0.0, float(material.is_seen_through))
     if (scalars := material.scalars) is not None:
         record[6] = (*scalars.uv_scale, *scalars.uv_offset)
         record[7, :3] = (scalars.image, *scalars.uv_turn)

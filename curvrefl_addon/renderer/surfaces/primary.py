@@ -12,7 +12,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
-from .materials import PLAIN, RELIEF, TEXTURED, Materials
+from .materials import NO_SCALARS, OF_PATHS, PLAIN, RELIEF, TEXTURED, WITH_SCALARS, Materials
 from .surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from .view_block import VIEW
 from .windows import Window
@@ -43,30 +43,39 @@ def draw_primary(
     is_followed: Callable[[Chunk], bool] = lambda _chunk: False,
     depths: Depths | None = None,
     mirrored: bool = False,
+    has_paths: bool = False,
+    has_scalars: bool = False,
 ) -> None:
     """Fill `target` with what the eye sees directly, in `window` alone if given: nothing elsewhere.
 
     `hidden_faces` says which side of a chunk's triangles need not be drawn: 'BACK', 'FRONT' or 'NONE'. Of a mirror that
     `is_followed`, which rays go on from, the normals are those of its bumps and normal maps and send no ray into the
     surface; else they are those of the smooth surface. `depths`: what `depths_of` says of the view; `mirrored` whether
-    left and right are swapped in it.
+    left and right are swapped in it. `has_paths`: paths go on from here; `has_scalars`: some by what images say.
     """
 
-    def kind_of(chunk: Chunk, material: int) -> str:
+    def kind_of(chunk: Chunk, material: int) -> tuple[str, bool]:
+        scalars = has_scalars and materials.has_scalars(material)
         if materials.has_relief(material) and is_followed(chunk):
-            return "RELIEF"
-        return "PLAIN" if materials.is_plain(material) else "TEXTURED"
+            return "RELIEF", scalars
+        return ("PLAIN" if materials.is_plain(material) and not scalars else "TEXTURED"), scalars
 
-    with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), target.frame_buffer.bind():
+    frame_buffer = target.with_scalars()[1] if has_scalars else target.frame_buffer
+    kinds = [(kind, False) for kind in ("PLAIN", "TEXTURED", "RELIEF")]
+    if has_scalars:
+        kinds += [(kind, True) for kind in ("TEXTURED", "RELIEF")]
+
+    with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored), frame_buffer.bind():
         set_viewport(0, 0, target.width, target.height)
-        target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+        frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
         with scissored(window):
-            for kind in ("PLAIN", "TEXTURED", "RELIEF"):
+            for kind, scalars in kinds:
                 for chunk, batches in seen:
-                    chosen = [item for item in batches if kind_of(chunk, item[0]) == kind]
+                    chosen = [item for item in batches if kind_of(chunk, item[0]) == (kind, scalars)]
                     if not chosen:
                         continue
-                    shader = _primary_shader(kind, is_followed(chunk), depths is not None)
+                    writes = "" if not has_scalars else ("WITH" if scalars else "NO")
+                    shader = _primary_shader(kind, is_followed(chunk), depths is not None, has_paths, writes)
                     shader.bind()
                     if depths is not None:
                         shader.uniform_float("depths", depths)
@@ -78,12 +87,18 @@ def draw_primary(
                         materials.bind(shader, material)
                         if kind == "RELIEF":
                             materials.bind_relief(shader, material)
+                        if scalars:
+                            materials.bind_scalars(shader, material)
+                        if has_paths:
+                            materials.bind_for_paths(shader, material)
                         batch.draw(shader)
 
 
 @gpu_cache
-def _primary_shader(kind: str, is_followed: bool, has_linear_depth: bool) -> Any:
-    """For batches of one kind: PLAIN, TEXTURED or RELIEF."""
+def _primary_shader(
+    kind: str, is_followed: bool, has_linear_depth: bool, has_paths: bool = False, scalars: str = ""
+) -> Any:
+    """For batches of one kind: PLAIN, TEXTURED or RELIEF. `scalars`: 'WITH' an image of them, 'NO' image, or ''."""
     return build_shader(
         f"primary {kind}",
         VIEW,
@@ -93,6 +108,8 @@ def _primary_shader(kind: str, is_followed: bool, has_linear_depth: bool) -> Any
         *((FOLLOWED,) if is_followed else ()),
         *((LINEAR_DEPTH,) if has_linear_depth else ()),
         SURFACE_OUTPUTS,
+        *((OF_PATHS,) if has_paths else ()),
+        *((WITH_SCALARS if scalars == "WITH" else NO_SCALARS,) if scalars else ()),
         Piece(
             smooth=named("VEC3", "world_position", "world_normal"),
             flat={"ids": "VEC2"},

@@ -8,12 +8,16 @@ material, base color. Lighting is done once per pixel afterwards (`shading/shade
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.shaders import Piece, named
 from ..device.textures import depth_texture, empty_texture
 
 SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
 """Color targets of a SurfaceBuffer"""
+SEEN_THROUGH = -3.0
+"""In place of a mirror's number: light goes on behind it, and paths follow it"""
 
 
 class SurfaceBuffer:
@@ -30,6 +34,16 @@ class SurfaceBuffer:
         self.depth = depth_texture(width, height)
         self.frame_buffer = frame_buffer(self.position, self.normal, self.color, depth=self.depth)
         self.width, self.height = width, height
+        self._scalars: tuple[Any, Any] | None = None
+
+    def with_scalars(self) -> tuple[Any, Any]:
+        """Another texture, of roughness, metallic, transmission and alpha where materials have an image of them, and
+        the frame buffer of all; made when first asked for."""
+        if self._scalars is None:
+            scalars = empty_texture(self.width, self.height, "RGBA16F")
+            target = frame_buffer(self.position, self.normal, self.color, scalars, depth=self.depth)
+            self._scalars = (scalars, target)
+        return self._scalars
 
     def clear(self) -> None:
         """Nothing anywhere."""

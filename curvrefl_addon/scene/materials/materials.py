@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import bpy
 
-from ..arrays import ImageArrays, MaterialArrays, ReliefArrays
+from ..arrays import ImageArrays, MaterialArrays, ReliefArrays, ScalarsArrays
 from ..finite import usable_image, usable_material
 from ..meshes.attributes import VertexColors
 from ..meshes.meshes import GENERATED, OBJECT
@@ -16,7 +16,10 @@ from ..remarks import Remark
 from .images import ImageReader
 from .node_links import output_source
 from .reliefs import Relief
-from .shaders import NOTHING, ShaderReader
+from .shaders.scalars import packed_scalars
+from .shaders.shader_reader import ShaderReader
+from .shaders.surface import BLACK, NOTHING, Notes, Surface, matt
+from .shaders.volumes import read_absorption
 from .surface_textures import SurfaceTexture, SurfaceTextureReader
 
 EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
@@ -35,10 +38,21 @@ class ReadMaterial:
     """What it reads of the meshes it is on"""
     remarks: tuple[Remark, ...] = ()
     """What is not drawn as it is"""
+    scenery_remarks: tuple[Remark, ...] = ()
+    """What is not where it is shaded with constants: neither a mirror nor seen through"""
+    path_remarks: tuple[Remark, ...] = ()
+    """What is not where it is one of these"""
     has_relief: bool = False
     """Bumps, that only a mirror shows"""
     is_hidden: bool = False
     """It has no surface: a volume, or full transparency"""
+    is_seen_through: bool = False
+    lacks_scalars: bool = False
+    """Its scalars have textures, of which only the means were read"""
+
+    def remarks_as(self, is_mirror: bool) -> tuple[Remark, ...]:
+        """All remarks where it is a mirror's or scenery's."""
+        return self.remarks + (self.path_remarks if is_mirror or self.is_seen_through else self.scenery_remarks)
 
 
 class MaterialReader:
@@ -54,18 +68,37 @@ class MaterialReader:
         self._read: dict[int, ReadMaterial] = {}
         self._places: dict[int | MaterialArrays, int] = {}
 
-    def read(self, material: bpy.types.Material | None) -> ReadMaterial:
-        """The material's place in the list; None, an empty slot, is at index 0."""
+    def read(self, material: bpy.types.Material | None, is_mirror: bool = False) -> ReadMaterial:
+        """The material's place in the list; None, an empty slot, is at index 0.
+
+        `is_mirror`: an image of its scalars is needed, which others need only where they are seen through.
+        """
         if material is None:
             return ReadMaterial(0)
         key = material.original.session_uid
-        if key not in self._read:
-            notes: list[str] = []
-            found, arrays = self._found(material, notes)
+        known = self._read.get(key)
+        if known is None or (is_mirror and known.lacks_scalars):
             self.reads += 1
-            remarks = tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(notes))
-            self._read[key] = replace(found, index=self._place(key, arrays), remarks=remarks)
+            self._read[key] = self._read_anew(material, key, is_mirror)
         return self._read[key]
+
+    def _read_anew(self, material: bpy.types.Material, key: int, is_fine: bool) -> ReadMaterial:
+        notes = Notes()
+        found, arrays = self._found(material, notes, is_fine)
+        if found.lacks_scalars and found.is_seen_through:
+            notes = Notes()
+            found, arrays = self._found(material, notes, is_fine=True)
+        always, on_scenery, on_paths = (
+            tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(causes))
+            for causes in (notes.always, notes.on_scenery, notes.on_paths)
+        )
+        return replace(
+            found,
+            index=self._place(key, arrays),
+            remarks=always,
+            scenery_remarks=on_scenery,
+            path_remarks=on_paths,
+        )
 
     def plain(self, arrays: MaterialArrays) -> ReadMaterial:
         """Place of a material without textures that is not the scene's."""
@@ -90,25 +123,18 @@ class MaterialReader:
             self.materials.append(arrays)
         return self._places[key]
 
-    def _found(self, material: bpy.types.Material, notes: list[str]) -> tuple[ReadMaterial, MaterialArrays]:
-        """All but the index and the remarks, for which `notes` gets the causes."""
+    def _found(self, material: bpy.types.Material, notes: Notes, is_fine: bool) -> tuple[ReadMaterial, MaterialArrays]:
+        """All but the index and the remarks, for which `notes` gets the causes. `is_fine`: with its scalars' image."""
         tree = material.node_tree
         if tree is None:
             r, g, b, _ = material.diffuse_color
             plain = MaterialArrays(
                 material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
             )
-            return ReadMaterial(0), usable_material(plain, notes)
+            return ReadMaterial(0), usable_material(plain, notes.always)
         if output_source(tree, "Displacement") is not None:
-            notes.append("Displacement {of} is not shown.")
-        source, volume = output_source(tree, "Surface"), output_source(tree, "Volume")
-        if volume is not None:
-            notes.append("Volumes {of} are not shown.")
-        if source is not None:
-            surface = ShaderReader(self._textures, notes).surface(source)
-        else:
-            # Without a volume Cycles shows no light at all.
-            surface = replace(NOTHING, is_hidden=volume is not None)
+            notes.always.append("Displacement {of} is not shown.")
+        surface = self._surface(tree, notes, is_fine)
         arrays = replace(surface.rest, name=material.name, base_color=surface.color.factor)
         found = ReadMaterial(0, colors=surface.color.vertex_colors, is_hidden=surface.is_hidden)
         texture = surface.color.texture
@@ -116,29 +142,78 @@ class MaterialReader:
             space = texture.space
             arrays = replace(
                 arrays,
-                image=self._image_index(usable_image(texture.image, notes)),
+                image=self._image_index(usable_image(texture.image, notes.always)),
                 uv_scale=space.scale,
                 uv_turn=space.turn,
                 uv_offset=space.offset,
             )
             found = replace(found, uv_maps=(space.uv_map,))
+        if surface.textures and is_fine:
+            found, arrays = self._with_scalars(found, arrays, surface, notes)
+        if surface.tangents is not None:
+            found, arrays = self._with_tangents(found, arrays, surface.tangents, notes)
         if surface.relief is not None:
-            found, arrays = self._with_relief(found, arrays, surface.relief, notes)
-        arrays = usable_material(arrays, notes)
+            found, arrays = self._with_relief(found, arrays, surface.relief, notes.always)
+        arrays = usable_material(arrays, notes.always)
+        found = replace(
+            found, is_seen_through=arrays.is_seen_through, lacks_scalars=bool(surface.textures) and not is_fine
+        )
         return found, replace(arrays, uses_vertex_color=found.colors is not None)
+
+    def _surface(self, tree: bpy.types.NodeTree, notes: Notes, is_fine: bool) -> Surface:
+        source, volume = output_source(tree, "Surface"), output_source(tree, "Volume")
+        reader = ShaderReader(self._textures, notes, is_fine)
+        if source is None:
+            if volume is None:
+                # Cycles shows no light at all then.
+                return Surface(BLACK, matt())
+            notes.always.append("Volumes {of} are not shown.")
+            return NOTHING
+        surface = reader.surface(source)
+        if volume is None:
+            return surface
+        absorption = read_absorption(volume, reader.inputs)
+        if absorption is None:
+            notes.always.append("Volumes {of} are not shown.")
+            return surface
+        return replace(surface, rest=replace(surface.rest, absorption=absorption))
+
+    def _with_scalars(
+        self, found: ReadMaterial, arrays: MaterialArrays, surface: Surface, notes: Notes
+    ) -> tuple[ReadMaterial, MaterialArrays]:
+        packed = packed_scalars(surface, notes.on_paths)
+        if packed is None:
+            return found, arrays
+        space = packed.space
+        uv_maps = tuple(dict.fromkeys((*found.uv_maps, space.uv_map)))
+        if not _is_one_map(uv_maps):
+            notes.on_paths.append("Roughness, metallic and alpha {of} are their means: they are on another UV map.")
+            return found, arrays
+        index = self._image_index(usable_image(packed.image, notes.always), arrays.image)
+        scalars = ScalarsArrays(index, space.scale, space.turn, space.offset)
+        return replace(found, uv_maps=uv_maps), replace(arrays, scalars=scalars)
+
+    def _with_tangents(
+        self, found: ReadMaterial, arrays: MaterialArrays, tangents: str, notes: Notes
+    ) -> tuple[ReadMaterial, MaterialArrays]:
+        uv_maps = tuple(dict.fromkeys((*found.uv_maps, tangents)))
+        if not _is_one_map(uv_maps):
+            notes.on_paths.append(
+                "Tangents {of} are drawn about the Z axis: they are on another UV map than its color."
+            )
+            return found, replace(arrays, tangent_by_uv=False)
+        return replace(found, uv_maps=uv_maps), arrays
 
     def _with_relief(
         self, found: ReadMaterial, arrays: MaterialArrays, relief: Relief, notes: list[str]
     ) -> tuple[ReadMaterial, MaterialArrays]:
         space = relief.texture.space
-        uv_maps = dict.fromkeys((*found.uv_maps, space.uv_map, relief.tangents))
-        named = set(uv_maps) - {""}
-        if len(named) > 1 or (len(uv_maps) > 1 and not named.isdisjoint((GENERATED, OBJECT))):
-            # (A mesh has one UV map here; which one is the default, only the mesh knows.)
+        uv_maps = tuple(dict.fromkeys((*found.uv_maps, space.uv_map, relief.tangents)))
+        if not _is_one_map(uv_maps):
             notes.append("Bumps {of} are left out: they are on another UV map than its color.")
             return found, arrays
         read = ReliefArrays(
-            self._image_index(usable_image(relief.texture.image, notes), arrays.image),
+            self._image_index(usable_image(relief.texture.image, notes), arrays.image, _scalars_image(arrays)),
             relief.is_bump,
             relief.strength,
             relief.distance,
@@ -146,14 +221,15 @@ class MaterialReader:
             space.turn,
             space.offset,
         )
-        return replace(found, uv_maps=tuple(uv_maps), has_relief=True), replace(arrays, relief=read)
+        return replace(found, uv_maps=uv_maps, has_relief=True), replace(arrays, relief=read)
 
-    def _image_index(self, image: ImageArrays, kept: int = -1) -> int:
-        """Place of an image in the list, new or of one that no material shows any more, but not `kept`."""
+    def _image_index(self, image: ImageArrays, *kept: int) -> int:
+        """Place of an image in the list, new or of one that no material shows any more, but none of `kept`."""
         for index, known in enumerate(self.images):
             if known is image:
                 return index
-        used = {kept, *(material.image for material in self.materials)}
+        used = {*kept, *(material.image for material in self.materials)}
+        used |= {_scalars_image(material) for material in self.materials}
         used |= {material.relief.image for material in self.materials if material.relief is not None}
         for index in range(len(self.images)):
             if index not in used:
@@ -161,3 +237,13 @@ class MaterialReader:
                 return index
         self.images.append(image)
         return len(self.images) - 1
+
+
+def _scalars_image(material: MaterialArrays) -> int:
+    return -1 if material.scalars is None else material.scalars.image
+
+
+def _is_one_map(uv_maps: tuple[str, ...]) -> bool:
+    """Whether all these may be one UV map: a mesh has one here. (Which is the default, only the mesh knows.)"""
+    named = set(uv_maps) - {""}
+    return len(named) <= 1 and not (len(uv_maps) > 1 and not named.isdisjoint((GENERATED, OBJECT)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Float32Array, ImageArrays
+from ..arrays import Float32Array, Float64Array, ImageArrays
 from ..meshes.meshes import GENERATED, OBJECT
 from .images import MISSING_COLOR, ImageReader, magnified
 from .mappings import mapped_from
@@ -59,6 +59,19 @@ class SurfaceTexture:
         part = (COARSE / (height * width)) ** 0.5
         pixels = averaged(self.image.pixels, max(int(height * part), 1), max(int(width * part), 1))
         return replace(self, image=replace(self.image, pixels=np.asarray(pixels, np.float32)))
+
+
+def bordered(color: NodeColor | None) -> NodeColor | None:
+    """Of an image that ends: the same with what is beyond as a border of pixels, which nodes change with the others."""
+    if color is None or not isinstance(color.texture, SurfaceTexture) or color.texture.image.extension != "CLIP":
+        return color
+    image, space = color.texture.image, color.texture.space
+    height, width = image.pixels.shape[:2]
+    pixels = np.pad(image.pixels, ((1, 1), (1, 1), (0, 0)))
+    shrink = np.array([width / (width + 2.0), height / (height + 2.0)])
+    offset = shrink * space.offset + 1.0 / np.array([width + 2.0, height + 2.0])
+    grown = replace(space, scale=_pair(shrink * space.scale), turn=_pair(shrink * space.turn), offset=_pair(offset))
+    return replace(color, texture=SurfaceTexture(replace(image, pixels=pixels, extension="EXTEND"), grown))
 
 
 class SurfaceTextureReader:
@@ -179,3 +192,7 @@ def _uv_map(vector: Source, unlinked: str) -> str | None:
     if node.type == "ATTRIBUTE" and node.attribute_type == "GEOMETRY" and vector.socket.name == "Vector":
         return str(node.attribute_name)
     return None
+
+
+def _pair(values: Float64Array) -> tuple[float, float]:
+    return float(values[0]), float(values[1])

@@ -185,7 +185,7 @@ def packed_channels() -> tuple[bpy.types.Image, np.ndarray]:
     values = np.ones((16, 16, 4), np.float32)
     values[..., 0] = generator.uniform(0.6, 1.0, (16, 16))
     values[..., 1] = generator.uniform(0.2, 0.8, (16, 16))
-    values[..., 2] = generator.uniform(0.0, 0.01, (16, 16)) ** 2
+    values[..., 2] = generator.uniform(0.0, 0.1, (16, 16)) ** 2
     image = bpy.data.images.new("packed", 16, 16)
     image.colorspace_settings.name = "Non-Color"
     image.pixels.foreach_set(values.reshape(-1))

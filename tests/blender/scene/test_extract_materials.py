@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays
+from curvrefl.curvrefl_addon.scene.arrays import Glass, MaterialArrays
 from extraction import add, add_square, cycles_picture, empty_scene, extracted, look_down, material_of, new_material
 from scene.color_nodes import COLOR, OTHER, BuildColor, Tree, mix, node
 
@@ -120,8 +120,8 @@ def test_the_principled_shader() -> None:
     tree.links.new(tree.nodes["Noise Texture"].outputs[0], shader.inputs["Roughness"])
     scene = extracted()
     assert scene.warnings == (
-        'Coat Weight of material "cube" is not shown.',
         'Noise Texture nodes of material "cube" are drawn as one color.',
+        'Coat Weight of material "cube" is not shown.',
     )
     assert material_of(scene, "cube").roughness == pytest.approx(0.5)
 
@@ -154,11 +154,17 @@ def test_the_emission_shader() -> None:
     assert material.base_color == (0.0, 0.0, 0.0) and material.specular_level == 0.0 and not warnings
 
 
+def test_glass_is_what_its_node_says() -> None:
+    material, warnings = simple("ShaderNodeBsdfGlass", Color=COLOR, Roughness=0.25, IOR=1.33)
+    np.testing.assert_allclose(material.base_color, COLOR[:3], rtol=1e-6)
+    assert (material.transmission, material.glass, material.roughness) == (1.0, Glass.GLASS, 0.25)
+    assert material.ior == pytest.approx(1.33) and not warnings
+
+
 def test_an_unsupported_shader_warns_once_by_name() -> None:
-    material, warnings = simple("ShaderNodeBsdfGlass", Roughness=0.0, IOR=1.33)
-    assert material.base_color == (0.0, 0.0, 0.0)
-    assert material.ior == pytest.approx(1.33)
-    assert len(warnings) == 1 and '"cube"' in warnings[0]
+    material, warnings = simple("ShaderNodeBsdfSheen", Color=COLOR)
+    np.testing.assert_allclose(material.base_color, COLOR[:3], rtol=1e-6)
+    assert warnings == ('Sheen BSDF of material "cube" is drawn as the nearest plain surface.',)
 
 
 def test_mixed_and_added_shaders() -> None:

@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light that paths find at each of their vertices, added to a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
+from ..device.shaders import Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..lighting.lighting import Features, Lighting
+from ..shading.shade import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
+from ..surfaces.canvas import Canvas
+from ..surfaces.pixel_classes import CLASS
+from ..surfaces.surface_buffer import SurfaceBuffer
+from ..surfaces.view_block import VIEW
+from .path_classes import PathClass
+from .path_vertices import PathVertices
+from .step import Surroundings, bind_vertices, vertex_pieces
+
+
+@dataclass(frozen=True, slots=True)
+class PathLight:
+    """What lights the vertices of one picture's paths."""
+
+    around: Surroundings
+    lighting: Lighting
+    shadows: RayShadows | None
+    film_transparent: bool
+    has_base: bool
+    """Surfaces from which paths go on have a base below their lobes, or shine"""
+
+    def add(
+        self,
+        canvas: Canvas,
+        weight: float,
+        kind: PathClass,
+        vertices: SurfaceBuffer | PathVertices,
+        scalars: Any,
+        classes: Any,
+        before: SurfaceBuffer | PathVertices | None = None,
+    ) -> None:
+        """Add the light of one class of vertices, times `weight`.
+
+        `before`: the vertices from which paths came here, None where these are what the eye sees. Others as for
+        `step.follow`.
+        """
+        shader, rays = self._shader(kind, before is not None)
+        target = canvas.with_depth(classes)
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self.around.window):
+            set_viewport(0, 0, vertices.width, vertices.height)
+            shader.bind()
+            if rays is not None:
+                rays.bind(shader)
+            bind_vertices(shader, self.around, vertices, scalars)
+            shader.uniform_block("view", self.around.view_uniforms)
+            shader.uniform_float("weight", weight)
+            shader.uniform_float("pixel_class", float(kind))
+            if before is not None:
+                assert isinstance(vertices, PathVertices)
+                shader.uniform_sampler("before_position", before.position)
+                shader.uniform_sampler("path_way", vertices.way)
+                shader.uniform_sampler("path_throughput", vertices.throughput)
+            self.lighting.bind(shader)
+            full_screen_triangle().draw(shader)
+
+    @property
+    def lights_samples(self) -> bool:
+        """Lobes are lit by samples of lamps as well as by what rays meet."""
+        return "PATHS_ROUGH" in self.around.features and self.has_bodies
+
+    @property
+    def has_bodies(self) -> bool:
+        """Lamps may be met."""
+        return bool(self.lighting.features & LAMPS)
+
+    def _shader(self, kind: PathClass, on_path: bool) -> tuple[Any, Any]:
+        """And the rays that it needs bound, if any."""
+        features = self.lighting.features
+        needs_shadows = kind is PathClass.STOPS
+        names: set[str] = set()
+        if "PATHS_ROUGH" in self.around.features:
+            names.add("PATH_LIGHT")
+        if kind is PathClass.GOES_ON:
+            needs_shadows = self.has_base or self.lights_samples or "PATHS_ALPHA" in self.around.features
+            if self.has_base:
+                names.add("PATHS_BASE")
+            if self.lights_samples:
+                names.add("PATH_LOBES")
+        if needs_shadows:
+            features = features_for(self.lighting, self.shadows, is_seen=not on_path)
+        if kind is PathClass.MISSES and self.film_transparent:
+            names.add(FILM_TRANSPARENT)
+        return _light_shader(kind, self.around.features, features, on_path, frozenset(names)), rays_of(
+            features, self.shadows
+        )
+
+
+@gpu_cache
+def _light_shader(
+    kind: PathClass, features: Features, lighting_features: Features, on_path: bool, names: Features
+) -> Any:
+    way = Piece(samplers=named("FLOAT_2D", "before_position", "path_way", "path_throughput"), defines=flags("ON_PATH"))
+    return build_shader(
+        f"light of {kind.name} on paths",
+        CLASS,
+        VIEW,
+        *vertex_pieces(features),
+        *((way,) if on_path else ()),
+        *lighting_pieces(lighting_features),
+        Piece(
+            constants={"weight": "FLOAT"},
+            outputs={"color": "VEC4"},
+            defines=flags(f"LIGHTS_{kind.name}", *sorted(names)),
+            fragment="paths/path_light.frag.glsl",
+        ),
+    )

@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The step of paths: what a surface does to them, and the next surface on their ways."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ...optics.scattering.sampler import path_point
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
+from ..device.shaders import Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..lighting.ggx import GGX_DEFINES
+from ..paths.features import ABSORPTION, ANISOTROPY, ROUGH, SCALARS
+from ..rays.ray_scene import RAYS, RayScene
+from ..surfaces.materials import TABLE, Materials
+from ..surfaces.pixel_classes import CLASS
+from ..surfaces.surface_buffer import SEEN_THROUGH, SURFACE_OUTPUTS, SurfaceBuffer
+from ..surfaces.view_block import VIEW
+from ..surfaces.windows import Window
+from .media import ABSORBING
+from .object_frames import OBJECT_FRAMES
+from .path_classes import PathClass
+from .path_vertices import PathVertices
+
+IMAGES_AT_ONCE = 8
+"""That one pass looks up"""
+SAMPLER = Piece(constants={"path_point": "IVEC4"})
+"""What `random.glsl` needs"""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """How far paths are followed."""
+
+    reflections: int
+    interfaces: int
+    """That let light through"""
+    transparent: int
+    """Surfaces that light goes straight through"""
+    bounces: int
+    """Reflections and interfaces together"""
+
+    @property
+    def most_steps(self) -> int:
+        """After the last that is counted comes one that shows what shines by itself."""
+        return min(self.bounces, self.reflections + self.interfaces) + self.transparent + 1
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What the shaders of paths have bound."""
+
+    features: frozenset[str]
+    """Defines"""
+    materials: Materials
+    rays: RayScene
+    ggx: Any
+    """Texture of `lighting/ggx.py`"""
+    frames: Any
+    """Record texture of `object_frames.py`, None where no material is anisotropic"""
+    absorbing: Any
+    """Record texture of `media.py`, None where no medium absorbs"""
+    view_uniforms: Any
+    window: Window
+
+
+def follow(
+    around: Surroundings,
+    vertices: SurfaceBuffer | PathVertices,
+    scalars: Any,
+    classes: Any,
+    met: PathVertices,
+    limits: Limits,
+    sub_frame: int,
+    step: int,
+) -> None:
+    """Follow all paths that go on from `vertices` to what they meet.
+
+    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `step`: 1 for the
+    first, whose vertices are what the eye sees.
+    """
+    before = vertices if isinstance(vertices, PathVertices) else None
+    shader = _step_shader(around.features, before is not None, met.uv is not None)
+    targets = met.targets(classes)
+    with drawing_state("EQUAL"), targets["all"].bind(), scissored(around.window):
+        set_viewport(0, 0, met.width, met.height)
+        shader.bind()
+        around.rays.bind(shader)
+        bind_vertices(shader, around, vertices, scalars)
+        shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
+        shader.uniform_float("limits", (limits.reflections, limits.interfaces, limits.transparent, limits.bounces))
+        shader.uniform_int("path_point", path_point(sub_frame, step - 1))
+        if around.absorbing is not None:
+            shader.uniform_sampler("absorbing", around.absorbing)
+        if before is None:
+            shader.uniform_block("view", around.view_uniforms)
+        else:
+            shader.uniform_sampler("path_way", before.way)
+            shader.uniform_sampler("path_throughput", before.throughput)
+        full_screen_triangle().draw(shader)
+    if met.uv is not None:
+        _look_up(around, met, targets["color"], of_scalars=False)
+        if met.scalars is not None:
+            _look_up(around, met, targets["scalars"], of_scalars=True)
+
+
+def bind_vertices(shader: Any, around: Surroundings, vertices: SurfaceBuffer | PathVertices, scalars: Any) -> None:
+    """Set what `vertex_piece` names."""
+    shader.uniform_sampler("materials", around.materials.table)
+    shader.uniform_sampler("lighting_ggx", around.ggx)
+    shader.uniform_sampler("vertex_position", vertices.position)
+    shader.uniform_sampler("vertex_normal", vertices.normal)
+    shader.uniform_sampler("vertex_color", vertices.color)
+    if scalars is not None:
+        shader.uniform_sampler("vertex_scalars", scalars)
+    if around.frames is not None:
+        shader.uniform_sampler("object_frames", around.frames)
+
+
+def vertex_pieces(features: frozenset[str]) -> tuple[Piece, ...]:
+    """What `path_vertex.glsl` needs."""
+    scalars = ("vertex_scalars",) if SCALARS in features else ()
+    samplers = named("FLOAT_2D", "vertex_position", "vertex_normal", "vertex_color", "lighting_ggx", *scalars)
+    return (
+        TABLE,
+        Piece(samplers=samplers, defines={**flags(*sorted(features)), **GGX_DEFINES, "SEEN_THROUGH": SEEN_THROUGH}),
+        *((OBJECT_FRAMES,) if ANISOTROPY in features else ()),
+    )
+
+
+def _look_up(around: Surroundings, met: PathVertices, target: Any, of_scalars: bool) -> None:
+    """Images at the surfaces that were met."""
+    images = around.materials.images
+    for first in range(0, len(images), IMAGES_AT_ONCE):
+        shader = _images_shader(of_scalars)
+        blend = "NONE" if of_scalars else "MULTIPLY"
+        with drawing_state("EQUAL", blend=blend), target.bind(), scissored(around.window):
+            set_viewport(0, 0, met.width, met.height)
+            shader.bind()
+            shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
+            shader.uniform_int("first_image", first)
+            shader.uniform_sampler("materials", around.materials.table)
+            shader.uniform_sampler("path_uv", met.uv)
+            shader.uniform_sampler("vertex_normal", met.normal)
+            group = images[first : first + IMAGES_AT_ONCE]
+            for slot in range(IMAGES_AT_ONCE):
+                shader.uniform_sampler(f"image_{slot}", group[min(slot, len(group) - 1)])
+            full_screen_triangle().draw(shader)
+
+
+@gpu_cache
+def _step_shader(features: frozenset[str], on_path: bool, with_images: bool) -> Any:
+    outputs = {**(named("VEC4", "uv_out") if with_images else {}), **named("VEC4", "way_out", "throughput_out")}
+    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ()), *(("SHARES",) if ROUGH in features else ())]
+    way = Piece(samplers=named("FLOAT_2D", "path_way", "path_throughput"), defines=flags("ON_PATH"))
+    return build_shader(
+        "path step",
+        CLASS,
+        RAYS,
+        *vertex_pieces(features),
+        SAMPLER,
+        *((ABSORBING,) if ABSORPTION in features else ()),
+        way if on_path else VIEW,
+        SURFACE_OUTPUTS,
+        Piece(constants={"limits": "VEC4"}, outputs=outputs, defines=flags(*names), fragment="paths/step.frag.glsl"),
+    )
+
+
+@gpu_cache
+def _images_shader(of_scalars: bool) -> Any:
+    names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
+    cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))
+    return build_shader(
+        "path images",
+        CLASS,
+        TABLE,
+        Piece(
+            samplers=named("FLOAT_2D", "path_uv", "vertex_normal", *names),
+            constants={"first_image": "INT"},
+            defines={
+                "IMAGES": IMAGES_AT_ONCE,
+                "IMAGE_CASES": cases,
+                **(flags("OF_SCALARS") if of_scalars else {}),
+            },
+            outputs={"color": "VEC4"},
+            fragment="paths/path_images.frag.glsl",
+        ),
+    )

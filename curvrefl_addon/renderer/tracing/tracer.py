@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Paths of one picture: a loop of steps, of which each adds the light that it finds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...scene.arrays import MaterialArrays, SceneArrays
+from ..device.textures import depth_texture
+from ..lighting.lighting import Lighting
+from ..paths.features import ABSORPTION, ANISOTROPY, ROUGH, SCALARS, goes_on
+from ..rays.ray_scene import RayScene
+from ..shading.shade import RayShadows
+from ..surfaces.canvas import Canvas
+from ..surfaces.materials import Materials
+from ..surfaces.surface_buffer import SurfaceBuffer
+from ..surfaces.windows import Window
+from .media import absorbing
+from .object_frames import object_frames
+from .path_classes import BUFFERS, PathClass, PathClasses, place_of
+from .path_light import PathLight
+from .path_vertices import PathVertices
+from .reuse import add_shared
+from .step import Limits, Surroundings, follow
+
+MOST_SIZES = 3
+"""Of pictures whose targets are kept"""
+type _Targets = tuple[PathClasses, dict[int, PathVertices], Canvas | None]
+
+
+class PathTracer:
+    """Follows paths in one scene."""
+
+    def __init__(self, scene: SceneArrays, features: frozenset[str], lighting: Lighting, materials: Materials) -> None:
+        """`features`: what the scene needs of paths, not empty (`paths.features.path_features`)."""
+        self.features = features
+        self._lighting, self._materials = lighting, materials
+        self._absorbing: Any = absorbing(scene) if ABSORPTION in features else None
+        self._frames: Any = object_frames(scene) if ANISOTROPY in features else None
+        used = {
+            index
+            for instance in scene.instances
+            for index in instance.materials
+            if goes_on(scene.materials[index], instance.object_id in scene.reflectors)
+        }
+        self._has_base = any(_has_base(scene.materials[index]) for index in used)
+        self._limits = (scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
+        self._sees_through = any(scene.materials[index].is_seen_through for index in used)
+        self._has_images = bool(scene.images)
+        self._targets: dict[tuple[int, int], _Targets] = {}
+
+    @property
+    def has_scalars(self) -> bool:
+        """Images say how rough, metallic, transmitting or transparent surfaces are."""
+        return SCALARS in self.features
+
+    @property
+    def sees_through(self) -> bool:
+        """Paths begin at other surfaces than mirrors, too."""
+        return self._sees_through
+
+    def limits(self, bounces: int) -> Limits:
+        """`bounces`: mirrors that are followed at most."""
+        reflections, interfaces, transparent = self._limits
+        reflections = min(reflections, bounces)
+        interfaces = min(interfaces, MOST_EVENTS) if "PATHS_GLASS" in self.features else 0
+        transparent = min(transparent, MOST_EVENTS) if "PATHS_ALPHA" in self.features else 0
+        return Limits(reflections, interfaces, transparent, max(reflections, interfaces))
+
+    def add(
+        self,
+        canvas: Canvas,
+        weight: float,
+        seen: SurfaceBuffer,
+        rays: RayScene,
+        view_uniforms: Any,
+        window: Window | None,
+        sub_frame: int,
+        bounces: int,
+        chosen: Any = None,
+        sees_through: bool = True,
+        shadows: RayShadows | None = None,
+        film_transparent: bool = False,
+    ) -> None:
+        """Add the light of one sample of the paths that begin in `window` at mirrors and, if it `sees_through` them, at
+        other surfaces that do not stop the light, times `weight`.
+
+        `chosen`: record texture by mirrors' numbers, 1 of those whose paths are followed; None is all. `sub_frame`:
+        number of the sample.
+        """
+        window = window or (0, 0, seen.width, seen.height)
+        if window[2] <= 0 or window[3] <= 0:
+            return
+        classes, vertices, arriving = self._targets_for(seen)
+        around = Surroundings(
+            self.features,
+            self._materials,
+            rays,
+            self._lighting.ggx,
+            self._frames,
+            self._absorbing,
+            view_uniforms,
+            window,
+        )
+        light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base)
+        scalars = seen.with_scalars()[0] if self.has_scalars else None
+        seen_scalars = scalars
+        limits = self.limits(bounces)
+        classes.sort_seen(seen, window, chosen, sees_through and self._sees_through)
+        light.add(canvas, weight, PathClass.GOES_ON, seen, scalars, classes.depth(0))
+        found = canvas
+        if arriving is not None:
+            arriving.clear()
+            found = arriving
+        strength = weight if arriving is None else 1.0
+        before: SurfaceBuffer | PathVertices = seen
+        for step in range(1, limits.most_steps + 1):
+            met = vertices[place_of(step)]
+            follow(around, before, scalars, classes.depth(step - 1), met, limits, sub_frame, step)
+            classes.sort_met(step, met, window)
+            scalars = met.scalars
+            kinds = [PathClass.MISSES, PathClass.STOPS]
+            if step < limits.most_steps and (self._has_base or light.lights_samples or light.has_bodies):
+                kinds.append(PathClass.GOES_ON)
+            for kind in kinds:
+                light.add(found, strength, kind, met, scalars, classes.depth(step), before)
+            before = met
+        if arriving is not None:
+            add_shared(around, canvas, weight, seen, seen_scalars, classes.depth(0), vertices[1], arriving)
+
+    def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
+        size = (seen.width, seen.height)
+        if size not in self._targets:
+            while len(self._targets) >= MOST_SIZES:
+                del self._targets[next(iter(self._targets))]
+            shares = ROUGH in self.features
+            classes = PathClasses([depth_texture(*size) for _ in range(BUFFERS)])
+            vertices = {place: PathVertices(*size, self.features, self._has_images) for place in range(1, BUFFERS)}
+            self._targets[size] = (classes, vertices, Canvas.of_size(*size) if shares else None)
+        return self._targets[size]
+
+
+MOST_EVENTS = 32
+"""Interfaces or transparent surfaces that a path is followed through, whatever the file says"""
+
+
+def _has_base(material: MaterialArrays) -> bool:
+    """Whether a surface shows something besides what its lobes do."""
+    shines = max(material.emission) > 0.0
+    is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
+    return shines or not is_lobe_alone or material.scalars is not None

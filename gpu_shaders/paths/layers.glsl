@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): coat, metal,
+// glass, dielectric, diffuse base; as optics/scattering/layers.py.
+#include "paths/path_material.glsl"
+#include "paths/fresnel_layers.glsl"
+#include "paths/microfacet.glsl"
+#include "common/ggx_table.glsl"
+#ifdef PATHS_GLASS
+#include "paths/glass.glsl"
+#endif
+
+struct Layers {
+  float cos_viewer;
+  vec2 alpha;           // widths of the base's microfacets
+  bool is_sharp;
+  vec3 metal;           // share of the metal times its multiple scattering
+  vec3 metal_f0;
+  vec3 metal_dip;
+  float metal_edge;     // 0: reflects alike at every angle (Glossy BSDF)
+  vec3 dielectric;      // the same of the dielectric
+  vec3 dielectric_f0;
+  float eta;
+  vec3 specular_albedo; // of metal and dielectric
+  vec3 above;           // what the coat lets through
+  vec3 base;            // what metal, glass and dielectric leave to the diffuse base, below the coat
+#ifdef PATHS_COAT
+  float coat;           // share of the coat times its multiple scattering
+  float coat_alpha;
+  float coat_eta;
+  float coat_albedo;
+#endif
+#ifdef PATHS_GLASS
+  Pane glass;
+#endif
+};
+
+// Albedo of a dielectric's lobe from `f0` to white; `scattering`: multiple scattering in parts of the single one.
+vec3 dielectric_albedo(float roughness, float cosine, float eta, vec3 f0, out vec3 scattering)
+{
+  float real = normal_reflectance(eta);
+  float slice = sqrt(sqrt(real)) * float(GGX_IOR_SLICES - 1);
+  float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
+  vec4 table = ggx_table(roughness, cosine, below);
+  float mean_share = clamp((mean_dielectric(eta) - real) / max(1.0 - real, 1e-6), 0.0, 1.0);
+  float missing = (1.0 - table.x) / max(table.x, 1e-4);
+  scattering = multiple_scattering(mix(f0, vec3(1.0), mean_share), average_albedo(roughness), missing);
+  return table.x * scattering * mix(f0, vec3(1.0), mix(table.z, table.w, slice - below));
+}
+
+vec2 base_alpha(PathMaterial m, float roughness)
+{
+  vec2 alpha = vec2(roughness * roughness);
+#ifdef PATHS_ANISOTROPY
+  if (m.glossy_only) {
+    float stretch = 1.0 - min(abs(m.anisotropy), 0.99);
+    alpha *= m.anisotropy < 0.0 ? vec2(1.0 / stretch, stretch) : vec2(stretch, 1.0 / stretch);
+  }
+  else {
+    float aspect = sqrt(1.0 - 0.9 * clamp(m.anisotropy, 0.0, 1.0));
+    alpha *= vec2(1.0 / aspect, aspect);
+  }
+  alpha = min(alpha, 1.0);
+#endif
+  return alpha;
+}
+
+// The coat alone: what is above all else.
+void add_coat(PathMaterial m, inout Layers layers)
+{
+  layers.above = vec3(1.0);
+#ifdef PATHS_COAT
+  float weight = max(m.coat_weight, 0.0);
+  float roughness = clamp(m.coat_roughness, 0.0, 1.0);
+  layers.coat_eta = max(m.coat_ior, 1.0);
+  layers.coat_alpha = roughness * roughness;
+  vec3 scattering;
+  vec3 f0 = vec3(normal_reflectance(layers.coat_eta));
+  layers.coat_albedo = weight * dielectric_albedo(roughness, layers.cos_viewer, layers.coat_eta, f0, scattering).x;
+  layers.coat = weight * scattering.x;
+  layers.above *= clamp(1.0 - layers.coat_albedo, 0.0, 1.0);
+  // The tint is of light that goes straight through.
+  float way = 1.0 / max(refracted_cosine(layers.cos_viewer, layers.coat_eta), 1e-4);
+  layers.above *= mix(vec3(1.0), pow(max(m.coat_tint, 1e-10), vec3(way)), min(weight, 1.0));
+#endif
+}
+
+Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
+{
+  Layers layers;
+  layers.cos_viewer = clamp(cos_viewer, 1e-4, 1.0);
+  float roughness = clamp(m.roughness, 0.0, 1.0);
+  add_coat(m, layers);
+  layers.alpha = base_alpha(m, roughness);
+#ifdef PATHS_ANISOTROPY
+  roughness = sqrt(sqrt(layers.alpha.x * layers.alpha.y));
+#endif
+  layers.is_sharp = is_sharp_alpha(sqrt(layers.alpha.x * layers.alpha.y));
+  layers.alpha = max(layers.alpha, SMALLEST_ALPHA);
+  vec4 table = ggx_table(roughness, layers.cos_viewer, 0.0);
+  float missing = layers.is_sharp ? 0.0 : (1.0 - table.x) / max(table.x, 1e-4);
+  float average = average_albedo(roughness);
+  vec3 share = layers.above;
+  layers.eta = 1.0;
+  layers.dielectric = vec3(0.0);
+  layers.dielectric_f0 = vec3(0.0);
+  layers.metal_dip = vec3(0.0);
+  layers.metal_f0 = max(m.base_color, 0.0);
+  layers.metal_edge = m.glossy_only ? 0.0 : 1.0;
+  if (m.glossy_only) {
+    layers.metal = share * multiple_scattering(min(layers.metal_f0, 1.0), average, missing);
+    layers.specular_albedo = table.x * layers.metal * layers.metal_f0;
+    layers.base = vec3(0.0);
+#ifdef PATHS_GLASS
+    layers.glass = no_pane();
+#endif
+    return layers;
+  }
+  float metallic = clamp(m.metallic, 0.0, 1.0);
+  layers.metal_f0 = min(layers.metal_f0, 1.0);
+  layers.metal_dip = edge_dip(layers.metal_f0, clamp(m.specular_tint, 0.0, 1.0));
+  vec3 mean_metal = mix(layers.metal_f0, vec3(1.0), 1.0 / 21.0) - layers.metal_dip / 126.0;
+  layers.metal = share * metallic * multiple_scattering(mean_metal, average, missing);
+  layers.specular_albedo = table.x * layers.metal * mix(layers.metal_f0, vec3(1.0), table.y);
+  share *= 1.0 - metallic;
+#ifdef PATHS_GLASS
+  float transmission = clamp(m.transmission, 0.0, 1.0);
+  layers.glass = pane_of(m, is_back, layers.cos_viewer, share * transmission);
+  share *= 1.0 - transmission;
+#endif
+  layers.eta = leveled_ior(max(m.ior, 1e-5), m.specular_level);
+  if (metallic < 1.0 && layers.eta != 1.0) {
+    vec3 scattering;
+    layers.dielectric_f0 = clamp(normal_reflectance(layers.eta) * m.specular_tint, 0.0, 1.0);
+    vec3 albedo = dielectric_albedo(roughness, layers.cos_viewer, layers.eta, layers.dielectric_f0, scattering);
+    layers.dielectric = share * (layers.is_sharp ? vec3(1.0) : scattering);
+    layers.specular_albedo += share * albedo;
+    share *= clamp(1.0 - largest(albedo), 0.0, 1.0);
+  }
+  layers.base = share * max(m.base_color, 0.0);
+  return layers;
+}
+
+// Reflectance of metal and dielectric at a microfacet.
+vec3 specular_fresnel(Layers layers, float cosine)
+{
+  vec3 sum = layers.metal * (layers.metal_edge > 0.5 ? tinted_metal(layers.metal_f0, layers.metal_dip, cosine) :
+                                                       layers.metal_f0);
+  if (largest(layers.dielectric) > 0.0) {
+    sum += layers.dielectric * tinted_dielectric(layers.dielectric_f0, layers.eta, cosine);
+  }
+  return sum;
+}

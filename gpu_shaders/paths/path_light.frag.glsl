@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light that a path finds, times what is left of it on the way. One define says at which pixels: LIGHTS_MISSES (it met
+// nothing), LIGHTS_STOPS (a surface where it ends), LIGHTS_GOES_ON (a surface from which it goes on: what that shows
+// besides). With ON_PATH what a step has met (step.frag.glsl), else what the eye sees.
+#include "lighting/lighting.glsl"
+#include "lighting/shade_surfaces.glsl"
+#include "paths/path_state.glsl"
+#ifdef LIGHTS_GOES_ON
+#include "paths/vertex_light.glsl"
+#endif
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 position = texelFetch(vertex_position, pixel, 0);
+  float cover = 0.0;
+#ifdef ON_PATH
+  vec4 way = texelFetch(path_way, pixel, 0);
+  vec4 throughput = texelFetch(path_throughput, pixel, 0);
+  PathState state = unpack_state(throughput.w);
+  bool by_camera = state.kind == RAY_CAMERA;
+  vec3 origin = texelFetch(before_position, pixel, 0).xyz;
+  vec3 direction = way_direction(way);
+  float density = way.z;
+#else
+  vec3 throughput = vec3(1.0);
+  bool by_camera = true;
+  float density = 0.0;
+  vec3 origin, direction;
+  pixel_ray(textureSize(vertex_position, 0), origin, direction);
+  cover = 1.0;
+#endif
+  vec3 radiance = vec3(0.0);
+  float range = distance(position.xyz, origin);
+#ifdef LIGHTS_MISSES
+  range = 2e30;
+#ifdef FILM_TRANSPARENT
+  if (by_camera) {
+    cover = -1.0;
+  }
+  else
+#endif
+  {
+#ifdef PATH_LIGHT
+    radiance = world_met(direction, by_camera, density);
+#else
+    radiance = world_seen(direction, by_camera);
+#endif
+  }
+#else
+  vec4 normal = texelFetch(vertex_normal, pixel, 0);
+  vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
+#ifdef LIGHTS_STOPS
+  Surface surface = surface_of(position, normal, base);
+#ifdef ON_PATH
+  radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
+#else
+  radiance = shade_surface(surface, -direction);
+#endif
+#else
+  radiance = light_of_vertex(surface_of(position, normal, base), vertex_at(pixel), -direction);
+#endif
+#endif
+#ifdef PATH_LIGHT
+  ray_density = density;
+#endif
+  radiance += lamps_seen(origin, direction, range, by_camera).rgb;
+  color = vec4(throughput.rgb * radiance, cover) * weight;
+}

@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of paths is compiled for a scene: nothing where none of its paths needs it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.renderer.paths.features import (
+    ABSORPTION,
+    ALPHA,
+    ANISOTROPY,
+    COAT,
+    FILM,
+    GLASS,
+    ROUGH,
+    SCALARS,
+    path_features,
+)
+from curvrefl.curvrefl_addon.scene.arrays import (
+    InstanceArrays,
+    MaterialArrays,
+    MeshArrays,
+    ScalarsArrays,
+    SceneArrays,
+    WorldArrays,
+)
+
+CHROME = MaterialArrays("chrome", metallic=1.0, roughness=0.0)
+ROUGH_METAL = MaterialArrays("rough", metallic=1.0, roughness=0.3)
+LEAF = MaterialArrays("leaf", alpha=0.5, specular_level=0.0)
+
+
+def scene_of(
+    mirror: MaterialArrays, scenery: MaterialArrays, slots: tuple[int, ...] = (0,), **more: Any
+) -> SceneArrays:
+    """A mirror of the first material, another object of the first and second."""
+    corners = np.zeros((3, 3), np.float32)
+    triangles = np.tile(np.arange(3, dtype=np.int32), (len(slots), 1))
+    mesh = MeshArrays(
+        "mesh", corners, np.arange(3, dtype=np.int32), corners, None, None, triangles, np.array(slots, np.int32)
+    )
+    single = replace(mesh, triangle_slot=np.zeros(len(slots), np.int32))
+    instances = (
+        InstanceArrays("mirror", 1, 0, np.eye(4), (0,)),
+        InstanceArrays("scenery", 2, 1, np.eye(4), (1, 2), **more),
+    )
+    plain = MaterialArrays("plain", metallic=1.0)
+    return SceneArrays((single, mesh), instances, (mirror, scenery, plain), (), (), WorldArrays(), (1,))
+
+
+@pytest.mark.parametrize(
+    ("mirror", "needed"),
+    [
+        (CHROME, set()),
+        (replace(CHROME, metallic=0.5), set()),
+        (replace(CHROME, anisotropy=0.5), set()),
+        (replace(CHROME, roughness=0.0264), set()),
+        (replace(CHROME, roughness=0.0265), {ROUGH}),
+        (ROUGH_METAL, {ROUGH}),
+        (replace(ROUGH_METAL, anisotropy=-0.5), {ROUGH, ANISOTROPY}),
+        (MaterialArrays("dielectric"), {ROUGH}),
+        (MaterialArrays("matte", specular_level=0.0), set()),
+        (MaterialArrays("air", ior=1.0), set()),
+        (replace(CHROME, coat_weight=0.5, coat_roughness=0.0), {COAT}),
+        (replace(CHROME, coat_weight=0.5, coat_roughness=0.1), {COAT, ROUGH}),
+        (replace(CHROME, film_thickness=300.0), {FILM}),
+        (replace(CHROME, absorption=(1.0, 0.0, 0.0)), set()),
+        (MaterialArrays("glass", roughness=0.0, transmission=1.0), {GLASS}),
+        (MaterialArrays("green", roughness=0.0, transmission=1.0, absorption=(1.0, 0.0, 1.0)), {GLASS, ABSORPTION}),
+        (replace(CHROME, alpha=0.9), {ALPHA}),
+        (replace(CHROME, scalars=ScalarsArrays(0)), {ROUGH, SCALARS}),
+    ],
+    ids=str,
+)
+def test_what_a_mirror_is_made_of(mirror: MaterialArrays, needed: set[str]) -> None:
+    assert path_features(scene_of(mirror, MaterialArrays("scenery"))) == needed
+
+
+def test_scenery_counts_where_it_is_seen_through() -> None:
+    assert path_features(scene_of(CHROME, ROUGH_METAL)) == set()
+    assert path_features(scene_of(CHROME, LEAF)) == {ALPHA}
+    hidden = {"visible_camera": False, "visible_glossy": False, "visible_transmission": False}
+    assert path_features(scene_of(CHROME, LEAF, **hidden)) == set()
+
+
+@pytest.mark.parametrize(("slots", "needed"), [((1, 1), set()), ((1, 0), {ALPHA}), ((7,), set())])
+def test_a_slot_that_no_triangle_has_does_not_count(slots: tuple[int, ...], needed: set[str]) -> None:
+    assert path_features(scene_of(CHROME, LEAF, slots)) == needed
