@@ -117,9 +117,8 @@ class Lighting:
         moved = difference.moved
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
-        planned = (
-            difference.structure or (bool(moved) and not self._holds(moved)) or was_hashed != self._alpha.is_hashed
-        )
+        planned = difference.structure or (bool(moved) and not self._holds(moved))
+        planned |= self._alpha.is_hashed != was_hashed
         if planned:
             self._read_geometry()
         if scene.world is not before.world:
@@ -259,8 +258,7 @@ class Lighting:
         self._lamp_warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
-        points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
-        points = [self._alpha.repeated(places, samples) for places in points]
+        points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
         resolution = LAMP_MAP_RESOLUTIONS[0]
         views: list[ShadowView] = []
         for resolution in LAMP_MAP_RESOLUTIONS:
