@@ -24,6 +24,7 @@ from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
+from .noise import Convergence
 from .paths.features import path_features
 from .paths.left_out import left_out_by, reasons_for_rays
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -189,12 +190,12 @@ class Renderer:
         last: Reflection | None = None,
         moments: Sequence[Moment] = (),
         mirrors_alone: Canvas | None = None,
-        before_sub_frame: Callable[[int], None] | None = None,
+        before_sub_frame: Callable[[Convergence], None] | None = None,
     ) -> Frame:
         """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
 
         `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
-        `before_sub_frame` is called with the number of each sub-frame; what it raises ends the picture.
+        `before_sub_frame` is called with how far the picture has come; what it raises ends it.
         """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
@@ -202,7 +203,7 @@ class Renderer:
         reflection.wait()
         solved = perf_counter()
         still = Moment(self._given, view)
-        reflection = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
+        reflection, convergence = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -215,7 +216,8 @@ class Renderer:
         if is_lit_indirectly(self.scene):
             # (Of a picture that is kept: a viewport would say so all the time.)
             reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
-        return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
+        surfaces = partial(self._surfaces_while, self.revision, reflection)
+        return Frame(reflection, canvas.texture, times, surfaces, convergence)
 
     def reflect(
         self,

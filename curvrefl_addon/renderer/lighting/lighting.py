@@ -15,12 +15,14 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
+from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
@@ -39,13 +41,15 @@ DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRE
 """vec4 records of the uniform block"""
 MANY_TRIANGLES = 300_000
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
-"""Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
+"""Points on a soft lamp whose maps are kept, and in scenes of more than MANY_TRIANGLES. Pictures of few sub-frames have
+no more points; others one for each sub-frame, which are drawn as they are needed"""
 WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 16
-"""World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
+"""World directions of a whole picture, and in scenes of more than MANY_TRIANGLES; at least one for each sub-frame"""
+MOST_WORLD_DIRECTIONS = 256
+"""Sub-frames beyond that go through them again: their mean is even, as their shadows are wide"""
 DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
-LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 type Features = frozenset[str]
 """Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only,
 whether the world shines and whether it is an image"""
@@ -55,8 +59,6 @@ FEATURES: Features = frozenset(
 )
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
-LAMP_MAP_BYTES = 160 << 20
-"""The finest resolution that fits is taken"""
 
 
 def lighting_piece(features: Features = FEATURES) -> Piece:
@@ -257,38 +259,12 @@ class Lighting:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
-        samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
+        kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
+        samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
         points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
-        resolution = LAMP_MAP_RESOLUTIONS[0]
-        views: list[ShadowView] = []
-        for resolution in LAMP_MAP_RESOLUTIONS:
-            self._lamp_places, views = self._lamp_views(points, resolution)
-            if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
-                break
-        self._lamp_maps.plan(views, resolution)
-
-    def _lamp_views(
-        self, points: list[Float64Array], resolution: int
-    ) -> tuple[list[list[tuple[Float64Array, tuple[int, ...]]]], list[ShadowView]]:
-        """Per lamp its points with the layers of their maps (-1: nothing in shadow there), and all views."""
-        views: list[ShadowView] = []
-        lamps = []
-        for light, places in zip(self._lights, points, strict=True):
-            planned = []
-            for number, place in enumerate(places):
-                found: tuple[ShadowView | None, ...] = ()
-                if light.casts_shadow and light.kind == "SUN":
-                    found = (self._extent.parallel_view(place[:3] / np.linalg.norm(place[:3]), resolution),)
-                elif light.casts_shadow:
-                    found = self._extent.point_views(place[:3], resolution)
-                layers = []
-                for view in found:
-                    layers.append(-1 if view is None else len(views))
-                    if view is not None:
-                        views.append(replace(view, turn=(number, len(places))))
-                planned.append((place, tuple(layers)))
-            lamps.append(planned)
-        return lamps, views
+        planned = plan_lamps(self._extent, self._lights, points, kept)
+        self._lamp_places = planned.places
+        self._lamp_maps.plan(planned.views, planned.resolution, planned.layers)
 
     def _read_world(self) -> None:
         """Choose the world's directions; fill its textures."""
@@ -298,7 +274,8 @@ class Lighting:
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
-        light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
+        count = min(self._directions_at_once * self.sub_frames, MOST_WORLD_DIRECTIONS)
+        light = world_light(self._sky.world, max(count, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
         self._world_image, self.world_warnings = world_image(world)
@@ -329,14 +306,16 @@ class Lighting:
             lamp_layers += [layer for layer in layers if layer >= 0]
         world_layers: list[int] = []
         at_once = self._directions_at_once
+        draws = self._world_light.draws
         for draw in range(index * at_once, (index + 1) * at_once):
-            direction = self._world_light.draws[draw]
+            draw %= len(draws)
+            direction = draws[draw]
             layer = int(self._world_layers[direction])
             if layer < 0:
                 continue
             start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
             records[start] = [*self._world_light.directions[direction], layer]
-            weight = self._world_light.weights[draw] * self.sub_frames
+            weight = self._world_light.weights[draw] * (len(draws) / at_once)
             view = self._world_maps.views[layer]
             records[start + 1 : start + 4] = window_rows(view, self._world_maps.resolution)[:3]
             # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
