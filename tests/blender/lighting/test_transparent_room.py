@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A room with a leaf cut out by an image's alpha and two clear panes, directly, in a mirror and in shadows, by Cycles."""
+"""A room with a leaf cut out by an image and two clear panes, seen directly, in a mirror and in shadows, by Cycles."""
 
 from __future__ import annotations
 
