@@ -188,7 +188,10 @@ class MaterialReader:
         space = packed.space
         uv_maps = tuple(dict.fromkeys((*found.uv_maps, space.uv_map)))
         if not _is_one_map(uv_maps):
-            notes.on_paths.append("Roughness, metallic and alpha {of} are their means: they are on another UV map.")
+            notes.on_paths.append(
+                "Roughness, metallic, transmission and alpha {of} are their means: they are on another UV map than its "
+                "color."
+            )
             return found, arrays
         image = self._known(usable_image(packed.image, notes.always))
         index = self._image_index(image, arrays.image)
