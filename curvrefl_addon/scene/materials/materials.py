@@ -174,7 +174,8 @@ class MaterialReader:
         if volume is None:
             return surface
         absorption = read_absorption(volume, reader.inputs)
-        if absorption is None:
+        # (What goes straight through surfaces does not know what it is inside of.)
+        if absorption is None or (any(absorption) and surface.rest.transmission == 0.0 and not surface.is_opaque):
             notes.always.append("Volumes {of} are not shown.")
             return surface
         return replace(surface, rest=replace(surface.rest, absorption=absorption))

@@ -272,6 +272,16 @@ def test_volumes_that_do_more_than_absorb_are_said(kind: str, inputs: dict[str |
     assert scene.warnings == ('Volumes of material "cube" are not shown.',)
 
 
+def test_absorption_between_surfaces_that_bend_nothing_is_said() -> None:
+    """Not so within what hides it."""
+    for alpha, said in ((0.5, ('Volumes of material "cube" are not shown.',)), (1.0, ())):
+        empty_scene()
+        _, tree, _ = cube_of("ShaderNodeBsdfPrincipled", Alpha=alpha)
+        volume = node(tree, "ShaderNodeVolumeAbsorption")
+        tree.links.new(volume.outputs[0], tree.nodes["Material Output"].inputs["Volume"])
+        assert extracted().warnings == said
+
+
 def test_volumes_are_mixed_and_added() -> None:
     _, tree, _ = cube_of("ShaderNodeBsdfGlass")
     parts = [
