@@ -143,7 +143,7 @@ def _by_angle(source: Source, inputs: Inputs) -> Coverage | None:
         else:
             exponent = 2.0 * blend if blend < 0.5 else 0.5 / (1.0 - blend)
             shares = np.asarray(1.0 - cosines**exponent, np.float64)
-    inputs.notes.always.append(f"{node.bl_label} nodes {{of}} are drawn as one color.")
+    inputs.notes.always.append("Mixed shaders {of} are mixed alike at all angles.")
     return Coverage(gray(float(np.average(shares, weights=cosines))))
 
 
