@@ -47,7 +47,7 @@ from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
         (replace(CHROME, alpha=0.9), {ALPHA}),
         (replace(CHROME, scalars=ScalarsArrays(0)), {ROUGH, SCALARS}),
     ],
-    ids=str,
+    ids=lambda value: value.name if isinstance(value, MaterialArrays) else "-".join(sorted(value)),
 )
 def test_what_a_mirror_is_made_of(mirror: MaterialArrays, needed: set[str]) -> None:
     assert path_features(scene_of(mirror, MaterialArrays("scenery"))) == needed
