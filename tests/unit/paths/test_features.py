@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.renderer.paths.features import (
     GLASS,
     ROUGH,
     SCALARS,
+    TINT,
     path_features,
 )
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ScalarsArrays
@@ -38,6 +39,8 @@ from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.0), {COAT}),
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.1), {COAT, ROUGH}),
         (replace(CHROME, film_thickness=300.0), {FILM}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2)), {TINT}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2), glossy_only=True), set()),
         (replace(CHROME, absorption=(1.0, 0.0, 0.0)), set()),
         (MaterialArrays("glass", roughness=0.0, transmission=1.0), {GLASS}),
         (MaterialArrays("green", roughness=0.0, transmission=1.0, absorption=(1.0, 0.0, 1.0)), {GLASS, ABSORPTION}),
