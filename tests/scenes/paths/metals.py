@@ -27,12 +27,19 @@ for _roughness in ROUGHNESSES:
         f"a metal ball of roughness {_roughness}",
         partial(_metal_ball, _roughness),
         LIMITS.get(_roughness, (None, None)),
+        samples=1024 if _roughness < 0.2 else 512,
     )
 
 
 @path_scene("a sharp metal ball: what the rest of the picture leaves")
 def metal_sharp() -> None:
     _metal_ball(0.0)
+
+
+@path_scene("a metal ball of roughness 0.3 where the lamp and the sky light all", LIMITS[0.3])
+def metal_03_soft() -> None:
+    room(soft=True)
+    put_ball(metal(0.3))
 
 
 @path_scene("a metal pot that sees itself, roughness 0.1", LIMITS[0.1])

@@ -41,7 +41,7 @@ def path_scene(
     limits: Limits = (None, None),
     mirrors: tuple[str, ...] = (OBJECT,),
     judged: tuple[str, ...] | None = None,
-    samples: int = 512,
+    samples: int = 256,
 ) -> Callable[[Builder], Builder]:
     """Registers a builder under its function's name; all that is chosen is judged unless `judged` says otherwise."""
 
@@ -59,7 +59,7 @@ def add_scene(
     limits: Limits = (None, None),
     mirrors: tuple[str, ...] = (OBJECT,),
     judged: tuple[str, ...] | None = None,
-    samples: int = 512,
+    samples: int = 256,
 ) -> None:
     """Registers one of a row of scenes that differ by a number."""
     if name in SCENES:
