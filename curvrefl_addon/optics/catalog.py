@@ -34,6 +34,8 @@ class Method:
     """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
     several_images: bool = False
     """It also looks for the images that a mirror that bends both ways shows beside the first"""
+    refracts: bool = False
+    """It finds where glass shows vertices through its surface, in place of where a mirror reflects them"""
     curves_edges: bool = False
     """At rest and in stills, edges are split where their solved midpoint leaves the chord"""
 
@@ -95,6 +97,18 @@ METHODS: dict[str, Method] = {
         steps=6,
         stragglers="newton_stragglers",
         several_images=True,
+        curves_edges=True,
+    ),
+    "newton_refraction": Method(
+        "Newton through Glass",
+        "Roger & Holzschuch 2006, section 5: Newton on Fermat's principle with Snell's law",
+        "every ray from the star center leaves the glass once; one image per vertex; light bends at the first surface "
+        "alone",
+        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_refraction_stragglers",
+        refracts=True,
         curves_edges=True,
     ),
     "secant_uv": Method(

@@ -45,6 +45,11 @@ def goes_on(material: MaterialArrays, is_mirror: bool) -> bool:
     return is_mirror or material.is_seen_through
 
 
+def lets_straight_on(material: MaterialArrays) -> bool:
+    """Whether light goes through as if nothing was there, at some places or in part: not so through glass."""
+    return material.alpha < 1.0
+
+
 def features_of(material: MaterialArrays) -> frozenset[str]:
     """Defines that a path needs which goes on from the material."""
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
@@ -57,7 +62,7 @@ def features_of(material: MaterialArrays) -> frozenset[str]:
         ROUGH: is_rough or is_coat_rough or has_scalars,
         COAT: material.coat_weight > 0.0,
         GLASS: material.transmission > 0.0,
-        ALPHA: material.alpha < 1.0,
+        ALPHA: lets_straight_on(material),
         SCALARS: has_scalars,
         ANISOTROPY: material.anisotropy != 0.0 and (is_rough or has_scalars),
         FILM: material.film_thickness > 0.0,

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...optics.catalog import METHODS, Method
+from ...optics.snell import LARGEST_INDEX, SMALLEST_INDEX
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
@@ -64,7 +65,8 @@ _BLOCK = np.dtype(
         ("is_convex", "i4"),
         ("first_rung", "i4"),
         ("region", "i4"),
-        ("unused", "i4", 2),
+        ("index", "f4"),  # of refraction, beyond the surface over that on the eye's side
+        ("unused", "i4"),
     ]
 )
 """The block `solver`, std140; fields without a word here are those of `Reflector`, or arguments of functions below"""
@@ -90,6 +92,8 @@ class Reflector:
     """Texel where a search on the screen maps begins"""
     is_convex: bool = False
     """Closed and convex: a line enters it once"""
+    index: float = 1.0
+    """Of refraction beyond the surface over that on the eye's side, for methods that refract"""
 
 
 def solve_vertices(
@@ -256,6 +260,7 @@ def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tole
     block["search_start"] = reflector.start
     block["focal_pixels"], block["tolerance"] = view.focal_pixels, tolerance
     block["bound"], block["side"], block["is_convex"] = reflector.bound, reflector.side, reflector.is_convex
+    block["index"] = np.clip(reflector.index, SMALLEST_INDEX, LARGEST_INDEX)
     block["steps"], block["newton_steps"] = steps, NEWTON_STEPS
     return block
 
@@ -297,6 +302,8 @@ def build_solver(name: str, label: str, *pieces: Piece) -> Any:
 def _solver_shader(name: str, method: str, entry: Method) -> Any:
     """`gpu_shaders/solvers/<name>.comp.glsl` with what `method`, with this entry, gives its shaders."""
     pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(entry)})]
+    if entry.refracts:
+        pieces.append(Piece(defines=flags("REFRACTS")))
     if entry.stragglers:
         pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
     return build_solver(name, f"{name} of {method}", *pieces)
