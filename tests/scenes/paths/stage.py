@@ -70,8 +70,7 @@ def room(lens: float = 62.0, things: bool = True, target: Place = (0.0, 0.0, 1.0
         add_object("Red", ball(0.5, 32), matte("Red", (0.7, 0.05, 0.04)), True, (-1.3, 1.8, 0.5))
     lamp = add_lamp("AREA", (1.6, -2.6, 4.2), 70.0, target=(0.0, 0.0, 0.8), size=2.2)
     lamp.visible_diffuse = soft
-    sun = add_lamp("SUN", (0.5, -0.8, 0.9), 0.7 if soft else 3.2, target=(0.0, 0.0, 0.0), angle=0.0, use_shadow=False)
-    sun.visible_glossy = sun.visible_transmission = False
+    add_lamp("SUN", (0.5, -0.8, 0.9), 0.7 if soft else 3.2, target=(0.0, 0.0, 0.0), angle=0.0, use_shadow=False)
     add_camera(EYE, target, lens=lens)
     return scene
 
