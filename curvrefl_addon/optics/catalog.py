@@ -34,6 +34,8 @@ class Method:
     """Whether it works on an open mirror's radial map, whose filled holes make it the closed companion"""
     several_images: bool = False
     """It also looks for the images that a mirror that bends both ways shows beside the first"""
+    refracts: bool = False
+    """It finds where glass shows vertices through its surface, in place of where a mirror reflects them"""
     curves_edges: bool = False
     """At rest and in stills, edges are split where their solved midpoint leaves the chord"""
 
@@ -163,3 +165,21 @@ METHODS: dict[str, Method] = {
         ("environment_resolution", (64, 128, 256, 512)),
     ),
 }
+
+REFRACTIONS: dict[str, Method] = {
+    "newton_refraction": Method(
+        "Newton through Glass",
+        "Newton on Fermat's principle with Snell's law; proposed by Roger & Holzschuch 2005 and 2006, section 5",
+        "every ray from the star center leaves the glass once; one image per vertex; light bends at one surface alone",
+        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_refraction_stragglers",
+        refracts=True,
+        curves_edges=True,
+    ),
+}
+"""Solvers for what glass shows through its surface; no picture is drawn by them alone"""
+
+SOLVERS: dict[str, Method] = METHODS | REFRACTIONS
+"""All that has a shader in `gpu_shaders/solvers`, and the other methods"""

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fermat's principle on a star-shaped reflector: path length, its gradient, and what makes a point a reflection.
+"""Fermat's principle on a star-shaped surface: path length, its gradient, and what makes a point a reflection.
+
+A leg in glass counts its length times the index of refraction: with `index`, that of the vertex's side over that of
+the eye's, a zero of the gradient is a refraction (`snell.py`); with 1 it is a reflection.
 
 The eye E is homogeneous, (x, y, z, 1) for a point and (x, y, z, 0) for the unit direction towards an eye at
 infinity (orthographic view). Positions are relative to the star center.
@@ -40,17 +43,19 @@ def towards_eye(eye: Float64Array, points: Float64Array) -> Float64Array:
     return unit(eye[..., :3] - points * eye[..., 3:4])
 
 
-def half_vector(eye: Float64Array, vertices: Float64Array, points: Float64Array) -> Float64Array:
-    """h = (E-P)/|E-P| + (V-P)/|V-P|, (n, 3): not normalized, parallel to the normal where P reflects V."""
-    return towards_eye(eye, points) + unit(vertices - points)
+def half_vector(eye: Float64Array, vertices: Float64Array, points: Float64Array, index: float = 1.0) -> Float64Array:
+    """h = (E-P)/|E-P| + index (V-P)/|V-P|, (n, 3): not normalized, parallel to the normal where P shows V."""
+    return towards_eye(eye, points) + index * unit(vertices - points)
 
 
-def path_gradient(eye: Float64Array, vertices: Float64Array, u: Float64Array, at: SurfaceSample) -> Float64Array:
-    """Gradient (n, 3) on the unit sphere of the path length E-P-V (Roger & Holzschuch 2006, equation 1).
+def path_gradient(
+    eye: Float64Array, vertices: Float64Array, u: Float64Array, at: SurfaceSample, index: float = 1.0
+) -> Float64Array:
+    """Gradient (n, 3) on the unit sphere of the path length |E-P| + index |P-V| (Roger & Holzschuch 2006, equation 1).
 
     dP = u (grad r . du) + r du and dl = -h . dP, written as one tangent vector at u.
     """
-    h = half_vector(eye, vertices, at.position)
+    h = half_vector(eye, vertices, at.position, index)
     radial = np.einsum("ij,ij->i", h, u)
     return -(radial[:, None] * at.gradient + at.radius[:, None] * tangential(h, u))
 

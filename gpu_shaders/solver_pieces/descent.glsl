@@ -23,7 +23,7 @@ vec3 second_derivative(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 fir
 {
   vec3 t_vertex = safe_unit(vertex - at.position);
   vec3 t_eye = towards_eye(eye, at.position);
-  vec3 h = t_eye + t_vertex;
+  vec3 h = t_eye + VERTEX_INDEX * t_vertex;
   vec3 by_first = (sample_surface(safe_unit(u + DIFFERENCE * first)).gradient - at.gradient) / DIFFERENCE;
   vec3 by_second = (sample_surface(safe_unit(u + DIFFERENCE * second)).gradient - at.gradient) / DIFFERENCE;
   vec2 slope = vec2(dot(at.gradient, first), dot(at.gradient, second));
@@ -35,7 +35,7 @@ vec3 second_derivative(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at, vec3 fir
       (dot(by_second, second) - at.radius) * h_u + 2.0 * slope.y * h_across.y);
   vec3 moved_1 = slope.x * u + at.radius * first;
   vec3 moved_2 = slope.y * u + at.radius * second;
-  derivative += leg_derivative(moved_1, moved_2, t_vertex, length(vertex - at.position));
+  derivative += leg_derivative(moved_1, moved_2, t_vertex, length(vertex - at.position) / VERTEX_INDEX);
   if (eye.w > 0.0) {
     derivative += leg_derivative(moved_1, moved_2, t_eye, length(eye.xyz - at.position));
   }

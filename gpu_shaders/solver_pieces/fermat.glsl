@@ -1,11 +1,18 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fermat's principle on the radial map; mirrors optics/fermat.py. The eye is homogeneous: w = 0 is at infinity.
+// Fermat's principle on the radial map; mirrors optics/fermat.py. The eye is homogeneous: w = 0 is at infinity. With
+// REFRACTS the leg to the vertex counts its length times `solver.index`.
 #include "solver_pieces/radial_map.glsl"
+
+#ifdef REFRACTS
+#define VERTEX_INDEX solver.index
+#else
+#define VERTEX_INDEX 1.0
+#endif
 
 vec3 path_gradient(vec4 eye, vec3 vertex, vec3 u, SurfaceSample at)
 {
-  vec3 h = towards_eye(eye, at.position) + safe_unit(vertex - at.position);
+  vec3 h = towards_eye(eye, at.position) + VERTEX_INDEX * safe_unit(vertex - at.position);
   float along = dot(h, u);
   return -(along * at.gradient + at.radius * (h - along * u));
 }
@@ -38,5 +45,5 @@ float leg_change(vec3 x, vec3 start, vec3 end)
 float path_change(vec4 eye, vec3 vertex, vec3 start, vec3 end)
 {
   float to_eye = eye.w > 0.0 ? leg_change(eye.xyz, start, end) : -dot(end - start, eye.xyz);
-  return to_eye + leg_change(vertex, start, end);
+  return to_eye + VERTEX_INDEX * leg_change(vertex, start, end);
 }

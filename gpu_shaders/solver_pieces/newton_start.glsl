@@ -5,6 +5,7 @@
 #include "solver_pieces/solver.glsl"
 #include "solver_pieces/descent.glsl"
 #include "solver_pieces/pierce.glsl"
+#include "solver_pieces/last_frame.glsl"
 #from optics.solvers.newton import SPHERE_ROUNDS, SMALLEST_HEIGHT, STRAIGHT
 
 // Incidence at angle x from an end that is `over` radii over a sphere, and its derivative.
@@ -50,20 +51,6 @@ vec3 first_guess(vec4 eye, vec3 vertex)
 bool is_straight(vec4 eye, vec3 vertex, vec3 point, float longest)
 {
   return length(towards_eye(eye, point) + safe_unit(vertex - point)) < longest;
-}
-
-float length_to(vec3 vertex, vec3 world_point)
-{
-  return length(vertex - in_map(world_point));
-}
-
-// `world_point` has been rounded as it is stored: a point that stays where it is keeps the bits of all that is stored.
-Solved as_reflected_at(int iterations, vec3 vertex, vec3 world_point)
-{
-  vec3 point = in_map(world_point);
-  float length_to_vertex = length_to(vertex, world_point);
-  vec3 virtual_position = point - length_to_vertex * towards_eye(solver.eye, point);
-  return Solved(REFLECTED, iterations, world_point, in_world(virtual_position), length_to_vertex);
 }
 
 // Of a vertex that the mirror hides (see `as_hidden`).

@@ -4,32 +4,6 @@
 // (newton_stragglers). Mirrors optics/solvers/newton.py.
 #include "solver_pieces/newton_start.glsl"
 
-// Tolerances that a Newton step from a point at rest may be long; between texels that meet with a kink it is not
-// zero
-#define MOST_AT_REST 2.0
-
-// The last frame's reflection point, in world space and as a direction, or on a convex mirror where the way to a
-// hidden vertex entered it; whether there is one.
-bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
-{
-  world_point = before.xyz;
-  u = safe_unit(in_map(world_point));
-  int status = int(before.w + 0.5) % 4;
-  return (status == REFLECTED || (convex && status == HIDDEN)) && u != vec3(0.0);
-}
-
-// Whether a point still reflects the vertex, as far as a Newton step tells. The length alone may agree by chance where
-// a vertex has moved about its reflection point.
-bool still_reflects(vec4 eye, vec3 vertex, vec3 u)
-{
-  SurfaceSample at = sample_surface(u);
-  vec3 first, second;
-  tangent_frame(u, first, second);
-  vec3 derivative = second_derivative(eye, vertex, u, at, first, second);
-  vec3 step = newton_step(derivative, path_gradient(eye, vertex, u, at), first, second);
-  return length(in_pixels(eye, solver.focal_pixels, at.position, at.radius * step)) < MOST_AT_REST * solver.tolerance;
-}
-
 Solved solve(int index, vec3 vertex)
 {
   vec4 eye = solver.eye;

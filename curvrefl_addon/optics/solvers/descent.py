@@ -7,7 +7,8 @@ the mirror hides the vertex (docs/methods.md, `newton`). So a descent that never
 wander off. Second derivatives of the two legs are exact; only those of r come from differences of the map's gradient.
 
 On a hollow mirror the reflection may also be a maximum or a saddle. There Newton looks for a zero of the gradient of
-any kind, and never accepts a longer gradient.
+any kind, and never accepts a longer gradient. So it is with refraction, where the leg to the vertex counts its length
+times an index (`index`, see `fermat.py`).
 """
 
 from __future__ import annotations
@@ -83,7 +84,9 @@ def guess(eye: Float64Array, vertices: Float64Array) -> Float64Array:
     return on_arc(unit(eyes[:, :3]), unit(vertices), share)
 
 
-def path_change(eye: Float64Array, vertices: Float64Array, start: Float64Array, end: Float64Array) -> Float64Array:
+def path_change(
+    eye: Float64Array, vertices: Float64Array, start: Float64Array, end: Float64Array, index: float = 1.0
+) -> Float64Array:
     """Path length by `end` minus path length by `start` (n,), without subtracting two long lengths.
 
     |X-Q| - |X-P| = (Q-P).(P+Q-2X) / (|X-P| + |X-Q|); for an eye at infinity the first leg is a projection.
@@ -94,7 +97,7 @@ def path_change(eye: Float64Array, vertices: Float64Array, start: Float64Array, 
         lengths = np.linalg.norm(x - start, axis=1) + np.linalg.norm(x - end, axis=1)
         return _dot(moved, start + end - 2.0 * x) / np.maximum(lengths, 1e-30)
 
-    return (leg(eye[:3]) if eye[3] else -(moved @ eye[:3])) + leg(vertices)
+    return (leg(eye[:3]) if eye[3] else -(moved @ eye[:3])) + index * leg(vertices)
 
 
 def second_derivative(
@@ -104,17 +107,19 @@ def second_derivative(
     u: Float64Array,
     at: SurfaceSample,
     frame: tuple[Float64Array, Float64Array],
+    index: float = 1.0,
 ) -> tuple[Float64Array, Float64Array, Float64Array]:
     """Of the path length at u in `frame`: xx, xy and yy, (n,) each.
 
     With P_i = r_i u + r e_i and P_ij . h = (r_ij - r d_ij) (h . u) + r_i (h . e_j) + r_j (h . e_i) it is
-    -P_ij . h plus, for each leg of length d in the direction t, (P_i . P_j - (P_i . t) (P_j . t)) / d.
+    -P_ij . h plus, for each leg of length d in the direction t, (P_i . P_j - (P_i . t) (P_j . t)) / d; that of the
+    vertex counts `index` times.
     """
     first, second = frame
     to_vertex = vertices - at.position
     distance = np.maximum(np.linalg.norm(to_vertex, axis=1), 1e-30)
     t_vertex, t_eye = to_vertex / distance[:, None], towards_eye(eye, at.position)
-    h = t_eye + t_vertex
+    h = t_eye + index * t_vertex
     by_first, by_second = (
         (sample(surface, unit(u + DIFFERENCE * axis)).gradient - at.gradient) / DIFFERENCE for axis in frame
     )
@@ -125,7 +130,7 @@ def second_derivative(
     xy = -(0.5 * (_dot(by_first, second) + _dot(by_second, first)) * h_u + slope_1 * h_2 + slope_2 * h_1)
     moved_1 = slope_1[:, None] * u + at.radius[:, None] * first
     moved_2 = slope_2[:, None] * u + at.radius[:, None] * second
-    legs = [(t_vertex, distance)]
+    legs = [(t_vertex, distance / index)]
     if eye[3]:
         legs.append((t_eye, np.maximum(np.linalg.norm(eye[:3] - at.position, axis=1), 1e-30)))
     for t, length in legs:
@@ -144,6 +149,7 @@ def minimize(
     steps: int,
     tolerance: float,
     any_kind: bool = False,
+    index: float = 1.0,
 ) -> tuple[Float64Array, np.ndarray, np.ndarray]:
     """Descend from `start` (n, 3): directions (n, 3), converged (n,), steps taken (n,).
 
@@ -163,11 +169,11 @@ def minimize(
             break
         here, target = u[active], vertices[active]
         at = sample(surface, here)
-        g = path_gradient(eye, target, here, at)
+        g = path_gradient(eye, target, here, at, index)
         frame = tangent_frame(here)
-        derivative = second_derivative(surface, eye, target, here, at, frame)
-        derivative, regular = _shifted(derivative, any_kind)
-        newton = _solved(derivative, g, frame)
+        derivative = second_derivative(surface, eye, target, here, at, frame, index)
+        derivative, regular = shifted(derivative, any_kind)
+        newton = newton_step(derivative, g, frame)
         newton_length = np.linalg.norm(newton, axis=1)
         step = newton * np.minimum(1.0, LONGEST_STEP / np.maximum(newton_length, 1e-30))[:, None]
         iterations[active] += 1
@@ -191,15 +197,15 @@ def minimize(
                 break
             trial = unit(here + factor[:, None] * step)
             there = sample(surface, trial)
-            change = path_change(eye, target, at.position, there.position)
+            change = path_change(eye, target, at.position, there.position, index)
             descends = change <= SUFFICIENT * factor * slope + ROUNDING * at.radius
-            g_there = path_gradient(eye, target, trial, there)
+            g_there = path_gradient(eye, target, trial, there, index)
             shortened = np.linalg.norm(g_there, axis=1)
             contracts = shortened < (SLACKENED if any_kind else CONTRACTION) * length
             good = ~accepted & regular & contracts if any_kind else ~accepted & (descends | (regular & contracts))
             moved[good] = trial[good]
             if trial_number == 0:
-                correction[good] = _solved(derivative, g_there, frame)[good]
+                correction[good] = newton_step(derivative, g_there, frame)[good]
                 length_there = shortened
             accepted |= good
             factor = np.where(accepted, factor, SHORTENING * factor)
@@ -235,7 +241,7 @@ def _pixels(screen: Screen, at: SurfaceSample, step: Float64Array) -> Float64Arr
     return np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
 
 
-def _shifted(
+def shifted(
     derivative: tuple[Float64Array, Float64Array, Float64Array], any_kind: bool
 ) -> tuple[tuple[Float64Array, Float64Array, Float64Array], np.ndarray]:
     """The second derivative made positive, and whether (n,) it was so as it was; with `any_kind` only whether it can be
@@ -249,7 +255,7 @@ def _shifted(
     return (xx + shift, xy, yy + shift), (shift == 0.0) & (lowest > 0.0)
 
 
-def _solved(
+def newton_step(
     derivative: tuple[Float64Array, Float64Array, Float64Array],
     g: Float64Array,
     frame: tuple[Float64Array, Float64Array],

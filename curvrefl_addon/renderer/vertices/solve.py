@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from ...optics.catalog import METHODS, Method
+from ...optics.catalog import SOLVERS, Method
+from ...optics.snell import LARGEST_INDEX, SMALLEST_INDEX
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
@@ -64,7 +65,8 @@ _BLOCK = np.dtype(
         ("is_convex", "i4"),
         ("first_rung", "i4"),
         ("region", "i4"),
-        ("unused", "i4", 2),
+        ("index", "f4"),  # of refraction, beyond the surface over that on the eye's side
+        ("unused", "i4"),
     ]
 )
 """The block `solver`, std140; fields without a word here are those of `Reflector`, or arguments of functions below"""
@@ -90,6 +92,8 @@ class Reflector:
     """Texel where a search on the screen maps begins"""
     is_convex: bool = False
     """Closed and convex: a line enters it once"""
+    index: float = 1.0
+    """Of refraction beyond the surface over that on the eye's side, for methods that refract"""
 
 
 def solve_vertices(
@@ -150,7 +154,7 @@ class PreparedSolve:
         block["is_same_view"] = previous is not None and previous.inputs == inputs
         self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
         """There once it has run"""
-        self._method, self._entry = method, METHODS[method]
+        self._method, self._entry = method, SOLVERS[method]
         self._images = {
             "reflection_points": self.solution.reflection_points,
             "virtual_positions": self.solution.virtual_positions,
@@ -240,7 +244,7 @@ def _vertices_block(
     first_rung: int = 0,
 ) -> np.ndarray:
     """Of a solve by a method's own shader, without a last frame; see `solve_vertices`."""
-    block = _solver_block(view, reflector, count, steps or METHODS[method].steps, tolerance)
+    block = _solver_block(view, reflector, count, steps or SOLVERS[method].steps, tolerance)
     block["first_rung"] = first_rung
     return block
 
@@ -256,6 +260,7 @@ def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tole
     block["search_start"] = reflector.start
     block["focal_pixels"], block["tolerance"] = view.focal_pixels, tolerance
     block["bound"], block["side"], block["is_convex"] = reflector.bound, reflector.side, reflector.is_convex
+    block["index"] = np.clip(reflector.index, SMALLEST_INDEX, LARGEST_INDEX)
     block["steps"], block["newton_steps"] = steps, NEWTON_STEPS
     return block
 
@@ -297,6 +302,8 @@ def build_solver(name: str, label: str, *pieces: Piece) -> Any:
 def _solver_shader(name: str, method: str, entry: Method) -> Any:
     """`gpu_shaders/solvers/<name>.comp.glsl` with what `method`, with this entry, gives its shaders."""
     pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(entry)})]
+    if entry.refracts:
+        pieces.append(Piece(defines=flags("REFRACTS")))
     if entry.stragglers:
         pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
     return build_solver(name, f"{name} of {method}", *pieces)

@@ -90,9 +90,9 @@ class Oracle:
         rows, u = rows[kept], u[kept]
         at = sample(self.surface, u)
         here_eyes, here = eyes[rows], vertices[rows]
-        length = np.linalg.norm(here - at.position, axis=1) + _to_eye(here_eyes, at.position)
+        length = self._lengths(here_eyes, here, at.position)
         order = np.lexsort((length, rows))
-        rows, u, length, here_eyes, here = rows[order], u[order], length[order], here_eyes[order], here[order]
+        rows, u, length, here_eyes, here = (part[order] for part in (rows, u, length, here_eyes, here))
         at = sample(self.surface, u)
         return ReflectionPoints(
             rows,
@@ -100,8 +100,7 @@ class Oracle:
             at.position,
             length,
             self._signature(here_eyes, here, u),
-            self.is_free(at.position, np.column_stack([here, np.ones(len(here))]))
-            & self.is_free(at.position, here_eyes),
+            self._is_visible(at.position, here_eyes, here),
         )
 
     def _starts(self, eyes: Float64Array, vertices: Float64Array) -> tuple[NDArray[np.int64], Float64Array]:
@@ -169,9 +168,9 @@ class Oracle:
         return np.tile(rows[near], len(offsets)), starts
 
     def _errors(self, at: SurfaceSample, eyes: Float64Array, vertices: Float64Array) -> Float64Array:
-        """(k + 1, n) (1 - B . N) / 2 at k points of the surface, for vertices (n, 3) and eyes (n, 4) or (1, 4).
+        """(k + 1, n) of `_mismatch` at k points of the surface, for vertices (n, 3) and eyes (n, 4) or (1, 4).
 
-        1 where the point cannot reflect, and in the last row. Products of matrices: this is the inner loop.
+        1 where the point cannot show the vertex, and in the last row. Products of matrices: this is the inner loop.
         """
         normal = self.side * at.normal
         along_normal = _dot(normal, at.position)[:, None]
@@ -188,11 +187,30 @@ class Oracle:
         # (E - P w) . (V - P)
         between = (eyes[:, :3] * vertices).sum(axis=1) - at.position @ eyes[:, :3].T
         between = between + eyes[:, 3] * (squared - at.position @ vertices.T)
-        bisector = np.sqrt(np.maximum(2.0 + 2.0 * between / (to_vertex * to_eye), 1e-12))
         error = np.ones((len(at.position) + 1, len(vertices)))
-        some = (vertex_cosine > FACING) & (eye_cosine > FACING)
-        error[:-1][some] = (0.5 - 0.5 * (vertex_cosine + eye_cosine) / bisector)[some]
+        some = self._may_show(vertex_cosine, eye_cosine)
+        error[:-1][some] = self._mismatch(vertex_cosine, eye_cosine, between / (to_vertex * to_eye))[some]
         return error
+
+    def _may_show(self, vertex_cosine: Float64Array, eye_cosine: Float64Array) -> NDArray[np.bool_]:
+        """Whether nodes with these cosines of the ways to vertex and eye to the normal bracket something."""
+        return (vertex_cosine > FACING) & (eye_cosine > FACING)
+
+    def _mismatch(self, vertex_cosine: Float64Array, eye_cosine: Float64Array, between: Float64Array) -> Float64Array:
+        """(1 - B . N) / 2, with the cosine between both ways."""
+        return 0.5 - 0.5 * (vertex_cosine + eye_cosine) / np.sqrt(np.maximum(2.0 + 2.0 * between, 1e-12))
+
+    def _gradient(self, eyes: Float64Array, vertices: Float64Array, u: Float64Array, at: SurfaceSample) -> Float64Array:
+        """Of the path length at directions (m, 3)."""
+        return path_gradient(eyes, vertices, u, at)
+
+    def _lengths(self, eyes: Float64Array, vertices: Float64Array, points: Float64Array) -> Float64Array:
+        """(m,) of the paths by way of points (m, 3)."""
+        return np.linalg.norm(vertices - points, axis=1) + to_eye_length(eyes, points)
+
+    def _is_visible(self, points: Float64Array, eyes: Float64Array, vertices: Float64Array) -> NDArray[np.bool_]:
+        """(m,) whether both legs are free."""
+        return self.is_free(points, np.insert(vertices, 3, 1.0, axis=1)) & self.is_free(points, eyes)
 
     def _polish(
         self, eyes: Float64Array, vertices: Float64Array, start: Float64Array
@@ -217,7 +235,7 @@ class Oracle:
             for _ in range(TRIALS):
                 open_rows = np.flatnonzero(~accepted)
                 trial = unit(here[open_rows] + factor[open_rows, None] * move[open_rows])
-                there = path_gradient(eye[open_rows], vertex[open_rows], trial, sample(self.surface, trial))
+                there = self._gradient(eye[open_rows], vertex[open_rows], trial, sample(self.surface, trial))
                 better = np.linalg.norm(there, axis=1) < length[open_rows]
                 u[active[open_rows[better]]] = trial[better]
                 accepted[open_rows[better]] = True
@@ -232,7 +250,7 @@ class Oracle:
     ) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
         """Gradient (m, 3), tangent frame, and the gradient's derivative in that frame (m, 2, 2) by differences."""
         at = sample(self.surface, u)
-        g = path_gradient(eye, vertex, u, at)
+        g = self._gradient(eye, vertex, u, at)
         first, second = tangent_frame(u)
         nearest = np.linalg.norm(vertex - at.position, axis=1)
         to_eye = np.linalg.norm(eye[:, :3] - at.position, axis=1)
@@ -241,7 +259,7 @@ class Oracle:
         jacobian = np.empty((len(u), 2, 2))
         for column, direction in enumerate((first, second)):
             ends = [unit(u + sign * delta * direction) for sign in (1.0, -1.0)]
-            up, down = (path_gradient(eye, vertex, end, sample(self.surface, end)) for end in ends)
+            up, down = (self._gradient(eye, vertex, end, sample(self.surface, end)) for end in ends)
             change = (up - down) / (2.0 * delta)
             jacobian[:, 0, column], jacobian[:, 1, column] = _dot(change, first), _dot(change, second)
         return g, first, second, jacobian
@@ -285,7 +303,8 @@ class Oracle:
         return free
 
 
-def _to_eye(eyes: Float64Array, points: Float64Array) -> Float64Array:
+def to_eye_length(eyes: Float64Array, points: Float64Array) -> Float64Array:
+    """(m,) |EP| from points (m, 3) to homogeneous eyes (m, 4); for eyes at infinity minus the way towards them."""
     distance = np.linalg.norm(eyes[:, :3] - points, axis=1)
     return np.where(eyes[:, 3] > 0.0, distance, -_dot(eyes[:, :3], points))
 

@@ -129,7 +129,7 @@ def test_every_rung_of_the_ladder_is_reached() -> None:
         g = fermat.path_gradient(eye, vertices[settled], solution.u[settled], at)
         frame = descent.tangent_frame(solution.u[settled])
         derivative = descent.second_derivative(surface, eye, vertices[settled], solution.u[settled], at, frame)
-        step = descent._solved(derivative, g, frame)
+        step = descent.newton_step(derivative, g, frame)
         pixels = np.linalg.norm(screen.pixels(at.position, at.radius[:, None] * step), axis=1)
         assert np.percentile(pixels, 99) < 0.5
         assert (solution.status == status.UNSOLVED).mean() < 1e-3
