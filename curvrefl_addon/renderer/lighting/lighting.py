@@ -123,7 +123,7 @@ class Lighting:
         planned |= self._alpha.is_hashed != was_hashed
         if planned:
             self._read_geometry()
-        if scene.world is not before.world:
+        if scene.world is not before.world or self._alpha.is_hashed != was_hashed:
             self._read_world()
         if planned or scene.lights is not before.lights or scene.world is not before.world:
             self._plan_lamps()
@@ -215,7 +215,8 @@ class Lighting:
         if index not in self._blocks:
             lamp_layers, world_layers, records = self._records(index)
             self._lamp_maps.draw(lamp_layers, self._casters)
-            self._world_maps.draw(world_layers, self._casters)
+            visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
+            self._world_maps.draw(world_layers, self._casters, (visit, self._world_visits))
             # (A strong lamp of nearly no size would shine endlessly there.)
             records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
@@ -275,6 +276,11 @@ class Lighting:
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
         count = min(self._directions_at_once * self.sub_frames, MOST_WORLD_DIRECTIONS)
+        self._world_visits = 1
+        if lit and self._alpha.is_hashed and not self._many and count:
+            # More than the directions what is there by chance wants a mean of many.
+            self._directions_at_once, count = at_once, min(at_once * self.sub_frames, most)
+            self._world_visits = -(-at_once * self.sub_frames // count)
         light = world_light(self._sky.world, max(count, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
