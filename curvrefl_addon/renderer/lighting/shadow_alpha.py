@@ -73,12 +73,15 @@ class ShadowAlpha:
 
     @property
     def is_hashed(self) -> bool:
-        """Whether maps of one point differ in what is there by chance."""
-        return bool(self.hashed)
+        """Whether maps of one point differ, in what is there by chance: not so where thresholds decide."""
+        return any(
+            self._materials[index].alpha_threshold < 0.0 or np.mean(self._materials[index].transparent_tint) < 1.0
+            for index in self.hashed
+        )
 
     def repeated(self, places: Float64Array, count: int) -> Float64Array:
         """Points of a lamp (n, k), that of one without size as often as its maps differ in what they hold."""
-        if not self.hashed or len(places) > 1:
+        if not self.is_hashed or len(places) > 1:
             return places
         return np.repeat(places, count if count > MOST_KEPT else min(count, HASHED_SAMPLES), axis=0)
 
