@@ -17,8 +17,9 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
+from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
@@ -31,7 +32,6 @@ from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
-from .world_image import world_image
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
@@ -284,7 +284,18 @@ class Lighting:
         light = world_light(self._sky.world, max(count, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
-        self._world_image, self.world_warnings = world_image(world)
+        self.world_warnings = ()
+        if world.image is None:
+            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
+        else:
+            pixels = averaged(world.image, largest_texture(), largest_texture())
+            if pixels.shape != world.image.shape:
+                self.world_warnings = (
+                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
+                )
+            image = np.ones((*pixels.shape[:2], 4), np.float32)
+            image[..., :3] = pixels
+            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""

@@ -26,7 +26,7 @@ ALPHA = "LIGHTING_ALPHA"
 """Define of the shaders that light a scene with such casters"""
 ALPHA_RECORDS = 4
 SHADOW_ALPHA = Piece(samplers={"caster_alphas": "FLOAT_2D"}, defines={"ALPHA_RECORDS": ALPHA_RECORDS})
-"""What `shadow_alpha.glsl` needs"""
+"""What `light_through.glsl` needs"""
 ROW_TEXELS = 4 * TEXTURE_WIDTH
 """Alphas of an image in one row of the texture"""
 HASHED_SAMPLES, MOST_KEPT = 8, 16
@@ -116,7 +116,7 @@ class ShadowAlpha:
 
     def _uploaded(self) -> Any:
         """Records of all materials, then the alphas of their images, each from a row of its own, four to a record (see
-        `shadow_alpha.glsl`)."""
+        `light_through.glsl`)."""
         records = np.zeros((padded_count(len(self._materials) * ALPHA_RECORDS), 4), np.float32)
         rows = [records.reshape(-1, ROW_TEXELS)]
         starts: dict[int, tuple[int, int, int]] = {}

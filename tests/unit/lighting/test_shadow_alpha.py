@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_alpha import HASHED_SAMPLES, MOST_KEPT, ShadowAlpha
 from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, MaterialArrays, ScalarsArrays
-from scenes.made_of import CHROME, LEAF, scene_of
+from scenes.paths.made_of import CHROME, LEAF, scene_of
 
 CUT = replace(LEAF, scalars=ScalarsArrays(0), alpha_threshold=0.5)
 SOFT = replace(LEAF, scalars=ScalarsArrays(0))
