@@ -37,7 +37,8 @@ void main()
   range = 2e30;
 #ifdef FILM_TRANSPARENT
   if (by_camera) {
-    cover = -1.0;
+    // (What its first surface has covered, but for what has come through.)
+    cover = -dot(throughput.rgb, vec3(1.0 / 3.0));
   }
   else
 #endif
