@@ -127,3 +127,31 @@ def test_reflections_move_steadily() -> None:
         # A search from texel to texel cannot be steadier than its texels, and starts where it ended.
         assert found[path, "bisector_screen"].jitter_p99_px < 8.0
         assert found[path, "bisector_screen"].iterations_later < 0.2 * found[path, "bisector_screen"].iterations_first
+
+
+@pytest.fixture(scope="module")
+def glass_rows() -> dict[tuple[str, str], Row]:
+    table, refusals = solver_table(
+        150,
+        ("glass sphere", "bumpy glass"),
+        ("inside", "behind", "far", "contact", "hidden"),
+        timed=False,
+        only_defaults=True,
+    )
+    assert not refusals
+    # No method for mirrors is judged by glass.
+    assert {row.method for row in table} == {"newton_refraction"}
+    return {(row.reflector, row.regime): row for row in table}
+
+
+@pytest.mark.parametrize("surface", ["glass sphere", "bumpy glass"])
+def test_newton_through_glass(glass_rows: dict[tuple[str, str], Row], surface: str) -> None:
+    here = [glass_rows[surface, regime] for regime in ("inside", "behind", "far", "contact")]
+    assert max(row.error_p95_px for row in here) < 0.15
+    assert max(row.off for row in here) <= 0.01
+    assert max(row.misclassified + row.unconverged for row in here) <= 0.01
+    mean = sum(row.iterations_mean for row in here) / len(here)
+    assert mean < {"glass sphere": 1.8, "bumpy glass": 4.5}[surface]
+    hidden = glass_rows[surface, "hidden"]
+    assert hidden.misclassified == 0.0
+    assert hidden.unconverged <= 0.1
