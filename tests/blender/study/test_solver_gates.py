@@ -132,7 +132,7 @@ def test_reflections_move_steadily() -> None:
 @pytest.fixture(scope="module")
 def glass_rows() -> dict[tuple[str, str], Row]:
     table, refusals = solver_table(
-        150,
+        120,
         ("glass sphere", "bumpy glass"),
         ("inside", "behind", "far", "contact", "hidden"),
         timed=False,
@@ -148,8 +148,8 @@ def glass_rows() -> dict[tuple[str, str], Row]:
 def test_newton_through_glass(glass_rows: dict[tuple[str, str], Row], surface: str) -> None:
     here = [glass_rows[surface, regime] for regime in ("inside", "behind", "far", "contact")]
     assert max(row.error_p95_px for row in here) < 0.15
-    assert max(row.off for row in here) <= 0.01
-    assert max(row.misclassified + row.unconverged for row in here) <= 0.01
+    assert max(row.off for row in here) <= 0.02
+    assert max(row.misclassified + row.unconverged for row in here) <= 0.02
     mean = sum(row.iterations_mean for row in here) / len(here)
     assert mean < {"glass sphere": 1.8, "bumpy glass": 4.5}[surface]
     hidden = glass_rows[surface, "hidden"]
