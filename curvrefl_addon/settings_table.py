@@ -61,18 +61,33 @@ class Settings:
         2,
         first=8,
         label="Samples",
-        text="Pictures that are averaged against jagged edges while the view rests",
+        text="Pictures that are averaged against jagged edges and noise while the view rests",
         hard=(1, 1024),
-        soft=(1, 64),
+        soft=(1, 256),
         panel="Quality",
         preference=True,
         flags=(
-            Flag("render", "--samples", "for anti-aliasing"),
+            Flag("render", "--samples", "that are averaged: edges, soft light, blur"),
             Flag("compare", "--sub-frames", "of our pictures; at least 16 where the file blurs"),
         ),
         said="{} samples are",
     )
     """Jittered sub-frames; 1: pixel centers only"""
+    noise_limit: float = setting(
+        0.0,
+        label="Noise Limit",
+        text="End before all samples are there when the picture's own estimate of its noise is below this, in percent "
+        "of the display's range; 0 for never. It is known at 8, 16, 32, ... of more than 32 samples",
+        hard=(0.0, 100.0),
+        soft=(0.0, 5.0),
+        step=0.1,
+        unit="percent",
+        panel="Quality",
+        preference=True,
+        flags=(Flag("render", "--noise", "end when the noise is below it, in percent of the display's range"),),
+        said="A noise limit of {} percent is",
+        least_note="never",
+    )
     bounces: int = setting(
         4,
         label="Bounces",
@@ -174,9 +189,9 @@ class SceneSettings:
     render_samples: int = setting(
         STILL_SAMPLES,
         label="Render Samples",
-        text="Pictures that are averaged against jagged edges in a render (F12)",
+        text="Pictures that are averaged against jagged edges and noise in a render (F12)",
         hard=(1, 1024),
-        soft=(1, 64),
+        soft=(1, 256),
         panel="Quality",
         preference=True,
         said="{} samples are",

@@ -72,6 +72,8 @@ def render(options: argparse.Namespace) -> int:
         with dropped(STDOUT):
             render_still(scene, job, *resolution_of(options, scene), folder / output.name, options.camera)
         warn_of(job.warnings)
+        if job.convergence is not None:
+            print(f"Sub-frames: {job.convergence}")
         if "color" not in passes:
             (folder / output.name).unlink()
         for name, pixels in job.arrays.items():

@@ -23,6 +23,7 @@ from .job import current_job
 from .passes import COMBINED, fill, passes_of
 
 if TYPE_CHECKING:
+    from ..renderer.noise import Convergence
     from .session import RenderSession
 
 ENGINE = "CURVREFL"
@@ -115,11 +116,12 @@ class CurvreflEngine(bpy.types.RenderEngine):
     def _go_to(self, frame: int, subframe: float) -> None:
         self.frame_set(frame, subframe=subframe)
 
-    def _before_sub_frame(self, index: int, count: int) -> None:
+    def _before_sub_frame(self, convergence: Convergence) -> None:
         if is_stopped(self):
             raise RenderCanceledError
-        self.update_stats("", f"Sub-frame {index + 1} of {count}")
-        self.update_progress(index / count)
+        noise = f", {convergence.noise_said}" if convergence.noise_said else ""
+        self.update_stats("", f"Sub-frame {convergence.done + 1} of {convergence.samples}{noise}")
+        self.update_progress(convergence.done / convergence.samples)
 
     def _attempt(self, work: Any) -> None:
         """What goes wrong becomes a sentence: Blender would go on with an empty picture."""

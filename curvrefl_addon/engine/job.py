@@ -7,9 +7,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ..scene.arrays import Float32Array
 from ..settings_table import Settings
+
+if TYPE_CHECKING:
+    from ..renderer.noise import Convergence
 
 
 @dataclass(slots=True)
@@ -27,6 +31,8 @@ class Job:
     """By pass, of the whole picture of the first view layer: (h, w) or (h, w, 4), row 0 at the bottom"""
     object_names: dict[int, str] = field(default_factory=dict)
     """By the numbers of the pass `object`"""
+    convergence: Convergence | None = None
+    """Of the last view layer's picture"""
     warnings: list[str] = field(default_factory=list)
     error: Exception | None = None
     """Why there is no picture"""

@@ -14,6 +14,7 @@ from ..errors import InputError
 from ..options import mirrors_in, overrides_of, settings_of
 from ..renderer.device.context import require_gpu
 from ..renderer.frame import Frame
+from ..renderer.noise import Convergence
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings
 from ..renderer.surfaces.canvas import Canvas
@@ -76,12 +77,12 @@ class RenderSession:
         camera: bpy.types.Object,
         passes: list[Pass],
         job: Job | None,
-        before_sub_frame: Callable[[int, int], None],
+        before_sub_frame: Callable[[Convergence], None],
         go_to: Callable[[int, float], None],
     ) -> tuple[Area, dict[str, Float32Array]]:
         """The rendered area and its passes by name, Combined among them: (h, w, channels), row 0 at the bottom.
 
-        `before_sub_frame` gets a sub-frame's number and how many there are; `go_to(frame, subframe)` shows the
+        `before_sub_frame` gets how far the picture has come; `go_to(frame, subframe)` shows the
         depsgraph at another time. Raises InputError for a camera that cannot
         be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
         """
@@ -96,7 +97,7 @@ class RenderSession:
             view,
             moments=moments,
             mirrors_alone=alone,
-            before_sub_frame=lambda index: before_sub_frame(index, self._settings.samples),
+            before_sub_frame=before_sub_frame,
         )
         result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
         for item in passes:
@@ -107,6 +108,8 @@ class RenderSession:
         # (Of one that is left out as well the scene's own sentence is enough.)
         refused = [one for one in self._refused if not _is_said(one, frame.warnings)]
         self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings, *untold)
+        if job is not None:
+            job.convergence = frame.convergence
         if job is not None and not job.object_names:
             self._tell(job, frame, area)
         return area, result

@@ -3,7 +3,8 @@
 """What `auto` does in a view: for each mirror the cheapest way that stays under the error asked for, and why.
 
 A mirror that can be seen in itself, is open, or bends both ways may show a point several times, and one in which
-another mirror is seen shows what that one reflects: there every pixel follows its own ray. On a closed convex mirror
+another mirror is seen shows what that one reflects: there every pixel follows its own ray, and where a mirror or what
+it shows is rough, coated or seen through. On a closed convex mirror
 reflection points are as good where its radial map tells the mesh's normals well enough (`mirrors/map_fit.py`), and
 cheaper where a large mirror shows few vertices. What lies in the shadow of a convex mirror, seen from the eye, is
 reflected nowhere, and a mirror that shows no object at all shows the background.
@@ -13,8 +14,9 @@ A choice holds until it is clearly the worse one, so that a view that moves does
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -128,16 +130,16 @@ def choose(
     view: View,
     mirrors: Sequence[Mirror],
     scenery: Scenery,
-    bumpy: Sequence[str] = (),
+    reasons: Mapping[str, str] = MappingProxyType({}),
     is_still: bool = False,
     last: Sequence[MirrorChoice | None] = (),
 ) -> Choice:
     """For `settings` whose method is `auto`.
 
-    `bumpy`: names of mirrors with bumps, which no map has. The sub-frames of a still share one solve and what splitting
-    edges by solved midpoints costs; a view that moves has one sub-frame each, without that. `last`: what was chosen
-    for each mirror in the view before. Bakes the maps of mirrors for which reflection points would be cheaper, once for
-    each size.
+    `reasons`: why mirrors need rays whatever the view, by their names. The sub-frames of a still share one solve and
+    what splitting edges by solved midpoints costs; a view that moves has one sub-frame each, without that. `last`: what
+    was chosen for each mirror in the view before. Bakes the maps of mirrors for which reflection points would be
+    cheaper, once for each size.
     """
     before = list(last) or [None] * len(mirrors)
     return Choice(
@@ -148,7 +150,7 @@ def choose(
                 mirror,
                 _others(index, mirror, view, scenery),
                 scenery,
-                mirror.object_name in bumpy,
+                reasons.get(mirror.object_name),
                 is_still,
                 before[index],
             )
@@ -172,7 +174,7 @@ def _choose(
     mirror: Mirror,
     shows_mirrors: bool,
     scenery: Scenery,
-    is_bumpy: bool,
+    reason: str | None,
     is_still: bool,
     last: MirrorChoice | None,
 ) -> MirrorChoice:
@@ -185,12 +187,14 @@ def _choose(
 
     if settings.shadow_rays:
         return rays("Shadows by rays are asked for")
-    if is_bumpy:
-        return rays(f'"{name}" has bumps')
+    if reason is not None:
+        return rays(f'"{name}" {reason}')
     if not mirror.facts.never_sees_itself:
         return rays(f'"{name}" may show a point several times')
     if shows_mirrors:
         return rays("Mirrors may be seen in each other")
+    if scenery.seen_through[~unseen].any():
+        return rays(f'"{name}" may show what is seen through')
     if mirror.holds_eye(view, mirror.shape()):
         return rays(f'The eye is inside of "{name}"')
     if shown == 0:

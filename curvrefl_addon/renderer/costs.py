@@ -57,6 +57,8 @@ class Scenery:
     """(instances,)"""
     triangles: NDArray[np.int64]
     """(instances,)"""
+    seen_through: NDArray[np.bool_]
+    """(instances,)"""
     mirror_centers: Float64Array
     """(mirrors, 3) of balls around the mirrors themselves, in their order"""
     mirror_radii: Float64Array

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..scene.camera.shutter import Moment
+from .noise import Convergence, NoiseMeter
 from .reflection import Reflection
 from .shown.rays import ShownRays
 from .surfaces.canvas import Canvas
@@ -35,24 +36,35 @@ def expose(
     still: Moment,
     moments: Sequence[Moment] = (),
     mirrors_alone: Canvas | None = None,
-    before_sub_frame: Callable[[int], None] | None = None,
-) -> Reflection:
-    """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`.
+    before_sub_frame: Callable[[Convergence], None] | None = None,
+) -> tuple[Reflection, Convergence]:
+    """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`,
+    and how far the picture has come: sub-frames end early where the settings have a limit of noise.
 
     The renderer shows that scene before and after. `mirrors_alone` and `before_sub_frame` as for `Renderer.render`.
     """
     samples = renderer.settings.samples
     shown = reflection
+    meter = NoiseMeter(canvas, samples, 1.0 / samples)
+    limit = renderer.settings.noise_limit
     for index in range(samples):
         if before_sub_frame is not None:
-            before_sub_frame(index)
+            before_sub_frame(meter.convergence)
         if moments:
             renderer.update(moments[index].scene)
             shown = renderer.reflect(moments[index].view, last=shown, at_rest=True)
         renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
         if mirrors_alone is not None:
             renderer.add_sub_frame(mirrors_alone, shown, index, 1.0 / samples, mirrors_only=True)
-    if not moments:
-        return reflection
-    renderer.update(still.scene)
-    return renderer.reflect(still.view, last=shown, at_rest=True)
+        meter.look(index + 1)
+        if meter.convergence.is_enough(limit):
+            break
+    done = meter.convergence.done
+    if done < samples:
+        for picture in (canvas, mirrors_alone):
+            if picture is not None:
+                picture.scale(samples / done)
+    if moments:
+        renderer.update(still.scene)
+        reflection = renderer.reflect(still.view, last=shown, at_rest=True)
+    return reflection, meter.convergence

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..scene.arrays import Float32Array, Int32Array
 from .device.textures import read_texture
+from .noise import Convergence
 from .reflection import Reflection
 from .shown.shown import SubFrame
 from .vertices.solution import statistics
@@ -29,6 +30,7 @@ class Frame:
         color: Any,
         times_ms: dict[str, float],
         read_surfaces: Callable[[], dict[str, Float32Array]],
+        convergence: Convergence | None = None,
     ) -> None:
         """`read_surfaces` draws and reads what `surfaces` holds."""
         self.reflection = reflection
@@ -39,6 +41,8 @@ class Frame:
         """RGBA32F, scene-linear"""
         self.times_ms = times_ms
         """bake, solve, draw, frame = solve + draw"""
+        self.convergence = convergence
+        """How many sub-frames are in it, and what is left of its error"""
         self.warnings = reflection.warnings
         """One sentence each"""
         self.choice = None if reflection.choice is None else reflection.choice.as_report()

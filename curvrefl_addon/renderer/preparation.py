@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ..scene.arrays import SceneArrays
 from ..scene.camera.view import View
 from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.cubes import cube_texture
@@ -15,6 +16,7 @@ from .environments.cube import EnvironmentCube
 from .geometry.chunk import Batches, Chunk
 from .mirrors.baked_shape import BakedShape
 from .mirrors.mirror import Mirror
+from .paths.left_out import lets_light_on
 from .reflection import Reflection
 from .settings import Settings
 from .shading.lookup import Environment
@@ -39,8 +41,9 @@ class Preparation:
         self._scenery: Scenery | None = None
         self._cubes: tuple[list[BakedShape], list[EnvironmentCube]] | None = None
 
-    def follow(self, mirrors: Sequence[Mirror]) -> None:
+    def follow(self, scene: SceneArrays, mirrors: Sequence[Mirror]) -> None:
         """Another state of the scene, with these mirrors."""
+        self._scene = scene
         self._solvers = {key: solver for key, solver in self._solvers.items() if solver.mirror in mirrors}
         self._scenery = self._cubes = None
 
@@ -53,14 +56,14 @@ class Preparation:
         stage: Stage,
         view: View,
         settings: Settings,
-        bumpy: Sequence[str],
+        reasons: Mapping[str, str],
         last: Reflection | None,
         is_still: bool,
         at_rest: bool,
     ) -> Reflection:
-        """See `Renderer.reflect`. `bumpy`: names of mirrors with bumps."""
+        """See `Renderer.reflect`. `reasons`: why mirrors need rays, by their names."""
         before = [None] * len(stage.mirrors) if last is None else last.of(stage.mirrors)
-        choice = self._choose(stage, view, settings, bumpy, is_still, last)
+        choice = self._choose(stage, view, settings, reasons, is_still, last)
         chosen: Sequence[MirrorChoice | None] = [None] * len(stage.mirrors) if choice is None else choice.mirrors
         used = [settings if item is None else item.settings for item in chosen]
         self._split_scenery(stage, view, used)
@@ -74,14 +77,17 @@ class Preparation:
             if item is not None and isinstance(shown[-1], ShownVertices):
                 warnings += shown[-1].shape.warnings
         coarse = stage.lighting.too_coarse(view)
-        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice, coarse, at_rest)
+        is_calm = not at_rest and stage.tracer is not None and stage.tracer.can_be_calm
+        is_calm = is_calm and any(isinstance(one, ShownRays) for one in shown)
+        told = tuple(dict.fromkeys(warnings))
+        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, is_calm)
 
     def _choose(
         self,
         stage: Stage,
         view: View,
         settings: Settings,
-        bumpy: Sequence[str],
+        reasons: Mapping[str, str],
         is_still: bool,
         last: Reflection | None,
     ) -> Choice | None:
@@ -89,7 +95,7 @@ class Preparation:
         if not settings.entry.chooses:
             return None
         if self._scenery is None:
-            self._scenery = _read_scenery(stage)
+            self._scenery = _read_scenery(stage, self._scene)
         before: dict[int, MirrorChoice] = {}
         if last is not None and last.choice is not None:
             before = {id(one.mirror): item for one, item in zip(last.shown, last.choice.mirrors, strict=False)}
@@ -98,7 +104,7 @@ class Preparation:
             view,
             stage.mirrors,
             self._scenery,
-            bumpy,
+            reasons,
             is_still,
             [before.get(id(mirror)) for mirror in stage.mirrors],
         )
@@ -172,7 +178,7 @@ class Preparation:
         return self._cubes[1]
 
 
-def _read_scenery(stage: Stage) -> Scenery:
+def _read_scenery(stage: Stage, scene: SceneArrays) -> Scenery:
     own = [mirror.index for mirror in stage.mirrors]
     there = [item.instance.visible_glossy and len(item.mesh.triangles) > 0 for item in stage.geometry.placed]
     mirrors = set(own)
@@ -183,6 +189,7 @@ def _read_scenery(stage: Stage) -> Scenery:
         *stage.geometry.balls(np.array(shown, np.int64)),
         np.array([len(mesh.positions) for mesh in meshes], np.int64),
         np.array([len(mesh.triangles) for mesh in meshes], np.int64),
+        np.array([lets_light_on(scene, stage.geometry.placed[index].instance) for index in shown], bool),
         mirror_centers,
         np.where(np.array([there[index] for index in own], bool), mirror_radii, 0.0),
     )

@@ -15,7 +15,6 @@ import numpy as np
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
-from ..scene.remarks import Remark, sentences
 from .device.context import require_gpu
 from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
@@ -25,7 +24,9 @@ from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
+from .noise import Convergence
 from .paths.features import path_features
+from .paths.left_out import left_out_by, reasons_for_rays
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
@@ -145,7 +146,7 @@ class Renderer:
         mirrors = mirrors_of(scene, self.mirrors, self.geometry.facts, self.counters)
         self._require(mirrors, self.settings)
         self.mirrors, self.scene = mirrors, scene
-        self._preparation.follow(mirrors)
+        self._preparation.follow(scene, mirrors)
         return self.geometry.update(scene, self._numbers, anew)
 
     @staticmethod
@@ -177,22 +178,11 @@ class Renderer:
                 found += mirror.shape(self.settings.map_resolution).warnings
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        if self.settings.entry.solves_vertices:
-            cause = "Bumps {of} are left out: choose Automatic, Exact or an environment method to see them."
-            found += sentences(Remark(cause, "mirror", name) for name in self._bumpy_mirrors())
+        found += left_out_by(self.settings.entry, self.scene, self._numbers)
         found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._rays is not None:
             found += self._rays.warnings
         return tuple(found)
-
-    def _bumpy_mirrors(self) -> list[str]:
-        """Names of mirrors with bumps or normal maps."""
-        instances = [self.scene.instances[mirror.index] for mirror in self.mirrors]
-        return [
-            instance.object_name
-            for instance in instances
-            if any(self.scene.materials[index].relief is not None for index in instance.materials)
-        ]
 
     def render(
         self,
@@ -200,12 +190,12 @@ class Renderer:
         last: Reflection | None = None,
         moments: Sequence[Moment] = (),
         mirrors_alone: Canvas | None = None,
-        before_sub_frame: Callable[[int], None] | None = None,
+        before_sub_frame: Callable[[Convergence], None] | None = None,
     ) -> Frame:
         """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
 
         `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
-        `before_sub_frame` is called with the number of each sub-frame; what it raises ends the picture.
+        `before_sub_frame` is called with how far the picture has come; what it raises ends it.
         """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
@@ -213,7 +203,7 @@ class Renderer:
         reflection.wait()
         solved = perf_counter()
         still = Moment(self._given, view)
-        reflection = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
+        reflection, convergence = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -226,7 +216,8 @@ class Renderer:
         if is_lit_indirectly(self.scene):
             # (Of a picture that is kept: a viewport would say so all the time.)
             reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
-        return Frame(reflection, canvas.texture, times, partial(self._surfaces_while, self.revision, reflection))
+        surfaces = partial(self._surfaces_while, self.revision, reflection)
+        return Frame(reflection, canvas.texture, times, surfaces, convergence)
 
     def reflect(
         self,
@@ -252,11 +243,11 @@ class Renderer:
         origin = self._placement.origin
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
-        bumpy = self._bumpy_mirrors()
+        reasons = reasons_for_rays(self.scene, self._numbers)
         if last is not None and not np.array_equal(last.origin, origin):
             # (Its points are elsewhere.)
             last = None
-        found = self._preparation.reflect(self._stage, view, self.settings, bumpy, last, is_still, at_rest)
+        found = self._preparation.reflect(self._stage, view, self.settings, reasons, last, is_still, at_rest)
         return replace(found, warnings=(*self.warnings, *found.warnings), origin=origin)
 
     def add_sub_frame(
@@ -294,7 +285,8 @@ class Renderer:
             )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            light = Light(canvas, weight, chosen, number == 0, self.settings.film_transparent)
+            film, is_calm = self.settings.film_transparent, reflection.is_calm
+            light = Light(canvas, weight, chosen, number == 0, film, is_calm)
             kind.add_light(members, sub_frame, light)
         by_rays = bool(groups) and groups[0][0] is ShownRays
         if self._tracer is not None and self._tracer.sees_through and not (mirrors_only or by_rays):

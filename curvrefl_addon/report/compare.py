@@ -298,6 +298,9 @@ def _run(
         }
         if frame.choice is not None:
             methods[method]["choice"] = frame.choice
+        if frame.convergence is not None:
+            methods[method]["sub_frames"] = frame.convergence.done
+            methods[method]["noise"] = frame.convergence.noise
         mismatch[method] = mask_mismatch(frame.mask, truth.mask)
 
     peers = {}

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from ..renderer.noise import Convergence
 from ..scene.arrays import Float32Array, Int32Array
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
@@ -26,6 +27,7 @@ class FrameLike(Protocol):
     times_ms: dict[str, float]
     warnings: tuple[str, ...]
     choice: dict[str, object] | None
+    convergence: Convergence | None
 
     @property
     def solve(self) -> dict[str, Any]: ...
@@ -57,6 +59,8 @@ class MeasuredFrame:
     warnings: tuple[str, ...]
     choice: dict[str, object] | None
     """What `auto` has chosen, and why"""
+    convergence: Convergence | None
+    """How many sub-frames are in it, and what is left of its error"""
 
     @property
     def times_ms(self) -> dict[str, float]:
@@ -79,6 +83,7 @@ def measure_frame(
             solve=frame.solve,
             warnings=frame.warnings,
             choice=frame.choice,
+            convergence=frame.convergence,
         )
     finally:
         renderer.free()

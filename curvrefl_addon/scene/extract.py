@@ -40,7 +40,7 @@ from .reads import (
     with_kept,
 )
 from .remarks import Remark, sentences
-from .unseen import of_view_layer, rough_mirrors, unseen
+from .unseen import of_view_layer, unseen
 from .visibility import rays_of
 from .world import read_world
 
@@ -328,7 +328,6 @@ class SceneReader:
         ]
         warnings = [warning for item in self._shown.values() for warning in item.warnings]
         reflecting = tuple(self._ids[uid] for uid in chosen)
-        rough = rough_mirrors(instances, self._materials.materials, reflecting)
         arrays = SceneArrays(
             meshes=tuple(self._meshes.meshes),
             instances=tuple(instances),
@@ -337,7 +336,7 @@ class SceneReader:
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=reflecting,
-            warnings=sentences([*warnings, *self._unseen, *rough, *self._images.remarks, *self._world_warnings]),
+            warnings=sentences([*warnings, *self._unseen, *self._images.remarks, *self._world_warnings]),
             mirror_bounces=bounces.mirror,
             transmission_bounces=bounces.transmission,
             transparent_bounces=bounces.transparent,

@@ -1,15 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is in a scene and not in its arrays: hair, points, volumes, strokes; mirrors that are not as sharp as drawn."""
+"""What is in a scene and not in its arrays: hair, points, volumes, strokes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import bpy
 
-from .arrays import InstanceArrays, MaterialArrays
 from .remarks import Remark
 from .visibility import rays_of
 
@@ -22,8 +21,6 @@ UNSEEN = {
 """By type of object"""
 WIDEST_FILTER = 3.0
 """Pixels of Cycles' filter, which is 1.5 wide by default, up to which the picture looks as sharp"""
-SHARP = 0.05
-"""Roughness up to which a reflection looks sharp"""
 
 
 def of_view_layer(view_layer: bpy.types.ViewLayer) -> Iterator[Remark | str]:
@@ -49,18 +46,3 @@ def unseen(instance: Any, view_layer: bpy.types.ViewLayer, is_render: bool) -> I
         systems = [modifier.particle_system for modifier in modifiers]
         if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in systems):
             yield Remark(UNSEEN["CURVES"], "object", obj.original.name)
-
-
-def rough_mirrors(
-    instances: Iterable[InstanceArrays], materials: Sequence[MaterialArrays], reflectors: Sequence[int]
-) -> Iterator[Remark]:
-    """Mirrors whose reflections would be blurred."""
-    for instance in instances:
-        if instance.object_id in reflectors and any(_is_blurred(materials[index]) for index in instance.materials):
-            yield Remark("Roughness {of} is not shown: reflections are sharp.", "mirror", instance.object_name)
-
-
-def _is_blurred(material: MaterialArrays) -> bool:
-    is_dielectric = material.specular_level > 0.0 and material.ior != 1.0
-    reflects = material.metallic > 0.0 or material.glossy_only or is_dielectric
-    return reflects and material.roughness > SHARP

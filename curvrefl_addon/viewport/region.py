@@ -19,6 +19,7 @@ from ..renderer.device.batches import full_screen_triangle
 from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
 from ..renderer.device.state import drawing_state, set_viewport, write_depth_again
 from ..renderer.device.textures import read_texture
+from ..renderer.noise import Convergence, NoiseMeter
 from ..renderer.reflection import Diagnostic, Reflection
 from ..renderer.renderer import Renderer
 from ..renderer.surfaces.canvas import Canvas
@@ -51,6 +52,8 @@ class RegionPicture:
         self._is_sharp = True
         """Drawn without the lens"""
         self._sub_frames = 0
+        self._meter: NoiseMeter | None = None
+        """Of a picture at rest"""
         self._changed_at = 0.0
         self._rows: list[tuple[str, str]] = []
         self._solve_ms = self._draw_ms = 0.0
@@ -65,7 +68,13 @@ class RegionPicture:
     @property
     def is_complete(self) -> bool:
         """No sub-frame is left to draw."""
-        return self._sub_frames >= self.renderer.settings.samples
+        return self._convergence.is_enough(self.renderer.settings.noise_limit)
+
+    @property
+    def _convergence(self) -> Convergence:
+        if self._meter is not None:
+            return self._meter.convergence
+        return Convergence(self._sub_frames, self.renderer.settings.samples, None)
 
     @property
     def has_work(self) -> bool:
@@ -105,6 +114,8 @@ class RegionPicture:
                 self._canvas.wait()
                 self._draw_ms = 1e3 * (perf_counter() - start)
             self._sub_frames += 1
+            if self._meter is not None:
+                self._meter.look(self._sub_frames)
             counters["sub-frames"] = counters.get("sub-frames", 0) + 1
 
     def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
@@ -139,6 +150,7 @@ class RegionPicture:
             ]
         if not self._rows and self.methods == (RAYS,) and not self.is_coarse:
             self._rows = [("Rays", "followed"), ("Bounces", str(self.renderer.settings.bounces))]
+        progress = [] if self.is_coarse or self._meter is None else [("Samples", str(self._convergence))]
         times = [("Solve", self._solve_ms), ("Draw", self._draw_ms)] if self._rows else []
         choice = None if self._reflection is None else self._reflection.choice
         chosen = []
@@ -148,7 +160,7 @@ class RegionPicture:
                 ("Chosen", ", ".join(labels)),
                 ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),
             ]
-        return [*chosen, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
+        return [*chosen, *progress, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
 
     @property
     def reason(self) -> str:
@@ -193,6 +205,9 @@ class RegionPicture:
             self._reflection.wait()
             self._solve_ms = 1e3 * (perf_counter() - start)
         self._divisor, self._sub_frames, self._rows = divisor, 0, []
+        samples = self.renderer.settings.samples
+        # (While something moves a picture hardly gets beyond its first sub-frame.)
+        self._meter = None if divisor > 1 or diagnostic is not None else NoiseMeter(self._canvas, samples, 1.0)
         counters["solves"] = counters.get("solves", 0) + 1
 
 

@@ -158,7 +158,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     if (cos_light > 0.0 && irradiance != vec3(0.0)) {
 #ifdef RAY_SHADOWS
       // (Without a kind it casts no shadow, or nothing could be in it.)
-      irradiance *= int(lighting_data[base + 6].w) == 0 ? 1.0 : lit_by_ray(s, to_light, range);
+      irradiance *= int(lighting_data[base + 6].w) == 0 ? LIT(1.0) : lit_by_ray(s, to_light, range);
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif

@@ -25,18 +25,34 @@ struct Surface {
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
 #include "common/records.glsl"
 #if defined(RAY_SHADOWS) || defined(WORLD_RAYS)
+#ifdef LIGHTING_ALPHA
+#define LIGHT_THROUGH
+#include "lighting/shadow_alpha.glsl"
+#endif
 #include "rays/ray_walk.glsl"
 
 // Out of a surface by this share of the place's coordinates, which rounding may have moved it.
 #define SHADOW_OFFSET 2e-6
 #define SHADOW_END 0.9999
 
-// 1 where nothing that casts shadows is on the way in the unit direction, nearer than `range`.
-float lit_by_ray(Surface s, vec3 to_light, float range)
+// Share of light that gets here the unit way from nearer than `range`, through what casts shadows.
+#ifdef LIGHTING_ALPHA
+#define LIT vec3
+#define LIT_CHANNELS 3.0
+#else
+#define LIT float
+#define LIT_CHANNELS 1.0
+#endif
+LIT lit_by_ray(Surface s, vec3 to_light, float range)
 {
   vec3 size = abs(s.position);
   vec3 start = s.position + s.normal * (SHADOW_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
-  return walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true).instance < 0 ? 1.0 : 0.0;
+  Hit hit = walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true);
+#ifdef LIGHTING_ALPHA
+  return walked_light;
+#else
+  return hit.instance < 0 ? 1.0 : 0.0;
+#endif
 }
 #endif
 #include "lighting/ggx.glsl"

@@ -155,7 +155,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
 #ifdef WORLD_RAYS
-      float dark = cos_light > 0.0 ? 1.0 - lit_by_ray(s, light.xyz, 1e30) : 0.0;
+      // (Of what is tinted its mean.)
+      float dark = cos_light > 0.0 ? 1.0 - dot(lit_by_ray(s, light.xyz, 1e30), LIT(1.0)) / LIT_CHANNELS : 0.0;
 #else
       vec3 window = vec3(dot(lighting_data[record + 1], p),
                          dot(lighting_data[record + 2], p),

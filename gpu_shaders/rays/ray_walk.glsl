@@ -69,9 +69,29 @@ int packed_child(float link, float count)
   return (int(link) << 4) + int(count) + 1;
 }
 
+#ifdef LIGHT_THROUGH
+// What gets through all that the last walk with `any_hit` has met and light goes straight on through.
+vec3 walked_light = vec3(1.0);
+
+// Of a triangle of an instance, records both, at this place on it.
+vec3 light_through_triangle(int instance, int triangle, vec2 place)
+{
+  vec4 regions = fetch_record(rays, instance + 4);
+  vec4 numbers = fetch_record(rays, triangle + 3);
+  vec3 weights = vec3(1.0 - place.x - place.y, place);
+  vec2 uv = vec2(0.0);
+  for (int k = 0; k < 3; k++) {
+    uv += weights[k] * fetch_record(rays, REGION_UNIT * int(regions.z) + 2 * int(numbers[k]) + 1).xy;
+  }
+  int slot = min(int(numbers.w), int(fetch_record(rays, instance + 5).x) - 1);
+  return light_through(int(fetch_record(rays, rays_top.z + int(regions.w) + slot / 4)[slot % 4]), uv);
+}
+#endif
+
 // `own`: mirror (of a step of paths: object_id of what) that the ray starts on, 0: none; a closed one then counts where
-// it faces the ray, as a ray below the facet that it starts on, by a shading normal, would else see the inside. `seen_by`: which instances count. With
-// `any_hit` whatever is nearer than `farthest` ends the walk.
+// it faces the ray, as a ray below the facet that it starts on, by a shading normal, would else see the inside.
+// `seen_by`: which instances count. With `any_hit` whatever is nearer than `farthest` ends the walk; with LIGHT_THROUGH
+// what light goes straight on through only once none is left.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
   Hit hit;
@@ -93,6 +113,10 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
   int triangles = 0;
   int instance = -1;
   float nearest = 0.0;
+#ifdef LIGHT_THROUGH
+  bool is_clear = false;
+  walked_light = vec3(1.0);
+#endif
   float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
   // Where the walk is: link and count as in a node's record, or NOWHERE, or OVER.
   int link = 0;
@@ -162,6 +186,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         vec4 start = vec4(origin, 1.0);
         ray = ray_along(vec3(dot(x, start), dot(y, start), dot(z, start)),
                         vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction)));
+#ifdef LIGHT_THROUGH
+        is_clear = any_hit && (flags & CASTS_IN_PART) != 0;
+#endif
         nearest = is_own ? about.w : 0.0;
         bool one_sided = is_own && (flags & IS_CLOSED) != 0;
         facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
@@ -196,6 +223,14 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         // (Comparisons with what is not a number fail.)
         if (place.x >= -OVERLAP && place.y >= -OVERLAP && place.x + place.y <= 1.0 + OVERLAP && range > nearest &&
             range < hit.range && determinant * facing >= 0.0) {
+#ifdef LIGHT_THROUGH
+          walked_light *= is_clear ? light_through_triangle(instance, triangle, place) : vec3(0.0);
+          if (is_clear && walked_light != vec3(0.0)) {
+            link++;
+            count--;
+            continue;
+          }
+#endif
           hit.range = range;
           hit.instance = instance;
           hit.triangle = triangle;

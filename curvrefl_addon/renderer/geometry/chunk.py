@@ -34,6 +34,8 @@ CHUNK = Piece(samplers=named("FLOAT_2D", "positions", "corners"))
 MOST_RANGES = 8
 """More moved instances than these are placed all in one dispatch"""
 
+type Pieces = frozenset[tuple[int, int]]
+"""Pairs (index of an instance in its chunk, piece of its mesh)"""
 type Batches = tuple[tuple[int, Any], ...]
 """(material index, GPUBatch without attributes) for every material that has triangles"""
 
@@ -74,7 +76,8 @@ class Chunk:
         """(corners,) index into positions"""
         self._is_count = len(meshes) == 1 and is_count(self.corner_position)
         self._batches: dict[tuple[bytes, bool], Batches] = {}
-        self._caster_batches: dict[frozenset[tuple[int, int]], Any] = {}
+        self._caster_batches: dict[tuple[Pieces, frozenset[int]], Any] = {}
+        self._batches_of_casters: dict[tuple[Pieces, frozenset[int]], Batches] = {}
         self.revision = 0
         """Another one when positions are not the same any more"""
 
@@ -140,28 +143,45 @@ class Chunk:
             self._batches[key] = by_material(triangles, material)
         return self._batches[key]
 
-    def casters(self, idle: frozenset[tuple[int, int]]) -> Any:
+    def casters(self, idle: Pieces, without: frozenset[int] = frozenset()) -> Any:
         """GPUBatch, indices into positions, of the triangles that cast shadows; None where there are none.
 
-        `idle` has pairs (index of an instance, piece) that are left out.
+        `idle` are left out, and those of the materials `without`.
         """
-        if idle not in self._caster_batches:
+        key = (idle, without)
+        if key not in self._caster_batches:
             casts = np.array([item.instance.visible_shadow for item in self.placed])
-            if not idle and casts.all() and self._is_count:
+            if not idle and not without and casts.all() and self._is_count:
                 # Corners are the positions: what is seen whole serves.
                 whole = self.batches(casts)
                 if len(whole) == 1:
-                    self._caster_batches[idle] = whole[0][1]
+                    self._caster_batches[key] = whole[0][1]
                     return whole[0][1]
-            chosen = casts[self._triangle_instance]
-            for index, piece in idle:
-                pieces = self.placed[index].pieces
-                start = int(np.searchsorted(self._triangle_instance, index))
-                chosen[start : start + len(pieces)] &= pieces != piece
+            chosen = self._casting(idle)
+            if without:
+                chosen &= ~np.isin(self.triangle_material, list(without))
             triangles = self.triangles if chosen.all() else self.triangles[chosen]
             batch = indexed_batch(self.corner_position[triangles]) if len(triangles) else None
-            self._caster_batches[idle] = batch
-        return self._caster_batches[idle]
+            self._caster_batches[key] = batch
+        return self._caster_batches[key]
+
+    def casters_of(self, idle: Pieces, materials: frozenset[int]) -> Batches:
+        """Batches, indices into corners, of the triangles of some materials that cast shadows; `idle` are left out."""
+        key = (idle, materials)
+        if key not in self._batches_of_casters:
+            chosen = self._casting(idle) & np.isin(self.triangle_material, list(materials))
+            self._batches_of_casters[key] = by_material(self.triangles[chosen], self.triangle_material[chosen])
+        return self._batches_of_casters[key]
+
+    def _casting(self, idle: Pieces) -> NDArray[np.bool_]:
+        """(triangles,)"""
+        casts = np.array([item.instance.visible_shadow for item in self.placed])
+        chosen = casts[self._triangle_instance]
+        for index, piece in idle:
+            pieces = self.placed[index].pieces
+            start = int(np.searchsorted(self._triangle_instance, index))
+            chosen[start : start + len(pieces)] &= pieces != piece
+        return chosen
 
     def _fill_table(self, indices: Sequence[int] | Mapping[int, Placed] | range) -> None:
         rows = list(indices)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays
+from ...scene.camera.sampling import is_progressive, progressive_points
 
 LAMP_RECORDS = 12
 """vec4 records per lamp"""
@@ -60,7 +61,7 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
         return np.tile(np.append(middle, weight), (1, 1))
     # half of the points; the rest lie opposite
     half = (count + 1) // 2
-    u, v = (np.arange(half) + 0.5) / half, _half_sequence(half, seed)
+    u, v, w = _half_square(half, seed)
     if light.kind == "AREA" and not light.ellipse:
         offsets = 0.5 * np.column_stack([u - 1.0, 2.0 * v - 1.0]) * light.size @ np.stack([x, y])
     elif light.kind == "AREA":
@@ -69,7 +70,7 @@ def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
         offsets = np.tan(0.5 * min(light.angle, 3.1)) * _half_disk(u, v) @ np.stack([x, y])
         center = back
     else:
-        offsets = light.radius * _half_ball(u, v)
+        offsets = light.radius * _half_ball(u, v, w)
     offsets = np.stack([offsets, -offsets], axis=1).reshape(-1, 3)[:count]
     places = center + offsets
     if light.kind == "SUN":
@@ -129,6 +130,17 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     return records
 
 
+def _half_square(count: int, seed: int) -> tuple[Float64Array, Float64Array, Float64Array]:
+    """Three times (count,) in 0..1, spread evenly: in the square of the first two, and in the third."""
+    if is_progressive(2 * count):
+        # (The middles of pairs are the lamp's: its halves are gone through alike.)
+        square, more = (progressive_points(count, 2 * seed + item) for item in range(2))
+        return square[:, 0], square[:, 1], more[:, 0]
+    order = np.arange(count)
+    u, w = ((step * order) % count for step in (1, 5))
+    return (u + 0.5) / count, _half_sequence(count, seed), (w + 0.5) / count
+
+
 def _half_sequence(count: int, seed: int) -> Float64Array:
     """(count,) van der Corput's sequence, shifted by `seed`; off 0 so that 1 minus it interleaves."""
     sequence = np.zeros(count)
@@ -146,13 +158,12 @@ def _half_disk(u: Float64Array, v: Float64Array) -> Float64Array:
     return np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
 
 
-def _half_ball(u: Float64Array, v: Float64Array) -> Float64Array:
-    """(n, 3) points of one half of the unit ball, density 1 / sqrt(1 - r^2): along any axis an even disk."""
+def _half_ball(u: Float64Array, v: Float64Array, w: Float64Array) -> Float64Array:
+    """(n, 3) points of one half of the unit ball, density 1 / sqrt(1 - r^2): along any axis an even disk. The
+    directions by `u` and `v`, the radii by `w`."""
     radii = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, 257))
     share = (np.arcsin(radii) - radii * np.sqrt(1.0 - radii**2)) * 2.0 / np.pi
     height, turn = 1.0 - 2.0 * u, np.pi * v
     sine = np.sqrt(np.maximum(1.0 - height**2, 0.0))
-    # the radii, one from each of as many equal shares, in an order unlike that of the directions
-    count = len(u)
-    radius = np.interp(((np.arange(count) * 5) % count + 0.5) / count, share, radii)
+    radius = np.interp(w, share, radii)
     return np.column_stack([sine * np.cos(turn), sine * np.sin(turn), height]) * radius[:, None]

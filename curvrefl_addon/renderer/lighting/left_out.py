@@ -26,7 +26,12 @@ INDIRECT = "Light that bounces from surface to surface is not shown, only light 
 
 def left_out(scene: SceneArrays) -> tuple[str, ...]:
     """What the scene's objects, wherever they are, would do to each other in Cycles; one sentence each."""
-    shiny = {index for index, material in enumerate(scene.materials) if _shine(material) > SHINY}
+    # (What is seen through is drawn by paths, which go on from it.)
+    shiny = {
+        index
+        for index, material in enumerate(scene.materials)
+        if not material.is_seen_through and _shine(material) > SHINY
+    }
     strong = {index for index, material in enumerate(scene.materials) if max(material.emission) > STRONG}
     found = []
     if shiny and len(scene.instances) > 1:

@@ -9,25 +9,29 @@ view: they are drawn when a sub-frame first needs them and kept.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
-from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import largest_texture, texture_2d, texture_layers
+from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
+from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
+from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
+from .world_image import world_image
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
@@ -37,13 +41,15 @@ DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRE
 """vec4 records of the uniform block"""
 MANY_TRIANGLES = 300_000
 LAMP_SAMPLES, LAMP_SAMPLES_OF_MANY = 16, 4
-"""Points on a soft lamp, and in scenes of more than MANY_TRIANGLES"""
+"""Points on a soft lamp whose maps are kept, and in scenes of more than MANY_TRIANGLES. Pictures of few sub-frames have
+no more points; others one for each sub-frame, which are drawn as they are needed"""
 WORLD_DIRECTIONS, WORLD_DIRECTIONS_OF_MANY = 128, 16
-"""World directions of a whole picture at most, and in scenes of more than MANY_TRIANGLES"""
+"""World directions of a whole picture, and in scenes of more than MANY_TRIANGLES; at least one for each sub-frame"""
+MOST_WORLD_DIRECTIONS = 256
+"""Sub-frames beyond that go through them again: their mean is even, as their shadows are wide"""
 DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
-LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 type Features = frozenset[str]
 """Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only,
 whether the world shines and whether it is an image"""
@@ -53,8 +59,6 @@ FEATURES: Features = frozenset(
 )
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
-LAMP_MAP_BYTES = 160 << 20
-"""The finest resolution that fits is taken"""
 
 
 def lighting_piece(features: Features = FEATURES) -> Piece:
@@ -64,6 +68,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
             "lighting_world_maps": "FLOAT_2D_ARRAY",
             **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
+            **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
@@ -73,6 +78,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **LAMP_DEFINES,
             **WORLD_DEFINES,
             **GGX_DEFINES,
+            **SHADOW_ALPHA.defines,
         },
     )
 
@@ -95,6 +101,7 @@ class Lighting:
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
+        self._alpha = ShadowAlpha(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -110,18 +117,21 @@ class Lighting:
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
         moved = difference.moved
+        was_hashed = self._alpha.is_hashed
+        drawn_anew = self._alpha.follow(scene) or bool(moved)
         planned = difference.structure or (bool(moved) and not self._holds(moved))
+        planned |= self._alpha.is_hashed != was_hashed
         if planned:
             self._read_geometry()
         if scene.world is not before.world:
             self._read_world()
         if planned or scene.lights is not before.lights or scene.world is not before.world:
             self._plan_lamps()
-        elif moved:
+        elif drawn_anew:
             self._lamp_maps.forget()
         if planned or scene.world is not before.world:
             self._plan_world_shadows()
-        elif moved:
+        elif drawn_anew:
             self._world_maps.forget()
         self.features = self._found_features()
         self._blocks.clear()
@@ -129,7 +139,7 @@ class Lighting:
     def _read_geometry(self) -> None:
         pieces, self._standing_apart = shadow_pieces(self._geometry)
         self._extent = SceneExtent(pieces)
-        self._casters = ShadowCasters(self._geometry, self._extent)
+        self._casters = ShadowCasters(self._geometry, self._extent, self._alpha)
         self._many = sum(chunk.triangle_count for chunk in self._geometry.chunks) > MANY_TRIANGLES
 
     def _holds(self, moved: list[int]) -> bool:
@@ -184,6 +194,8 @@ class Lighting:
             found.add("LIGHTING_IMAGE")
         if self._world_is_lit:
             found.add("LIGHTING_WORLD")
+        if self._alpha.materials:
+            found.add(ALPHA)
         return frozenset(found)
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
@@ -214,6 +226,8 @@ class Lighting:
         shader.uniform_block("lighting_data", self._bound)
         shader.uniform_sampler("lighting_lamp_depth", self._lamp_maps.texture)
         shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
+        if ALPHA in self.features:
+            self._alpha.bind(shader)
         shader.uniform_sampler("lighting_world_maps", self._world_textures)
         shader.uniform_sampler("lighting_world_image", self._world_image)
         shader.uniform_sampler("lighting_ggx", self.ggx)
@@ -227,7 +241,12 @@ class Lighting:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
-        return (*self._lamp_warnings, *self._left_out, *(self._oddly_seen if self._world_is_lit else ()))
+        return (
+            *self._lamp_warnings,
+            *self._left_out,
+            *self._alpha.warnings,
+            *(self._oddly_seen if self._world_is_lit else ()),
+        )
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
@@ -240,38 +259,12 @@ class Lighting:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
-        samples = min(self.sub_frames, LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES)
-        points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
-        resolution = LAMP_MAP_RESOLUTIONS[0]
-        views: list[ShadowView] = []
-        for resolution in LAMP_MAP_RESOLUTIONS:
-            self._lamp_places, views = self._lamp_views(points, resolution)
-            if len(views) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
-                break
-        self._lamp_maps.plan(views, resolution)
-
-    def _lamp_views(
-        self, points: list[Float64Array], resolution: int
-    ) -> tuple[list[list[tuple[Float64Array, tuple[int, ...]]]], list[ShadowView]]:
-        """Per lamp its points with the layers of their maps (-1: nothing in shadow there), and all views."""
-        views: list[ShadowView] = []
-        lamps = []
-        for light, places in zip(self._lights, points, strict=True):
-            planned = []
-            for place in places:
-                found: tuple[ShadowView | None, ...] = ()
-                if light.casts_shadow and light.kind == "SUN":
-                    found = (self._extent.parallel_view(place[:3] / np.linalg.norm(place[:3]), resolution),)
-                elif light.casts_shadow:
-                    found = self._extent.point_views(place[:3], resolution)
-                layers = []
-                for view in found:
-                    layers.append(-1 if view is None else len(views))
-                    if view is not None:
-                        views.append(view)
-                planned.append((place, tuple(layers)))
-            lamps.append(planned)
-        return lamps, views
+        kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
+        samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
+        points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
+        planned = plan_lamps(self._extent, self._lights, points, kept)
+        self._lamp_places = planned.places
+        self._lamp_maps.plan(planned.views, planned.resolution, planned.layers)
 
     def _read_world(self) -> None:
         """Choose the world's directions; fill its textures."""
@@ -281,21 +274,11 @@ class Lighting:
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
-        light = world_light(self._sky.world, max(self._directions_at_once * self.sub_frames, 1))
+        count = min(self._directions_at_once * self.sub_frames, MOST_WORLD_DIRECTIONS)
+        light = world_light(self._sky.world, max(count, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
-        self.world_warnings = ()
-        if world.image is None:
-            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
-        else:
-            pixels = averaged(world.image, largest_texture(), largest_texture())
-            if pixels.shape != world.image.shape:
-                self.world_warnings = (
-                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
-                )
-            image = np.ones((*pixels.shape[:2], 4), np.float32)
-            image[..., :3] = pixels
-            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
+        self._world_image, self.world_warnings = world_image(world)
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
@@ -306,7 +289,8 @@ class Lighting:
             view = self._extent.parallel_view(direction, WORLD_MAP_RESOLUTION)
             if view is not None:
                 self._world_layers[index] = len(views)
-                views.append(view)
+                # (What is there by chance in one direction's map has nothing to do with the others'.)
+                views.append(replace(view, turn=(index, 1)))
         self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
@@ -322,14 +306,16 @@ class Lighting:
             lamp_layers += [layer for layer in layers if layer >= 0]
         world_layers: list[int] = []
         at_once = self._directions_at_once
+        draws = self._world_light.draws
         for draw in range(index * at_once, (index + 1) * at_once):
-            direction = self._world_light.draws[draw]
+            draw %= len(draws)
+            direction = draws[draw]
             layer = int(self._world_layers[direction])
             if layer < 0:
                 continue
             start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
             records[start] = [*self._world_light.directions[direction], layer]
-            weight = self._world_light.weights[draw] * self.sub_frames
+            weight = self._world_light.weights[draw] * (len(draws) / at_once)
             view = self._world_maps.views[layer]
             records[start + 1 : start + 4] = window_rows(view, self._world_maps.resolution)[:3]
             # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)

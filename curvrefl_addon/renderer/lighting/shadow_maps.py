@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Depth maps of shadow views: layers of one array texture, each drawn once, when first needed."""
+"""Depth maps of shadow views: layers of one array texture, each drawn when first needed.
+
+Where there are more views than layers some share one: it holds the view that was needed last.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,10 +15,12 @@ import numpy as np
 from ...scene.arrays import Float64Array
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
-from ..device.shaders import Piece, build_shader
+from ..device.shaders import Piece, build_shader, flags
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
+from ..geometry.chunk import CHUNK, Chunk, Pieces
 from ..geometry.scene_geometry import SceneGeometry
+from .shadow_alpha import SHADOW_ALPHA, ShadowAlpha
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
 
 SLOPE_LIMIT_TEXELS = 20.0
@@ -29,14 +34,41 @@ BORDER = 1
 class ShadowCasters:
     """What is drawn into the maps: the scene's chunks without what casts on nothing."""
 
-    def __init__(self, geometry: SceneGeometry, extent: SceneExtent) -> None:
+    def __init__(self, geometry: SceneGeometry, extent: SceneExtent, alpha: ShadowAlpha) -> None:
         self._geometry = geometry
         self._extent = extent
-        self._idle: dict[frozenset[int], dict[int, frozenset[tuple[int, int]]]] = {}
+        self._alpha = alpha
+        self._idle: dict[frozenset[int], dict[int, Pieces]] = {}
         self._revision = geometry.revision
 
-    def draw(self, shader: Any, view: ShadowView) -> None:
-        """All that casts in a view, with a bound shader."""
+    def draw(self, view: ShadowView, bias: tuple[float, float, float]) -> None:
+        """All that casts in a view."""
+        shader = _shadow_depth_shader()
+        shader.bind()
+        shader.uniform_float("world_to_clip", _matrix(view))
+        shader.uniform_float("bias", bias)
+        for chunk, idle in self._in_view(view):
+            batch = chunk.casters(idle, self._alpha.materials)
+            if batch is not None:
+                shader.uniform_sampler("positions", chunk.positions)
+                batch.draw(shader)
+        if not self._alpha.hashed:
+            return
+        shader = _hashed_depth_shader()
+        shader.bind()
+        shader.uniform_float("world_to_clip", _matrix(view))
+        shader.uniform_float("bias", bias)
+        shader.uniform_int("turn", view.turn)
+        self._alpha.bind(shader)
+        for chunk, idle in self._in_view(view):
+            for material, batch in chunk.casters_of(idle, self._alpha.hashed):
+                shader.uniform_sampler("positions", chunk.positions)
+                shader.uniform_sampler("corners", chunk.corners)
+                shader.uniform_int("material", material)
+                batch.draw(shader)
+
+    def _in_view(self, view: ShadowView) -> Iterator[tuple[Chunk, Pieces]]:
+        """Chunks, and what of them casts on nothing."""
         idle_planes = view.idle_planes
         if self._revision != self._geometry.revision:
             self._revision = self._geometry.revision
@@ -45,14 +77,10 @@ class ShadowCasters:
             self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
         idle = self._idle[idle_planes]
         for chunk in self._geometry.chunks:
-            if not self._geometry.may_be_in(chunk, view.world_to_clip):
-                continue
-            batch = chunk.casters(idle.get(id(chunk), frozenset()))
-            if batch is not None:
-                shader.uniform_sampler("positions", chunk.positions)
-                batch.draw(shader)
+            if self._geometry.may_be_in(chunk, view.world_to_clip):
+                yield chunk, idle.get(id(chunk), frozenset())
 
-    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, frozenset[tuple[int, int]]]:
+    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, Pieces]:
         """By a chunk's id, pairs (instance in the chunk, piece)."""
         found: dict[int, set[tuple[int, int]]] = {}
         for index, piece in self._extent.pieces_in_planes(planes):
@@ -62,7 +90,7 @@ class ShadowCasters:
 
 
 class ShadowMaps:
-    """Square depth maps of `resolution`, one layer per view."""
+    """Square depth maps of `resolution`."""
 
     def __init__(self, resolution: int, bias_texels: float) -> None:
         """`bias_texels`: how far from its middle a texel counts: 1 in bilinear comparison, 0.5 for the nearest."""
@@ -70,14 +98,18 @@ class ShadowMaps:
         self.views: list[ShadowView] = []
         self._bias_texels = bias_texels
         self.texture: Any = None
+        self.layers: Sequence[int] = ()
+        """Of the texture, by view"""
         self._size = (0, 0)
-        self._drawn: list[bool] = []
+        self._held: list[int] = []
+        """By layer its view, -1 for none"""
 
-    def plan(self, views: list[ShadowView], resolution: int | None = None) -> None:
-        """Hold these views from now on."""
+    def plan(self, views: list[ShadowView], resolution: int | None = None, layers: Sequence[int] | None = None) -> None:
+        """Hold these views from now on, in a layer each or in these `layers`, numbered from 0."""
         self.views = views
+        self.layers = range(len(views)) if layers is None else layers
         self.resolution = resolution or self.resolution
-        size = (self.resolution if views else 1, max(len(views), 1))
+        size = (self.resolution if views else 1, max(self.layers, default=0) + 1)
         if self.texture is None or size != self._size:
             self._size = size
             self.texture = depth_layers(*size)
@@ -86,32 +118,28 @@ class ShadowMaps:
 
     def forget(self) -> None:
         """What casts has moved: all are drawn again when needed."""
-        self._drawn = [False] * len(self.views)
+        self._held = [-1] * self._size[1]
 
-    def draw(self, layers: Iterable[int], casters: ShadowCasters) -> None:
-        """Make sure that these layers are there; restores the frame buffer and the state."""
-        missing = [layer for layer in layers if not self._drawn[layer]]
+    def draw(self, needed: Iterable[int], casters: ShadowCasters) -> None:
+        """Make sure that these views are there; restores the frame buffer and the state."""
+        missing = [index for index in needed if self._held[self.layers[index]] != index]
         if not missing:
             return
-        shader = shadow_depth_shader()
-        for layer in missing:
-            view = self.views[layer]
+        for index in missing:
+            view, layer = self.views[index], self.layers[index]
             target = frame_buffer(depth=layer_of(self.texture, layer))
             with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
                 set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
-                shader.bind()
-                shader.uniform_float("world_to_clip", _matrix(view))
-                shader.uniform_float("bias", (self._bias_texels, *_slope_limit(view)))
-                casters.draw(shader, view)
-            self._drawn[layer] = True
+                casters.draw(view, (self._bias_texels, *_slope_limit(view)))
+            self._held[layer] = index
 
-    def hold(self, layers: Sequence[int], points: Float64Array) -> bool:
-        """Whether all world points (n, 3) are inside of every one of these maps."""
-        if not layers:
+    def hold(self, views: Sequence[int], points: Float64Array) -> bool:
+        """Whether all world points (n, 3) are inside of every one of these views."""
+        if not views:
             return True
-        matrices = np.array([self.views[layer].world_to_clip for layer in layers])
+        matrices = np.array([self.views[index].world_to_clip for index in views])
         clip = np.einsum("vij,nj->vni", matrices[:, :, :3], points) + matrices[:, None, :, 3]
         return bool((np.abs(clip[..., :3]) <= clip[..., 3:]).all())
 
@@ -142,29 +170,51 @@ def window_rows(view: ShadowView, resolution: int) -> Float64Array:
     return to_window @ view.world_to_clip
 
 
-def fill_shadow_records(block: Float64Array, maps: ShadowMaps, layers: tuple[int, ...]) -> None:
+def fill_shadow_records(block: Float64Array, maps: ShadowMaps, views: tuple[int, ...]) -> None:
     """Fill in how to look up the shadow: kind in [6, 3] (0 none, 1 one map, 2 cube), data in rows 7 to 11."""
-    if len(layers) == 1 and layers[0] >= 0:
+    layers = [-1 if index < 0 else maps.layers[index] for index in views]
+    if len(views) == 1 and views[0] >= 0:
         block[6, 3] = 1.0
-        block[7:11] = window_rows(maps.views[layers[0]], maps.resolution)
+        block[7:11] = window_rows(maps.views[views[0]], maps.resolution)
         block[11, 0] = layers[0]
-    elif len(layers) == 6 and max(layers) >= 0:
+    elif len(views) == 6 and max(views) >= 0:
         block[6, 3] = 2.0
-        near_term, far_term = maps.views[max(layers)].depth_terms
+        near_term, far_term = maps.views[max(views)].depth_terms
         block[7] = layers[:4]
         block[8] = [layers[4], layers[5], near_term, far_term]
         half = 0.5 * maps.resolution - BORDER
         block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
 
 
+_DEPTH = Piece(constants={"world_to_clip": "MAT4", "bias": "VEC3"}, writes_depth=True)
+
+
 @gpu_cache
-def shadow_depth_shader() -> Any:
+def _shadow_depth_shader() -> Any:
     return build_shader(
         "shadow depth",
+        _DEPTH,
         Piece(
             samplers={"positions": "FLOAT_2D"},
-            constants={"world_to_clip": "MAT4", "bias": "VEC3"},
-            writes_depth=True,
+            vertex="lighting/shadow_depth.vert.glsl",
+            fragment="lighting/shadow_depth.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _hashed_depth_shader() -> Any:
+    """For casters that let light straight on."""
+    return build_shader(
+        "hashed shadow depth",
+        _DEPTH,
+        CHUNK,
+        SHADOW_ALPHA,
+        Piece(
+            constants={"material": "INT", "turn": "IVEC2"},
+            smooth={"uv": "VEC2"},
+            flat={"surface": "IVEC2"},
+            defines=flags("HASHED"),
             vertex="lighting/shadow_depth.vert.glsl",
             fragment="lighting/shadow_depth.frag.glsl",
         ),

@@ -47,6 +47,8 @@ class ShadowView:
     """Perspective: depth in the window, 0..1, is the first plus the second over the distance along the axis"""
     idle_planes: frozenset[int] = frozenset()
     """Planes of `SceneExtent.hull` whose triangles cast on nothing"""
+    turn: tuple[int, int] = (0, 1)
+    """Which of how many maps of one lamp, for what each holds by chance (see `shadow_alpha`)"""
 
 
 @dataclass(frozen=True, slots=True)

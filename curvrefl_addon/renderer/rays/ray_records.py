@@ -42,16 +42,19 @@ class InstanceFlag(IntFlag):
     SEEN_THROUGH_GLASS = 64
     HOLDS_OUT = 128
     """A hole for rays of the camera"""
+    CASTS_IN_PART = 256
+    """Shadows; light goes straight on through some of it"""
 
 
-def seen_by(instance: InstanceArrays) -> int:
-    """Flags of what an instance is there for."""
+def seen_by(instance: InstanceArrays, is_clear: bool) -> int:
+    """Flags of what an instance is there for; `is_clear`: light goes straight on through some of it."""
     return (
         InstanceFlag.SEEN_IN_MIRRORS * instance.visible_glossy
         | InstanceFlag.CASTS_SHADOWS * instance.visible_shadow
         | InstanceFlag.SEEN_BY_CAMERA * instance.visible_camera
         | InstanceFlag.SEEN_THROUGH_GLASS * instance.visible_transmission
         | InstanceFlag.HOLDS_OUT * instance.holdout
+        | InstanceFlag.CASTS_IN_PART * (instance.visible_shadow and is_clear)
     )
 
 

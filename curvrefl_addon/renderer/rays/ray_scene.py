@@ -25,6 +25,7 @@ from ...scene.arrays import (
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
 from ..geometry.mesh_facts import MeshFactsCache
+from ..paths.features import lets_straight_on
 from .hierarchy import Boxes, Hierarchy
 from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
 from .mesh_rays import (
@@ -98,7 +99,8 @@ class RayScene:
         self._mesh_of: list[MeshArrays] = []
         self._mirrors: list[int] = []
         self._seen_through: frozenset[int] = frozenset()
-        """Indices of materials"""
+        self._clear: frozenset[int] = frozenset()
+        """Indices of materials that light goes on through, and of those it goes straight on through"""
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         self._place_of: dict[int, int] = {}
         """Index in `_instances` by index in the scene"""
@@ -125,8 +127,10 @@ class RayScene:
         Raises InputError where the triangles do not fit into the graphics driver's largest texture.
         """
         seen_through = frozenset(index for index, item in enumerate(scene.materials) if item.is_seen_through)
-        moved = self._moved(scene, numbers) if seen_through == self._seen_through else None
-        self._seen_through = seen_through
+        clear = frozenset(index for index in seen_through if lets_straight_on(scene.materials[index]))
+        is_same = (seen_through, clear) == (self._seen_through, self._clear)
+        moved = self._moved(scene, numbers) if is_same else None
+        self._seen_through, self._clear = seen_through, clear
         self._followed = (scene, dict(numbers))
         if moved is not None:
             for index in moved:
@@ -305,7 +309,7 @@ class RayScene:
         self._low[places], self._high[places] = world_boxes(items, matrices)
         records = self._records[places]
         records[:, :3] = np.linalg.inv(matrices)[:, :3]
-        flags = np.array([seen_by(item) for item in placed])
+        flags = np.array([seen_by(item, not self._clear.isdisjoint(item.materials)) for item in placed])
         flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += InstanceFlag.IS_MIRRORED
         mirrors = [self._mirrors[place] for place in places]
         records[:, 3, 0] = [item.object_id for item in placed]

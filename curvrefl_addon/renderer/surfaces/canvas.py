@@ -7,7 +7,11 @@ from __future__ import annotations
 from typing import Any
 
 from ...scene.arrays import Float32Array
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of, wait_for
+from ..device.shaders import FULL_SCREEN, Piece, build_shader
+from ..device.state import blended, set_viewport
 from ..device.textures import empty_texture, read_texture
 
 MOST_DEPTHS = 4
@@ -38,6 +42,15 @@ class Canvas:
         with self.frame_buffer.bind():
             self.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0))
 
+    def scale(self, factor: float) -> None:
+        """Multiply all of it."""
+        shader = _scale_shader()
+        with blended("MULTIPLY"), self.frame_buffer.bind():
+            set_viewport(0, 0, self.texture.width, self.texture.height)
+            shader.bind()
+            shader.uniform_float("factor", factor)
+            full_screen_triangle().draw(shader)
+
     def pixels(self) -> Float32Array:
         """(height, width, 4) copy; waits for the GPU."""
         return read_texture(self.texture)
@@ -54,3 +67,12 @@ class Canvas:
         target = frame_buffer(self._slot, depth=depth)
         self._with_depth = [*self._with_depth[1 - MOST_DEPTHS :], (depth, target)]
         return target
+
+
+@gpu_cache
+def _scale_shader() -> Any:
+    return build_shader(
+        "scale",
+        FULL_SCREEN,
+        Piece(constants={"factor": "FLOAT"}, outputs={"color": "VEC4"}, fragment="common/scale.frag.glsl"),
+    )

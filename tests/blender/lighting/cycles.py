@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 import numpy as np
-from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MaterialArrays, WorldArrays
+from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, WorldArrays
 from lighting.stage import Stage, camera_matrix
 from mathutils import Matrix
 
@@ -26,7 +26,10 @@ def build_blender(stage: Stage) -> None:
             mesh.shade_smooth()
             normals = body.positions - np.asarray(body.smooth_center, np.float32)
             mesh.normals_split_custom_set_from_vertices((normals / np.linalg.norm(normals, axis=1)[:, None]).tolist())
-        mesh.materials.append(_blender_material(body.material))
+        if body.uv is not None:
+            layer = mesh.uv_layers.new()
+            layer.data.foreach_set("uv", body.uv[body.triangles].astype(np.float32).ravel())
+        mesh.materials.append(_blender_material(body.material, stage.images))
         placed = bpy.data.objects.new("body", mesh)
         placed.visible_shadow = body.visible_shadow
         scene.collection.objects.link(placed)
@@ -77,7 +80,7 @@ def cycles_picture(stage: Stage, samples: int = 256, world_light_samples: bool =
     return pixels.reshape(stage.pixels, stage.pixels, 4)[..., :3]
 
 
-def _blender_material(material: MaterialArrays) -> Any:
+def _blender_material(material: MaterialArrays, images: tuple[ImageArrays, ...]) -> Any:
     made = bpy.data.materials.new(material.name)
     made.use_nodes = True
     tree = made.node_tree
@@ -97,8 +100,43 @@ def _blender_material(material: MaterialArrays) -> Any:
         node.inputs["Specular IOR Level"].default_value = material.specular_level
         node.inputs["Emission Color"].default_value = (*material.emission, 1.0)
         node.inputs["Emission Strength"].default_value = 1.0
+        node.inputs["Alpha"].default_value = material.alpha
+    if material.scalars is not None:
+        _link_alpha(tree, images[material.scalars.image], material.alpha_threshold, node.inputs["Alpha"])
+    if material.transparent_tint != (1.0, 1.0, 1.0):
+        node = _mixed_with_transparent(tree, material, node)
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     return made
+
+
+def _link_alpha(tree: Any, image: ImageArrays, threshold: float, to: Any) -> None:
+    """The alpha of an image, above a threshold from 0 up."""
+    height, width = image.pixels.shape[:2]
+    made = bpy.data.images.new(image.name, width, height, alpha=True, float_buffer=True)
+    made.pixels.foreach_set(image.pixels.astype(np.float32).ravel())
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = made
+    node.interpolation = "Closest" if image.nearest else "Linear"
+    node.extension = image.extension
+    out = node.outputs["Alpha"]
+    if threshold >= 0.0:
+        above = tree.nodes.new("ShaderNodeMath")
+        above.operation = "GREATER_THAN"
+        above.inputs[1].default_value = threshold
+        tree.links.new(out, above.inputs[0])
+        out = above.outputs[0]
+    tree.links.new(out, to)
+
+
+def _mixed_with_transparent(tree: Any, material: MaterialArrays, node: Any) -> Any:
+    """As the Principled alpha, but that what is not there has a tint."""
+    node.inputs["Alpha"].default_value = 1.0
+    mix, clear = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfTransparent")
+    clear.inputs["Color"].default_value = (*material.transparent_tint, 1.0)
+    mix.inputs[0].default_value = material.alpha
+    tree.links.new(clear.outputs[0], mix.inputs[1])
+    tree.links.new(node.outputs[0], mix.inputs[2])
+    return mix
 
 
 def _add_blender_light(light: LightArrays) -> None:

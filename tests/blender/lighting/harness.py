@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, 
 from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
-from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting, lighting_piece
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import FEATURES, Lighting, lighting_piece
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays
 from curvrefl.gpu_shaders.loader import Snippet
 from lighting.cycles import build_blender
@@ -102,7 +102,7 @@ class Harness:
         self.shader = build_shader(
             "lighting test",
             FULL_SCREEN,
-            lighting_piece(),
+            lighting_piece(FEATURES | lighting.features),
             Piece(
                 samplers=named("FLOAT_2D", *(f"buffer_{name}" for name in self.textures)),
                 outputs={"color": "VEC4"},

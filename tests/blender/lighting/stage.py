@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from curvrefl.curvrefl_addon.scene.arrays import (
+    ImageArrays,
     InstanceArrays,
     LightArrays,
     MaterialArrays,
@@ -31,6 +32,8 @@ class Body:
     smooth_center: tuple[float, float, float] | None = None
     """Shading normals point away from here; None: flat"""
     visible_shadow: bool = True
+    uv: np.ndarray | None = None
+    """(vertices, 2)"""
 
 
 @dataclass
@@ -45,6 +48,7 @@ class Stage:
     width: float = 2.0
     """Orthographic width of the picture, meters"""
     pixels: int = 48
+    images: tuple[ImageArrays, ...] = ()
 
 
 def plane(size: float = 4.0, z: float = 0.0, **more: Any) -> Body:
@@ -93,7 +97,7 @@ def scene_arrays(stage: Stage) -> SceneArrays:
                 positions,
                 np.arange(count, dtype=np.int32),
                 normals.astype(np.float32),
-                None,
+                None if body.uv is None else body.uv[body.triangles].reshape(-1, 2).astype(np.float32),
                 None,
                 np.arange(count, dtype=np.int32).reshape(-1, 3),
                 np.zeros(count // 3, np.int32),
@@ -103,7 +107,9 @@ def scene_arrays(stage: Stage) -> SceneArrays:
         instances.append(
             InstanceArrays(f"body{index}", index + 1, index, np.eye(4), (index,), visible_shadow=body.visible_shadow)
         )
-    return SceneArrays(tuple(meshes), tuple(instances), tuple(materials), (), tuple(stage.lights), stage.world)
+    return SceneArrays(
+        tuple(meshes), tuple(instances), tuple(materials), stage.images, tuple(stage.lights), stage.world
+    )
 
 
 def lamp(

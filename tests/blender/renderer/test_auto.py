@@ -98,6 +98,37 @@ def test_shadows_by_rays_follow_rays(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "Shadows by rays" in str(frame.choice["why"])
 
 
+@pytest.mark.parametrize(
+    ("of_mirror", "of_scenery", "why"),
+    [
+        ({}, {}, None),
+        ({"roughness": 0.3}, {}, "is rough"),
+        ({"metallic": 0.0, "transmission": 1.0}, {}, "is glass"),
+        ({"coat_weight": 1.0, "coat_roughness": 0.0}, {}, "has a coat"),
+        ({}, {"alpha": 0.5}, "may show what is seen through"),
+        ({}, {"transmission": 1.0}, "may show what is seen through"),
+        ({}, {"coat_weight": 1.0, "roughness": 0.1}, None),
+    ],
+    ids=str,
+)
+def test_what_only_rays_show_is_followed(
+    of_mirror: dict[str, float], of_scenery: dict[str, float], why: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a mirror whose points would be solved else."""
+    monkeypatch.setattr(choices, "MOST_SHARE", 1e9)
+    scene = hall("sphere", 0)
+    mirrors = {index for item in scene.instances if item.object_id in scene.reflectors for index in item.materials}
+    materials = tuple(
+        replace(material, **(of_mirror if index in mirrors else of_scenery))  # type: ignore[arg-type]
+        for index, material in enumerate(scene.materials)
+    )
+    renderer = Renderer(replace(scene, materials=materials), Settings(method="auto", samples=1))
+    choice = renderer.reflect(look_at(EYE, np.zeros(3), 160, 120, 0.6)).choice
+    assert choice is not None and choice.methods == (VERTICES if why is None else RAYS,)
+    assert why is None or why in choice.why
+    renderer.free()
+
+
 def test_what_lies_in_the_mirrors_shadow_is_not_reflected() -> None:
     """A ball straight behind the mirror is named as not reflected, and wins no pixel of the true picture."""
     scene = hall("sphere", 0, clutter=6)

@@ -9,7 +9,6 @@ from pathlib import Path
 import bpy
 import pytest
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_rendered
-from curvrefl.curvrefl_addon.scene.unseen import SHARP
 from scenes.awkward import SCENES
 
 
@@ -68,18 +67,6 @@ def test_a_view_layer_without_its_sky_is_dark(tmp_path: Path) -> None:
     assert read_rendered(scene, layer, ["Mirror"]).world.color == (0.0, 0.0, 0.0)
     layer.use_sky = True
     assert max(read_rendered(scene, layer, ["Mirror"]).world.color) > 0.1
-
-
-def test_rough_mirrors_are_named(tmp_path: Path) -> None:
-    SCENES["plain"].build(tmp_path)
-    shader = bpy.data.materials["Chrome"].node_tree.nodes["Principled BSDF"]
-    shader.inputs["Roughness"].default_value = 0.9 * SHARP
-    assert "Roughness" not in said()
-    shader.inputs["Roughness"].default_value = 2.0 * SHARP
-    assert 'Roughness of mirror "Mirror" is not shown: reflections are sharp.' in said()
-    # What reflects nothing has nothing to blur, and of what is no mirror only the gleam of lamps and world is shown.
-    shader.inputs["Metallic"].default_value = shader.inputs["Specular IOR Level"].default_value = 0.0
-    assert "Roughness" not in said()
 
 
 @pytest.mark.usefixtures("gpu")

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import hashlib
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -16,12 +17,14 @@ import numpy as np
 from awkward.attempt import source_of
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
+from curvrefl.curvrefl_addon.report.cycles_reference import render_reference, use_cycles, use_still_output
 from curvrefl.curvrefl_addon.report.geometry_reference import render_geometry
 from curvrefl.curvrefl_addon.report.metrics import flip_in_mask
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_moments
+from curvrefl.curvrefl_addon.scene.opened.temporary_settings import temporary_settings
+from rendered import channels
 
 from .registry import PathScene
 from .stage import MOST_BOUNCES
@@ -103,17 +106,20 @@ def size_of(scene: Any) -> tuple[int, int]:
 
 def references(scene: PathScene) -> References:
     """Of a scene that is open (`open_scene`)."""
-    said = "\n".join((bpy.app.version_string, _source(scene.build), repr((scene.judged, scene.samples, SEEDS))))
+    said = "\n".join(
+        (bpy.app.version_string, _source(scene.build), repr((scene.judged, scene.samples, SEEDS, scene.layered)))
+    )
     path = CACHE / f"{scene.name}-{hashlib.sha256(said.encode()).hexdigest()[:16]}.npz"
+    shoot = layered_picture if scene.layered else cycles_picture
     if not path.is_file():
         CACHE.mkdir(parents=True, exist_ok=True)
         pictures = {
-            "first": cycles_picture(scene.samples, SEEDS[0]),
-            "second": cycles_picture(scene.samples, SEEDS[1]),
+            "first": shoot(scene.samples, SEEDS[0]),
+            "second": shoot(scene.samples, SEEDS[1]),
             "mask": judged_pixels(scene.judged),
         }
         for samples in PEER_SAMPLES:
-            pictures[f"peer{samples}"] = cycles_picture(samples, SEEDS[2])
+            pictures[f"peer{samples}"] = shoot(samples, SEEDS[2])
         for old in CACHE.glob(f"{scene.name}-????????????????.npz"):
             old.unlink()
         np.savez_compressed(path, allow_pickle=False, **pictures)
@@ -127,6 +133,35 @@ def cycles_picture(samples: int, seed: int) -> np.ndarray:
     opened: Any = bpy.context.scene
     opened.cycles.seed = seed
     return render_reference(opened, bpy.context.view_layer, *size_of(opened), samples, "full").pixels
+
+
+def layered_picture(samples: int, seed: int) -> np.ndarray:
+    """The same of a convex object with a rough layer over a matt base.
+
+    Cycles chooses a lobe for each ray but weighs it by all lobes, and with no diffuse bounces it ends those that the
+    base chose: part of what the layer reflects is lost then, and part of the light is the base's indirect. So the rays
+    go on once, whichever lobe chose them, and the base's indirect light is taken away by its pass.
+    """
+    opened: Any = bpy.context.scene
+    layer: Any = bpy.context.view_layer
+    with temporary_settings() as changes, tempfile.TemporaryDirectory() as folder:
+        use_still_output(changes, opened, *size_of(opened))
+        use_cycles(changes, opened, layer, samples, "full")
+        changes.set(opened.cycles, seed=seed, max_bounces=1, diffuse_bounces=1)
+        changes.set(layer, use_pass_diffuse_indirect=True, use_pass_diffuse_color=True)
+        changes.set(opened.render.image_settings, media_type="MULTI_LAYER_IMAGE", file_format="OPEN_EXR_MULTILAYER")
+        changes.set(opened.render, filepath=str(Path(folder) / "still.exr"))
+        bpy.ops.render.render(write_still=True)
+        found = channels(Path(folder) / "still.exr")
+    indirect, color, combined = (_of_pass(found, name) for name in ("Diffuse Indirect", "Diffuse Color", "Combined"))
+    picture = np.ones((*combined.shape[:2], 4), np.float32)
+    picture[..., :3] = (combined - indirect * color)[::-1]
+    return picture
+
+
+def _of_pass(found: dict[str, np.ndarray], name: str) -> np.ndarray:
+    """(h, w, 3) of a pass by the end of its channels' names."""
+    return np.stack([next(found[key] for key in found if key.endswith(f".{name}.{part}")) for part in "RGB"], -1)
 
 
 def judged_pixels(names: tuple[str, ...]) -> np.ndarray:

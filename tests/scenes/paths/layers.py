@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from ..awkward.stage import find, node, picture, principled_node
-from .metals import LIMITS
+from .metals import LAYERED, LIMITS
 from .registry import OBJECT, path_scene
 from .stage import metal, of_principled, put_ball, put_teapot, room
 
 RED = (0.45, 0.03, 0.03, 1.0)
 
 
-@path_scene("a clear coat over a rough color", LIMITS[0.1])
+@path_scene("a clear coat over a rough color", LAYERED, layered=True)
 def coat_on_color() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Lacquer", Base_Color=RED, Roughness=0.6, Coat_Weight=1.0, Coat_Roughness=0.05))
 
 
@@ -35,15 +35,15 @@ def coat_tinted() -> None:
     put_ball(metal(0.3, Coat_Weight=1.0, Coat_Roughness=0.2, Coat_IOR=1.8, Coat_Tint=tint))
 
 
-@path_scene("half a coat over a color", LIMITS[0.3])
+@path_scene("half a coat over a color", LAYERED, layered=True)
 def coat_half() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Lacquer", Base_Color=RED, Roughness=0.3, Coat_Weight=0.5, Coat_Roughness=0.1))
 
 
-@path_scene("half metallic, roughness 0.3", LIMITS[0.3])
+@path_scene("half metallic, roughness 0.3", LAYERED, layered=True)
 def half_metallic() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Half", Base_Color=(0.8, 0.5, 0.2, 1.0), Metallic=0.5, Roughness=0.3))
 
 
@@ -58,9 +58,9 @@ def gltf_image(size: int = 64) -> Any:
     return image
 
 
-@path_scene("metallic and roughness by an image, as glTF has them", LIMITS[0.3])
+@path_scene("metallic and roughness by an image, as glTF has them", LAYERED, layered=True)
 def gltf() -> None:
-    room()
+    room(soft=True)
     material = of_principled("glTF", Base_Color=(0.85, 0.6, 0.3, 1.0))
     tree: Any = material.node_tree
     texture, separate = tree.nodes.new("ShaderNodeTexImage"), node(tree, "SeparateColor")
@@ -85,9 +85,9 @@ def roughness_image() -> None:
     put_ball(material)
 
 
-@path_scene("two slots: rough metal and a matt color", LIMITS[0.3])
+@path_scene("two slots: rough metal and a matt color", LAYERED, layered=True)
 def slots() -> None:
-    room()
+    room(soft=True)
     put_ball(metal(0.2))
     mesh = find(OBJECT).data
     mesh.materials.append(of_principled("Paint", Base_Color=RED, Roughness=1.0, Specular_IOR_Level=0.0))
@@ -95,9 +95,9 @@ def slots() -> None:
     mesh.polygons.foreach_set("material_index", [i // 96 // 8 % 3 for i in range(len(mesh.polygons))])
 
 
-@path_scene("specular level and tint of a dielectric", LIMITS[0.3])
+@path_scene("specular level and tint of a dielectric", LAYERED, layered=True)
 def specular_tint() -> None:
-    room()
+    room(soft=True)
     values = {"Roughness": 0.2, "Specular_IOR_Level": 0.9, "Specular_Tint": (1.0, 0.5, 0.2, 1.0), "IOR": 1.8}
     put_ball(of_principled("Tinted", Base_Color=(0.05, 0.1, 0.3, 1.0), **values))
 
@@ -114,9 +114,9 @@ def thin_film() -> None:
     put_ball(metal(0.1, Thin_Film_Thickness=420.0, Thin_Film_IOR=1.6))
 
 
-@path_scene("lacquer on a pot", LIMITS[0.3])
+@path_scene("lacquer on a pot")
 def coat_teapot() -> None:
-    room()
+    room(soft=True)
     put_teapot(of_principled("Lacquer", Base_Color=RED, Roughness=0.4, Coat_Weight=1.0, Coat_Roughness=0.03))
 
 

@@ -13,6 +13,8 @@ from .stage import metal, of_principled, put_ball, put_suzanne, put_teapot, room
 
 LIMITS: dict[float, Limits] = {0.1: (0.02, 0.01), 0.3: (0.05, 0.025), 0.5: (0.08, 0.035)}
 """By roughness"""
+LAYERED: Limits = (0.05, 0.03)
+"""Soft light on the base leaves 0.025 by itself"""
 ROUGHNESSES = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
 
 
@@ -27,12 +29,19 @@ for _roughness in ROUGHNESSES:
         f"a metal ball of roughness {_roughness}",
         partial(_metal_ball, _roughness),
         LIMITS.get(_roughness, (None, None)),
+        samples=1024 if _roughness < 0.2 else 512,
     )
 
 
 @path_scene("a sharp metal ball: what the rest of the picture leaves")
 def metal_sharp() -> None:
     _metal_ball(0.0)
+
+
+@path_scene("a metal ball of roughness 0.3 where the lamp and the sky light all", LIMITS[0.3])
+def metal_03_soft() -> None:
+    room(soft=True)
+    put_ball(metal(0.3))
 
 
 @path_scene("a metal pot that sees itself, roughness 0.1", LIMITS[0.1])
@@ -97,19 +106,19 @@ def pair_03() -> None:
     put_ball(metal(0.2, (0.9, 0.6, 0.3)), "Second", (0.85, -0.3, 0.6), 0.6, 64)
 
 
-@path_scene("a rough dielectric over white: roughness 0.3", LIMITS[0.3])
+@path_scene("a rough dielectric over white: roughness 0.3", LAYERED, layered=True)
 def dielectric_03() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Plastic", Base_Color=(0.5, 0.08, 0.05, 1.0), Roughness=0.3))
 
 
 @path_scene("a sharp dielectric over a color")
 def dielectric_00() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Plastic", Base_Color=(0.5, 0.08, 0.05, 1.0), Roughness=0.0))
 
 
-@path_scene("a rough dielectric of a high index", LIMITS[0.3])
+@path_scene("a rough dielectric of a high index", LAYERED, layered=True)
 def dielectric_dense_03() -> None:
-    room()
+    room(soft=True)
     put_ball(of_principled("Diamond paint", Base_Color=(0.1, 0.3, 0.6, 1.0), Roughness=0.3, IOR=2.4))

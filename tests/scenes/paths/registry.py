@@ -31,6 +31,8 @@ class PathScene:
     limits: Limits
     samples: int
     """Of each of the two references by Cycles"""
+    layered: bool
+    """A rough layer over a matt base: see `judged.layered_picture`"""
 
 
 SCENES: dict[str, PathScene] = {}
@@ -41,12 +43,13 @@ def path_scene(
     limits: Limits = (None, None),
     mirrors: tuple[str, ...] = (OBJECT,),
     judged: tuple[str, ...] | None = None,
-    samples: int = 512,
+    samples: int = 256,
+    layered: bool = False,
 ) -> Callable[[Builder], Builder]:
     """Registers a builder under its function's name; all that is chosen is judged unless `judged` says otherwise."""
 
     def register(build: Builder) -> Builder:
-        add_scene(build.__name__, text, build, limits, mirrors, judged, samples)
+        add_scene(build.__name__, text, build, limits, mirrors, judged, samples, layered)
         return build
 
     return register
@@ -59,9 +62,11 @@ def add_scene(
     limits: Limits = (None, None),
     mirrors: tuple[str, ...] = (OBJECT,),
     judged: tuple[str, ...] | None = None,
-    samples: int = 512,
+    samples: int = 256,
+    layered: bool = False,
 ) -> None:
     """Registers one of a row of scenes that differ by a number."""
     if name in SCENES:
         raise ValueError(f"There are two scenes of paths called {name}.")
-    SCENES[name] = PathScene(name, text, build, mirrors, mirrors if judged is None else judged, limits, samples)
+    compared = mirrors if judged is None else judged
+    SCENES[name] = PathScene(name, text, build, mirrors, compared, limits, samples, layered)

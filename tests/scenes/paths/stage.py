@@ -45,9 +45,14 @@ def empty(world: tuple[float, float, float]) -> Any:
     return scene
 
 
-def room(lens: float = 62.0, things: bool = True, target: Place = (0.0, 0.0, 1.0)) -> Any:
-    """Floor, two walls, four things of color, a lamp; what stands in the middle is at (0, 0, 0) and 2 high."""
-    scene = empty((0.24, 0.29, 0.38))
+def room(lens: float = 62.0, things: bool = True, target: Place = (0.0, 0.0, 1.0), soft: bool = False) -> Any:
+    """Floor, two walls, four things of color; what stands in the middle is at (0, 0, 0) and 2 high.
+
+    Matt things are lit by a sun without shadows, which every renderer does exactly: how soft light falls on them is
+    another matter than paths. Mirrors see an area lamp and a gray sky besides. `soft`: these light matt things, too.
+    """
+    scene = empty((0.3, 0.36, 0.47))
+    scene.world.cycles_visibility.diffuse = soft
     floor = packed_image("Tiles", paint.chequer(256, 8, (0.82, 0.78, 0.7), (0.35, 0.4, 0.46)))
     add_object("Floor", plane((9.0, 9.0), (4, 4)), _painted("Tiles", floor), location=(0.0, -0.5, 0.0))
     wood = packed_image("Planks", paint.planks(256, 256, 8))
@@ -63,7 +68,9 @@ def room(lens: float = 62.0, things: bool = True, target: Place = (0.0, 0.0, 1.0
         add_object("Blue", ball(0.45, 32), matte("Blue", (0.06, 0.15, 0.65)), True, (-1.7, -1.1, 0.45))
         add_object("Yellow", box((0.5, 0.5, 1.4)), matte("Yellow", (0.8, 0.6, 0.05)), location=(1.4, -1.9, 0.7))
         add_object("Red", ball(0.5, 32), matte("Red", (0.7, 0.05, 0.04)), True, (-1.3, 1.8, 0.5))
-    add_lamp("AREA", (1.8, -2.2, 4.2), 160.0, target=(0.0, 0.0, 0.8), size=1.8)
+    lamp = add_lamp("AREA", (1.6, -2.6, 4.2), 70.0, target=(0.0, 0.0, 0.8), size=2.2)
+    lamp.visible_diffuse = soft
+    add_lamp("SUN", (0.5, -0.8, 0.9), 0.7 if soft else 3.2, target=(0.0, 0.0, 0.0), angle=0.0, use_shadow=False)
     add_camera(EYE, target, lens=lens)
     return scene
 

@@ -53,6 +53,8 @@ def scene_of(*materials: MaterialArrays, mirrors: tuple[int, ...] = (), **more: 
         (MaterialArrays("a tenth of metal", (0.7, 0.7, 0.7), metallic=0.1), True),
         (MaterialArrays("glossy", (0.5, 0.5, 0.5), glossy_only=True), True),
         (MaterialArrays("black metal", (0.0, 0.0, 0.0), metallic=1.0), False),
+        (MaterialArrays("glass", (0.03, 0.03, 0.03), roughness=0.0, transmission=1.0), False),
+        (MaterialArrays("metal leaf", (0.7, 0.7, 0.7), metallic=1.0, alpha=0.5), False),
     ],
     ids=lambda item: getattr(item, "name", ""),
 )

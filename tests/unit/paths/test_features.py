@@ -5,9 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
-import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.paths.features import (
     ABSORPTION,
@@ -18,38 +16,11 @@ from curvrefl.curvrefl_addon.renderer.paths.features import (
     GLASS,
     ROUGH,
     SCALARS,
+    TINT,
     path_features,
 )
-from curvrefl.curvrefl_addon.scene.arrays import (
-    InstanceArrays,
-    MaterialArrays,
-    MeshArrays,
-    ScalarsArrays,
-    SceneArrays,
-    WorldArrays,
-)
-
-CHROME = MaterialArrays("chrome", metallic=1.0, roughness=0.0)
-ROUGH_METAL = MaterialArrays("rough", metallic=1.0, roughness=0.3)
-LEAF = MaterialArrays("leaf", alpha=0.5, specular_level=0.0)
-
-
-def scene_of(
-    mirror: MaterialArrays, scenery: MaterialArrays, slots: tuple[int, ...] = (0,), **more: Any
-) -> SceneArrays:
-    """A mirror of the first material, another object of the first and second."""
-    corners = np.zeros((3, 3), np.float32)
-    triangles = np.tile(np.arange(3, dtype=np.int32), (len(slots), 1))
-    mesh = MeshArrays(
-        "mesh", corners, np.arange(3, dtype=np.int32), corners, None, None, triangles, np.array(slots, np.int32)
-    )
-    single = replace(mesh, triangle_slot=np.zeros(len(slots), np.int32))
-    instances = (
-        InstanceArrays("mirror", 1, 0, np.eye(4), (0,)),
-        InstanceArrays("scenery", 2, 1, np.eye(4), (1, 2), **more),
-    )
-    plain = MaterialArrays("plain", metallic=1.0)
-    return SceneArrays((single, mesh), instances, (mirror, scenery, plain), (), (), WorldArrays(), (1,))
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ScalarsArrays
+from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
 
 
 @pytest.mark.parametrize(
@@ -68,13 +39,15 @@ def scene_of(
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.0), {COAT}),
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.1), {COAT, ROUGH}),
         (replace(CHROME, film_thickness=300.0), {FILM}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2)), {TINT}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2), glossy_only=True), set()),
         (replace(CHROME, absorption=(1.0, 0.0, 0.0)), set()),
         (MaterialArrays("glass", roughness=0.0, transmission=1.0), {GLASS}),
         (MaterialArrays("green", roughness=0.0, transmission=1.0, absorption=(1.0, 0.0, 1.0)), {GLASS, ABSORPTION}),
         (replace(CHROME, alpha=0.9), {ALPHA}),
         (replace(CHROME, scalars=ScalarsArrays(0)), {ROUGH, SCALARS}),
     ],
-    ids=str,
+    ids=lambda value: value.name if isinstance(value, MaterialArrays) else "-".join(sorted(value)),
 )
 def test_what_a_mirror_is_made_of(mirror: MaterialArrays, needed: set[str]) -> None:
     assert path_features(scene_of(mirror, MaterialArrays("scenery"))) == needed

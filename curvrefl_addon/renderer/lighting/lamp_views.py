@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which shadow views the points on lamps need, and which of these share a layer of the maps' texture. Pure numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...scene.arrays import Float64Array, LightArrays
+from .shadow_views import SceneExtent, ShadowView
+
+LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
+LAMP_MAP_BYTES = 160 << 20
+"""The finest resolution that fits is taken"""
+
+
+@dataclass(frozen=True, slots=True)
+class LampViews:
+    """Of all lamps."""
+
+    places: list[list[tuple[Float64Array, tuple[int, ...]]]]
+    """Per lamp its points (4,), each with the numbers of its views: one or a cube's six; -1: nothing in shadow there"""
+    views: list[ShadowView]
+    layers: list[int]
+    """By view"""
+    resolution: int
+
+
+def plan_lamps(
+    extent: SceneExtent, lights: Sequence[LightArrays], points: Sequence[Float64Array], kept: int
+) -> LampViews:
+    """Views of lamps from `points` (n, 4) on each, and one resolution for all.
+
+    Every `kept`th point of a lamp has the same layers: what one sub-frame needs is there at once, and of `kept`
+    sub-frames nothing is drawn twice.
+    """
+    for resolution in LAMP_MAP_RESOLUTIONS:
+        planned = _plan(extent, lights, points, kept, resolution)
+        if (max(planned.layers, default=-1) + 1) * resolution * resolution * 4 <= LAMP_MAP_BYTES:
+            break
+    return planned
+
+
+def _plan(
+    extent: SceneExtent, lights: Sequence[LightArrays], points: Sequence[Float64Array], kept: int, resolution: int
+) -> LampViews:
+    planned = LampViews([], [], [], resolution)
+    layers: dict[tuple[int, int, int], int] = {}
+    for row, (light, places) in enumerate(zip(lights, points, strict=True)):
+        planned.places.append([])
+        for number, place in enumerate(places):
+            found: tuple[ShadowView | None, ...] = ()
+            if light.casts_shadow and light.kind == "SUN":
+                found = (extent.parallel_view(place[:3] / np.linalg.norm(place[:3]), resolution),)
+            elif light.casts_shadow:
+                found = extent.point_views(place[:3], resolution)
+            faces = []
+            for face, view in enumerate(found):
+                faces.append(-1 if view is None else len(planned.views))
+                if view is not None:
+                    planned.views.append(replace(view, turn=(number, len(places))))
+                    planned.layers.append(layers.setdefault((row, number % kept, face), len(layers)))
+            planned.places[-1].append((place, tuple(faces)))
+    return planned

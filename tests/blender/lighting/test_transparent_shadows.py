@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shadows of what lets light straight on: of the lamps' light (1 - alpha) times the tint gets through each surface."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
+from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
+from curvrefl.curvrefl_addon.scene.arrays import (
+    ImageArrays,
+    LightArrays,
+    MaterialArrays,
+    ScalarsArrays,
+    WorldArrays,
+)
+from lighting.cycles import cycles_picture
+from lighting.harness import our_picture
+from lighting.stage import Body, Stage, box, lamp, plane, scene_arrays
+
+pytestmark = pytest.mark.usefixtures("gpu")
+UNDER = {"eye": (0.0, -0.02, 0.9), "width": 1.0, "pixels": 40}
+"""A floor from under what hangs 1 m above it"""
+SUN = lamp("SUN", (2.0, 2.0, 2.0), (0.0, 0.0, 4.0))
+UV = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+
+
+def seen_through(**changes: Any) -> MaterialArrays:
+    return MaterialArrays("leaf", (0.5, 0.5, 0.5), specular_level=0.0, **changes)
+
+
+def panes(*alphas: float) -> list[Body]:
+    """A floor, and sheets above it."""
+    return [
+        plane(20.0),
+        *(plane(4.0, 1.0 + 0.3 * index, material=seen_through(alpha=alpha)) for index, alpha in enumerate(alphas)),
+    ]
+
+
+def share_lit(bodies: list[Body], light: LightArrays = SUN, world: WorldArrays | None = None, **more: Any) -> Any:
+    """(pixels, pixels, 3) light over that without what hangs above the floor."""
+    stage = Stage(bodies, [light] if world is None else [], world or WorldArrays(), **UNDER, **more)
+    bare = Stage(bodies[:1], [light] if world is None else [], world or WorldArrays(), **UNDER)
+    return our_picture(stage)[0] / our_picture(bare)[0]
+
+
+@pytest.mark.parametrize("alphas", [(0.5,), (0.3,), (0.5, 0.5), (0.3, 0.6, 0.2)], ids=str)
+@pytest.mark.parametrize("angle", [0.0, 0.1], ids=["hard", "soft"])
+def test_each_surface_lets_its_share_of_a_lamp_through(alphas: tuple[float, ...], angle: float) -> None:
+    light = share_lit(panes(*alphas), replace(SUN, angle=angle))
+    through = float(np.prod(1.0 - np.array(alphas)))
+    assert light.mean() == pytest.approx(through, abs=0.01)
+    # What each place has, whatever falls on it by chance.
+    assert np.abs(light - through).std() < 0.1
+
+
+def test_both_sides_of_a_thin_pane_count() -> None:
+    thin = box((-2.0, -2.0, 1.0), (2.0, 2.0, 1.0001), material=seen_through(alpha=0.4))
+    assert share_lit([plane(20.0), thin]).mean() == pytest.approx(0.36, rel=0.02)
+
+
+def test_the_world_is_let_through_as_well() -> None:
+    wide = plane(400.0, 1.0, material=seen_through(alpha=0.4))
+    assert share_lit([plane(20.0), wide], world=WorldArrays((0.7, 0.7, 0.7))).mean() == pytest.approx(0.6, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("material", "through"),
+    [
+        (seen_through(alpha=0.4, alpha_threshold=0.5), 1.0),
+        (seen_through(alpha=0.6, alpha_threshold=0.5), 0.0),
+        (seen_through(alpha=0.6, alpha_threshold=0.5, alpha_inverted=True), 1.0),
+        (seen_through(alpha=0.0), 1.0),
+        (seen_through(alpha=0.0, transparent_tint=(0.0, 0.0, 0.0)), 0.0),
+        (seen_through(alpha=0.5, transparent_tint=(0.5, 0.5, 0.5)), 0.25),
+        (seen_through(transmission=1.0), 0.0),
+    ],
+    ids=lambda item: "" if isinstance(item, float) else None,
+)
+def test_thresholds_tints_and_glass(material: MaterialArrays, through: float) -> None:
+    """Glass is opaque to straight light, as it is in Cycles without caustics."""
+    light = share_lit([plane(20.0), plane(4.0, 1.0, material=material)])
+    assert light.mean() == pytest.approx(through, rel=0.01, abs=1e-6)
+
+
+def leaf_image(**more: Any) -> ImageArrays:
+    """A disk that is there, with a soft rim."""
+    y, x = np.mgrid[0:64, 0:64] / 63.0 - 0.5
+    alpha = np.clip(8.0 * (0.35 - np.hypot(x, y * 1.4)) + 0.5, 0.0, 1.0)
+    pixels = np.ones((64, 64, 4), np.float32)
+    pixels[..., 3] = alpha
+    return ImageArrays("leaf", pixels, **more)
+
+
+@pytest.mark.parametrize(
+    ("threshold", "image"),
+    [
+        (0.5, leaf_image()),
+        (-1.0, leaf_image()),
+        (-1.0, leaf_image(nearest=True, extension="CLIP")),
+        (-1.0, leaf_image(extension="EXTEND")),
+        (-1.0, leaf_image(extension="MIRROR")),
+    ],
+    ids=["clip", "hashed", "nearest", "extend", "mirror"],
+)
+def test_leaves_shadow_as_in_cycles(threshold: float, image: ImageArrays) -> None:
+    """An image's alpha, on sheets whose uv go beyond it."""
+    material = seen_through(alpha=0.5, scalars=ScalarsArrays(0), alpha_threshold=threshold)
+    leaf = replace_uv(plane(1.2, 1.0, material=material), 1.6 * UV - 0.3)
+    higher = replace_uv(plane(0.8, 1.2, material=material), 1.6 * UV - 0.3)
+    light = lamp("POINT", (100.0, 100.0, 100.0), (0.1, 0.0, 6.0), radius=0.1)
+    stage = Stage([plane(20.0), leaf, higher], [light], images=(image,), **UNDER)
+    ours, cycles = our_picture(stage)[0], cycles_picture(stage, 128)
+    assert ours.mean() == pytest.approx(cycles.mean(), rel=0.01)
+    assert np.abs(ours - cycles).mean() < 0.04 * cycles.mean()
+
+
+def replace_uv(body: Body, uv: np.ndarray) -> Body:
+    return replace(body, uv=uv)
+
+
+def test_panes_of_cycles_let_through_what_ours_do() -> None:
+    stage = Stage(panes(0.5, 0.3), [replace(SUN, angle=0.05)], **UNDER)
+    cycles = cycles_picture(stage, 16)
+    assert our_picture(stage)[0].mean() == pytest.approx(cycles.mean(), rel=0.01)
+
+
+def test_a_tint_is_said_to_be_left_out() -> None:
+    stage = Stage([plane(20.0), plane(4.0, 1.0, material=seen_through(alpha=0.5, transparent_tint=(1.0, 0.4, 0.1)))])
+    geometry = SceneGeometry()
+    scene = scene_arrays(stage)
+    geometry.update(scene, {})
+    (sentence,) = Lighting(scene, geometry).warnings
+    assert sentence == 'Shadows of material "leaf" are gray where shadow maps serve: its tint is left out.'
+
+
+def test_shadows_follow_materials_and_images() -> None:
+    """A renderer that stays lights as one that is new."""
+    image = leaf_image()
+    material = seen_through(alpha=0.5, scalars=ScalarsArrays(0), alpha_threshold=0.5)
+    leaf = replace_uv(plane(1.2, 1.0, material=material), UV)
+    stage = Stage([plane(20.0), leaf], [SUN], images=(image,), **UNDER)
+    scene = scene_arrays(stage)
+    geometry = SceneGeometry()
+    geometry.update(scene, {})
+    lighting = Lighting(scene, geometry, 4)
+    lighting.prepare(0)
+    opaque = replace(scene, materials=(scene.materials[0], replace(material, alpha=1.0, scalars=None)))
+    thinner = replace(scene, images=(replace(image, pixels=image.pixels * np.float32(0.9)),))
+    for state in (opaque, scene, thinner):
+        lighting.follow(state, geometry.update(state, {}))
+        fresh = Lighting(state, geometry, 4)
+        for index in range(4):
+            lighting.prepare(index)
+            fresh.prepare(index)
+        kept, new = (np.array(one._lamp_maps.texture.read(), np.float32) for one in (lighting, fresh))
+        assert np.array_equal(kept, new)
