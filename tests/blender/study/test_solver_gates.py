@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import pytest
-from curvrefl.curvrefl_addon.optics.catalog import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import SOLVERS
 from curvrefl.curvrefl_addon.study.solvers.solver_table import Row, solver_table
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from curvrefl.curvrefl_addon.study.stability.fuzz import fuzz
 from curvrefl.curvrefl_addon.study.stability.motion import measure_motion
 
@@ -104,11 +105,19 @@ def test_environments_are_right_far_away_and_wrong_nearby(rows: dict[tuple[str, 
 
 
 def test_any_input_ends_with_a_code() -> None:
-    results = fuzz(100_000)
-    assert {item.method for item in results} == {name for name, entry in METHODS.items() if entry.solves_vertices}
+    results = fuzz(100_000, tuple(STUDIES)) + fuzz(20_000, ("bumpy glass", "glass from inside"))
+    assert {item.method for item in results} == {name for name, entry in SOLVERS.items() if entry.solves_vertices}
     for item in results:
         assert (item.not_finite, item.wild, item.without_code) == (0, 0, 0), item.method
         assert item.invalid > 0 and item.reflected > 0 and item.hidden > 0
+
+
+def test_refractions_move_steadily() -> None:
+    for item in measure_motion(("glass sphere",), 240):
+        assert item.method == "newton_refraction"
+        assert item.identical_at_rest
+        assert item.jitter_p99_px < 0.1
+        assert item.iterations_later < 1.5
 
 
 def test_reflections_move_steadily() -> None:
