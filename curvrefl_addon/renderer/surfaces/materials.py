@@ -129,12 +129,13 @@ class Materials:
         shader.uniform_float("relief_turn", relief.uv_turn)
         shader.uniform_sampler("relief_image", self._images[relief.image][1])
 
-    def bind(self, shader: Any, index: int) -> None:
-        """Set a bound shader with `PLAIN` or `TEXTURED`, as the material is (`is_plain`), to material `index`."""
+    def bind(self, shader: Any, index: int, plain: bool) -> None:
+        """Set a bound shader with `PLAIN` or else `TEXTURED` to material `index`, which must be so (`is_plain`) for the
+        former."""
         material = self._of(index)
         shader.uniform_float("base_color", material.base_color)
         shader.uniform_float("material", float(index))
-        if self.is_plain(index):
+        if plain:
             return
         shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
         shader.uniform_float("uv_turn", material.uv_turn)

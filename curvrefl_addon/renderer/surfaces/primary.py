@@ -84,7 +84,7 @@ def draw_primary(
                     shader.uniform_sampler("corners", chunk.corners)
                     hide_faces(hidden_faces(chunk))
                     for material, batch in chosen:
-                        materials.bind(shader, material)
+                        materials.bind(shader, material, kind == "PLAIN")
                         if kind == "RELIEF":
                             materials.bind_relief(shader, material)
                         if scalars:
