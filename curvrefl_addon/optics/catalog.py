@@ -99,18 +99,6 @@ METHODS: dict[str, Method] = {
         several_images=True,
         curves_edges=True,
     ),
-    "newton_refraction": Method(
-        "Newton through Glass",
-        "Roger & Holzschuch 2006, section 5: Newton on Fermat's principle with Snell's law",
-        "every ray from the star center leaves the glass once; one image per vertex; light bends at the first surface "
-        "alone",
-        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
-        maps=("radial", "previous"),
-        steps=6,
-        stragglers="newton_refraction_stragglers",
-        refracts=True,
-        curves_edges=True,
-    ),
     "secant_uv": Method(
         "Secant Search in UV",
         "Roger & Holzschuch 2005, section 3",
@@ -177,3 +165,21 @@ METHODS: dict[str, Method] = {
         ("environment_resolution", (64, 128, 256, 512)),
     ),
 }
+
+REFRACTIONS: dict[str, Method] = {
+    "newton_refraction": Method(
+        "Newton through Glass",
+        "Newton on Fermat's principle with Snell's law; proposed by Roger & Holzschuch 2005 and 2006, section 5",
+        "every ray from the star center leaves the glass once; one image per vertex; light bends at one surface alone",
+        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_refraction_stragglers",
+        refracts=True,
+        curves_edges=True,
+    ),
+}
+"""Solvers for what glass shows through its surface; no picture is drawn by them alone"""
+
+SOLVERS: dict[str, Method] = METHODS | REFRACTIONS
+"""All that has a shader in `gpu_shaders/solvers`, and the other methods"""

@@ -77,7 +77,10 @@ class Preparation:
             if item is not None and isinstance(shown[-1], ShownVertices):
                 warnings += shown[-1].shape.warnings
         coarse = stage.lighting.too_coarse(view)
-        return Reflection(view, settings, tuple(shown), tuple(dict.fromkeys(warnings)), choice, coarse, at_rest)
+        is_calm = not at_rest and stage.tracer is not None and stage.tracer.can_be_calm
+        is_calm = is_calm and any(isinstance(one, ShownRays) for one in shown)
+        told = tuple(dict.fromkeys(warnings))
+        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, is_calm)
 
     def _choose(
         self,

@@ -54,6 +54,8 @@ class Reflection:
     """Of lamps and of the world: their maps are too coarse for the view"""
     follows_shadows: bool = False
     """By rays, where that is so"""
+    is_calm: bool = False
+    """The view moves: rough mirrors show what sharp ones would, blurred, in place of one noisy path"""
     origin: Float64Array = field(default_factory=lambda: np.zeros(3))
     """(3,) where in the world the scene had its origin (see `placement`)"""
 
@@ -74,6 +76,8 @@ class Reflection:
     @property
     def is_final(self) -> bool:
         """Nothing is left that `reflect` would do for a view at rest alone."""
+        if self.is_calm:
+            return False
         return all(shown.is_final for shown in self.shown) and (self.follows_shadows or not any(self.coarse_shadows))
 
     @property

@@ -48,7 +48,12 @@ def usable_pixels(pixels: Float32Array, largest: float = LARGEST_LIGHT) -> tuple
 def usable_material(material: MaterialArrays, notes: list[str]) -> MaterialArrays:
     """The material with its defaults for what is not usable, colors black; `notes` gets what that is."""
     plain = MaterialArrays("")
-    largest = {"base_color": LARGEST_COLOR, "metallic": 1e3, "roughness": 1e3, "ior": 1e6, "specular_level": 1e6}
+    largest = {
+        **dict.fromkeys(("base_color", "specular_tint", "coat_tint", "transparent_tint"), LARGEST_COLOR),
+        **dict.fromkeys(("metallic", "roughness"), 1e3),
+        **dict.fromkeys(("ior", "coat_ior", "film_ior", "specular_level", "film_thickness"), 1e6),
+        "anisotropic_rotation": 1e4,
+    }
     changes: dict[str, Any] = {}
     for item in fields(MaterialArrays):
         value = getattr(material, item.name)

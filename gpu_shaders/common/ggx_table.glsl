@@ -25,9 +25,9 @@ vec4 ggx_table(float roughness, float cosine, float slice)
   return ggx_entry(roughness, cosine, slice, 0.0);
 }
 
-// Of an interface that lets light through, below the others. x, y: albedo of this slice's IOR and the next's, seen
-// from outside; z, w: from inside. In the last slice but one, with the slice's place 0 .. 1 for the cosine, x, z: the
-// cosine-weighted average of both over all angles.
+// Of an interface that lets light through, below the others; two steps of IOR to a slice. x, y: albedo at either, seen
+// from outside; z, w: from inside. In the last slice, with the step's place 0 .. 1 for the cosine, x, z: the
+// cosine-weighted average over all angles from outside and inside.
 vec4 ggx_glass_table(float roughness, float cosine, float slice)
 {
   return ggx_entry(roughness, cosine, slice, float(GGX_TABLE_SIZE));

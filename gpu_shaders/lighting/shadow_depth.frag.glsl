@@ -16,23 +16,24 @@ uint mixed(uint bits)
   return bits ^ (bits >> 16);
 }
 
-// 0..1, of this texel of this surface. `turn`: which of how many maps; their numbers are one in each of as many equal
-// parts, in an order of the texel's own, so that surfaces one behind the other are there independently.
+// 0..1, of this texel of this surface. `turn`: which of how many maps; the numbers of up to TOGETHER of them in a row
+// are one in each of as many equal parts, in an order of the texel's own, so that surfaces one behind the other are
+// there independently.
+#define TOGETHER 16
+
 float chance()
 {
+  int count = min(turn.y, TOGETHER);
   uint seed = mixed(uint(gl_FragCoord.x) | (uint(gl_FragCoord.y) << 16));
   seed = mixed(seed ^ uint(surface.x));
   seed = mixed(seed + uint(surface.y));
-  if (turn.y == 1) {
-    return float(mixed(seed + uint(turn.x)) >> 8) / 16777216.0;
-  }
-  uint own = mixed(seed + uint(turn.x));
+  seed = mixed(seed + uint(turn.x / count));
+  uint own = mixed(seed + uint(turn.x % count));
   int rank = 0;
-  for (int other = 0; other < turn.y; other++) {
-    uint bits = mixed(seed + uint(other));
-    rank += bits < own ? 1 : 0;
+  for (int other = 0; other < count; other++) {
+    rank += mixed(seed + uint(other)) < own ? 1 : 0;
   }
-  return (float(rank) + float(seed >> 8) / 16777216.0) / float(turn.y);
+  return (float(rank) + float(seed >> 8) / 16777216.0) / float(count);
 }
 #endif
 

@@ -3,7 +3,7 @@
 // What a surface does to a path that meets it: one decision, and what the path's throughput is multiplied by; as
 // optics/scattering/scatter.py. The diffuse base takes no part: it is shaded with base_share.
 // random.xy: which microfacet; random.z: which layer, then whether it reflects; random.w: whether anything is there.
-#include "paths/layers.glsl"
+#include "scattering/layers.glsl"
 
 #define SCATTER_ENDS 0
 #define SCATTER_REFLECTS 1

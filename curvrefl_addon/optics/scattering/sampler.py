@@ -71,21 +71,20 @@ def path_point(sub_frame: int, bounce: int) -> tuple[int, int, int, int]:
     as signed 32-bit integers.
     """
     seed = _hashed(_hashed(bounce + 1) ^ (sub_frame >> _BITS))
-    # The order of a bounce's points: a scramble of the index's bits, the highest of which count most, so that aligned
-    # blocks go to aligned blocks.
+    # The order of a bounce's points: blocks of 2^k that begin at multiples of it stay together.
     index = sub_frame & (1 << _BITS) - 1
     if bounce > 0:
-        index = _mirrored(_scrambled(_mirrored(index), _hashed(seed)) & (1 << _BITS) - 1)
+        index = _turned(_scrambled(_turned(index), _hashed(seed)) & (1 << _BITS) - 1)
     point = [0] * 4
     for axis, directions in enumerate(_AXES):
         for bit in range(_BITS):
             if index >> bit & 1:
                 point[axis] ^= directions[bit]
-    a, b, c, d = (_mirrored(value) for value in point)
+    a, b, c, d = (_turned(value) for value in point)
     return tuple(_signed(value) for value in (a | b << 16, c | d << 16, seed, sub_frame & _FULL))  # type: ignore[return-value]
 
 
-def _mirrored(value: int) -> int:
+def _turned(value: int) -> int:
     """`_BITS` bits in reverse order."""
     return int(f"{value:0{_BITS}b}"[::-1], 2)
 

@@ -20,6 +20,8 @@ TABLE_SIZE = 32
 """Steps of roughness and of the viewer's cosine, both 0..1"""
 IOR_SLICES = 16
 """Steps of sqrt((ior - 1) / (ior + 1)), 0..1"""
+GLASS_STEPS = 2 * IOR_SLICES - 1
+"""The same of glass, whose albedo is less even"""
 GGX_DEFINES = {"GGX_TABLE_SIZE": TABLE_SIZE, "GGX_IOR_SLICES": IOR_SLICES}
 """What `ggx.glsl` knows of the table"""
 TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
@@ -40,19 +42,20 @@ def integrate_ggx(strata: int = 96) -> Float32Array:
 def integrate_glass(strata: int) -> Float32Array:
     """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): as `integrate_lobe`, of an interface that reflects and refracts.
 
-    x: albedo of single scattering, seen from outside an object of this slice's IOR; y: of the next slice's; z, w: the
-    same from inside, where what is not refracted is reflected wholly. In the last slice but one, whose columns are the
-    slices' places 0..1 in place of cosines: x, z: the averages of x and z over all angles, cosine-weighted.
+    There are twice as many steps of IOR, two to a slice. x, y: albedo of single scattering, seen from outside an object
+    of either IOR; z, w: the same from inside, where what is not refracted is reflected wholly. In the last slice, whose
+    columns are the steps of IOR in place of cosines: x, z: the averages over all angles, cosine-weighted, from outside
+    and inside.
     """
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
     table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
-    iors = _slice_iors()
-    places = np.linspace(0.0, 1.0, IOR_SLICES)
+    iors = _iors(GLASS_STEPS)
+    places = np.linspace(0.0, 1.0, GLASS_STEPS)
     for row, rough in enumerate(np.linspace(0.0, 1.0, TABLE_SIZE)):
         alpha = max(rough * rough, 1e-4)
         weight, cos_difference, light = _sample_lobe(alpha, cosine, strata)
         normal_z = (light[..., 2] + cosine[:, None]) / (2.0 * cos_difference)
-        averages = np.zeros((IOR_SLICES, 2))
+        averages = np.zeros((GLASS_STEPS, 2))
         for index, ior in enumerate(iors):
             for side, eta in enumerate((ior, 1.0 / ior)):
                 reflected = fresnel_dielectric(cos_difference, eta)
@@ -62,11 +65,10 @@ def integrate_glass(strata: int) -> Float32Array:
                 lambda_light = _smith_lambda(alpha, np.maximum(-light_z, 1e-9))
                 bent = np.where(light_z < 0.0, (1.0 + lambda_view) / (1.0 + lambda_view + lambda_light), 0.0)
                 albedo = (reflected * weight + (1.0 - reflected) * bent).mean(axis=1)
-                table[row, index, :, 2 * side] = albedo
+                table[row, index // 2, :, 2 * side + index % 2] = albedo
                 averages[index, side] = 2.0 * np.trapezoid(albedo * cosine, cosine)
-        table[row, :-2, :, 1::2] = table[row, 1:-1, :, 0::2]
         for side in (0, 1):
-            table[row, -2, :, 2 * side] = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), places, averages[:, side])
+            table[row, -1, :, 2 * side] = np.interp(np.linspace(0.0, 1.0, TABLE_SIZE), places, averages[:, side])
     return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
 
 
@@ -83,7 +85,7 @@ def integrate_lobe(strata: int) -> Float32Array:
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
     table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
-    iors = _slice_iors()
+    iors = _iors(IOR_SLICES)
     for row, rough in enumerate(roughness):
         weight, cos_difference, light = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
         albedo = weight.mean(axis=1)
@@ -114,8 +116,8 @@ def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
     return np.where(square > 0.0, 0.5 * a * a * (1.0 + b * b), 1.0)
 
 
-def _slice_iors() -> list[float]:
-    squares = np.minimum(np.linspace(0.0, 1.0, IOR_SLICES), 0.99) ** 2
+def _iors(count: int) -> list[float]:
+    squares = np.minimum(np.linspace(0.0, 1.0, count), 0.99) ** 2
     return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
 
 

@@ -119,9 +119,8 @@ class Lighting:
         moved = difference.moved
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
-        planned = (
-            difference.structure or (bool(moved) and not self._holds(moved)) or was_hashed != self._alpha.is_hashed
-        )
+        planned = difference.structure or (bool(moved) and not self._holds(moved))
+        planned |= self._alpha.is_hashed != was_hashed
         if planned:
             self._read_geometry()
         if scene.world is not before.world:
@@ -262,8 +261,7 @@ class Lighting:
         self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
-        points = [lamp_points(light, samples, index) for index, light in enumerate(self._lights)]
-        points = [self._alpha.repeated(places, samples) for places in points]
+        points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
         planned = plan_lamps(self._extent, self._lights, points, kept)
         self._lamp_places = planned.places
         self._lamp_maps.plan(planned.views, planned.resolution, planned.layers)

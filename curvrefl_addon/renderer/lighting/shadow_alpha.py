@@ -29,8 +29,9 @@ SHADOW_ALPHA = Piece(samplers={"caster_alphas": "FLOAT_2D"}, defines={"ALPHA_REC
 """What `shadow_alpha.glsl` needs"""
 ROW_TEXELS = 4 * TEXTURE_WIDTH
 """Alphas of an image in one row of the texture"""
-HASHED_SAMPLES = 8
-"""Maps of a lamp without size where something is there by chance"""
+HASHED_SAMPLES, MOST_KEPT = 8, 16
+"""Maps of a lamp without size where something is there by chance; pictures of more than so many sub-frames, whose maps
+are not kept anyway, have one for each"""
 GRAY = 0.02
 """A tint's channels differ by no more"""
 EXTENSIONS = {"REPEAT": 0, "EXTEND": 1, "MIRROR": 2, "CLIP": 3}
@@ -79,7 +80,7 @@ class ShadowAlpha:
         """Points of a lamp (n, k), that of one without size as often as its maps differ in what they hold."""
         if not self.hashed or len(places) > 1:
             return places
-        return np.repeat(places, min(count, HASHED_SAMPLES), axis=0)
+        return np.repeat(places, count if count > MOST_KEPT else min(count, HASHED_SAMPLES), axis=0)
 
     def bind(self, shader: Any) -> None:
         """Set what `SHADOW_ALPHA` names on a bound shader."""

@@ -10,6 +10,7 @@ from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
 SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
+TINT = "PATHS_TINT"
 """Defines of the shaders of paths"""
 SHARPEST_LOBE = 7e-4
 """Lobes with a smaller square of the roughness are drawn sharp"""
@@ -66,6 +67,8 @@ def features_of(material: MaterialArrays) -> frozenset[str]:
         SCALARS: has_scalars,
         ANISOTROPY: material.anisotropy != 0.0 and (is_rough or has_scalars),
         FILM: material.film_thickness > 0.0,
+        # (Nothing but paths knows it; they always do.)
+        TINT: material.specular_tint != (1.0, 1.0, 1.0) and reflects and not material.glossy_only,
         ABSORPTION: material.transmission > 0.0 and max(material.absorption) > 0.0,
     }
     return frozenset(name for name, is_needed in found.items() if is_needed)

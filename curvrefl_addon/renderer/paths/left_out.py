@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from ...optics.catalog import Method
 from ...scene.arrays import InstanceArrays, SceneArrays
 from ...scene.remarks import Remark, sentences
-from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, features_of, in_use
+from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, TINT, features_of, in_use
 
 BUMPS = "BUMPS"
 """Beside the features of paths"""
@@ -22,6 +22,7 @@ KINDS = {
     SCALARS: ("Textures of roughness, metallic and alpha {of} are their means", "has a texture of its gloss"),
     ROUGH: ("Roughness {of} is left out", "is rough"),
     ANISOTROPY: ("Anisotropy {of} is left out", "is anisotropic"),
+    TINT: ("The tint of edges {of} is left out", "has tinted edges"),
 }
 """What is left out, and why `auto` follows rays: the first that there is"""
 SCENERY = "The transparency {of} is left out in mirrors"

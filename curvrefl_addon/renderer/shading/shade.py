@@ -91,6 +91,7 @@ class ShadePass:
         with_others: bool = True,
         film_transparent: bool = False,
         by_camera: bool = True,
+        shown_apart: Canvas | None = None,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -99,7 +100,8 @@ class ShadePass:
         touched. With `later`, `reflected` is a PathBuffer, and these are the bounces after it. With `shadows`, these
         take the place of maps. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
         all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
-        `by_camera`: what sees all this is the camera, else a mirror.
+        `by_camera`: what sees all this is the camera, else a mirror. `shown_apart`: gets what mirrors show, with a
+        weight of 1, in place of the picture.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -108,30 +110,30 @@ class ShadePass:
         classes.sort(
             seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
         )
-        target = canvas.with_depth(classes.depth)
-        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(mirrors):
-            set_viewport(0, 0, seen.width, seen.height)
-            self._add_light(seen, reflected, view_uniforms, weight, mirrors_only, shadows, film_transparent, by_camera)
-            self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
+        shown, strength = (canvas, weight) if shown_apart is None else (shown_apart, 1.0)
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
+            with shown.with_depth(classes.depth).bind(), scissored(mirrors):
+                set_viewport(0, 0, seen.width, seen.height)
+                self._add_shown(seen, reflected, view_uniforms, strength, shadows)
+            with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
+                set_viewport(0, 0, seen.width, seen.height)
+                if not mirrors_only:
+                    self._add_others(seen, view_uniforms, weight, shadows, film_transparent, by_camera)
+                self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         for bounce in later or ():
-            self._add_path(canvas, bounce, view_uniforms, weight, shadows)
+            self._add_path(shown, bounce, view_uniforms, strength, shadows)
 
-    def _add_light(
+    def _add_others(
         self,
         seen: SurfaceBuffer,
-        reflected: SurfaceBuffer | Sequence[Environment] | None,
         view_uniforms: Any,
         weight: float,
-        mirrors_only: bool,
         shadows: RayShadows | None,
         film_transparent: bool,
         by_camera: bool,
     ) -> None:
-        """Background and surfaces, seen directly or in mirrors."""
-        kinds = [PixelClass.MIRROR] if isinstance(reflected, SurfaceBuffer) or not reflected else []
-        if not mirrors_only:
-            kinds += [PixelClass.BACKGROUND, PixelClass.SURFACE]
-        for kind in kinds:
+        """Background and surfaces, seen directly."""
+        for kind in (PixelClass.BACKGROUND, PixelClass.SURFACE):
             features = self._lighting.features
             if kind is PixelClass.SURFACE:
                 features = features_for(self._lighting, shadows, is_seen=True)
@@ -142,6 +144,19 @@ class ShadePass:
             as_camera = by_camera or kind != PixelClass.BACKGROUND
             rays = rays_of(features, shadows)
             self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
+
+    def _add_shown(
+        self,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Environment] | None,
+        view_uniforms: Any,
+        weight: float,
+        shadows: RayShadows | None,
+    ) -> None:
+        """Background and surfaces, seen in mirrors."""
+        if isinstance(reflected, SurfaceBuffer) or not reflected:
+            shader = _shade_shader(PixelClass.MIRROR, self._lighting.features)
+            self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0)

@@ -32,16 +32,20 @@ class ShownRays(Shown):
     @classmethod
     def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
         stage = sub_frame.stage
-        if stage.tracer is not None:
+        if stage.tracer is not None and not light.is_calm:
             _trace(stage.tracer, members, sub_frame, light)
             return
         bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
         first = next(bounces)
+        seen, uniforms = sub_frame.targets.seen, sub_frame.uniforms
+        calm = sub_frame.targets.calm_mirrors() if light.is_calm else None
+        if calm is not None:
+            calm.begin(seen, first.path, stage.materials, uniforms, first.window)
         stage.shade.add(
             light.canvas,
-            sub_frame.targets.seen,
+            seen,
             first.path,
-            sub_frame.uniforms,
+            uniforms,
             light.weight,
             sub_frame.window,
             later=bounces if first.goes_on else None,
@@ -49,7 +53,10 @@ class ShownRays(Shown):
             chosen=light.chosen,
             with_others=light.with_others,
             film_transparent=light.film_transparent,
+            shown_apart=None if calm is None else calm.sharp,
         )
+        if calm is not None:
+            calm.add(light.canvas, light.weight, seen, stage.materials, uniforms, first.window)
 
     @classmethod
     def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:

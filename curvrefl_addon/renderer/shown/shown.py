@@ -81,6 +81,8 @@ class Light:
     with_others: bool = True
     """The pixels that show no mirror are of this group too"""
     film_transparent: bool = False
+    is_calm: bool = False
+    """See `Reflection.is_calm`"""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from ..environments.vertex_lookups import VertexLookups
 from ..rays.paths import PathBuffer
+from ..shading.calm import CalmMirrors
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..vertices.back_faces import BackFaces
 
@@ -22,7 +23,8 @@ class Targets:
     reflected: SurfaceBuffer = field(init=False)
     back_faces: BackFaces = field(init=False)
     vertex_lookups: VertexLookups | None = None
-    """Made where a method needs them, as the next"""
+    """Made where a method needs them, as the next two"""
+    calm: CalmMirrors | None = None
     paths: list[PathBuffer] = field(default_factory=list)
 
     def path(self, bounce: int) -> PathBuffer:
@@ -30,6 +32,12 @@ class Targets:
         while len(self.paths) <= min(bounce, 1):
             self.paths.append(PathBuffer(self.width, self.height))
         return self.paths[bounce % 2]
+
+    def calm_mirrors(self) -> CalmMirrors:
+        """Made when first asked for."""
+        if self.calm is None:
+            self.calm = CalmMirrors(self.width, self.height)
+        return self.calm
 
     def __post_init__(self) -> None:
         self.seen = SurfaceBuffer(self.width, self.height)

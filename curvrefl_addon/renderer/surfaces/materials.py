@@ -129,13 +129,15 @@ class Materials:
         shader.uniform_float("relief_turn", relief.uv_turn)
         shader.uniform_sampler("relief_image", self._images[relief.image][1])
 
-    def bind(self, shader: Any, index: int, plain: bool) -> None:
-        """Set a bound shader with `PLAIN` or else `TEXTURED` to material `index`, which must be so (`is_plain`) for the
-        former."""
+    def bind(self, shader: Any, index: int, is_textured: bool = False) -> None:
+        """Set a bound shader with `PLAIN` or `TEXTURED`, as the material is (`is_plain`), to material `index`.
+
+        `is_textured`: the shader is, whatever the material is.
+        """
         material = self._of(index)
         shader.uniform_float("base_color", material.base_color)
         shader.uniform_float("material", float(index))
-        if plain:
+        if self.is_plain(index) and not is_textured:
             return
         shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
         shader.uniform_float("uv_turn", material.uv_turn)

@@ -84,7 +84,7 @@ def draw_primary(
                     shader.uniform_sampler("corners", chunk.corners)
                     hide_faces(hidden_faces(chunk))
                     for material, batch in chosen:
-                        materials.bind(shader, material, kind == "PLAIN")
+                        materials.bind(shader, material, is_textured=kind != "PLAIN")
                         if kind == "RELIEF":
                             materials.bind_relief(shader, material)
                         if scalars:

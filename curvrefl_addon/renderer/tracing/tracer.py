@@ -9,7 +9,7 @@ from typing import Any
 from ...scene.arrays import MaterialArrays, SceneArrays
 from ..device.textures import depth_texture
 from ..lighting.lighting import Lighting
-from ..paths.features import ABSORPTION, ANISOTROPY, ROUGH, SCALARS, goes_on
+from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, SCALARS, goes_on
 from ..rays.ray_scene import RayScene
 from ..shading.shade import RayShadows
 from ..surfaces.canvas import Canvas
@@ -54,6 +54,12 @@ class PathTracer:
     def has_scalars(self) -> bool:
         """Images say how rough, metallic, transmitting or transparent surfaces are."""
         return SCALARS in self.features
+
+    @property
+    def can_be_calm(self) -> bool:
+        """Sharp rays, blurred, stand for the paths while the view moves (`shading/calm.py`): these are of rough mirrors
+        that let nothing through."""
+        return ROUGH in self.features and self.features.isdisjoint({GLASS, ALPHA})
 
     @property
     def sees_through(self) -> bool:

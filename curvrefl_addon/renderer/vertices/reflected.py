@@ -68,7 +68,7 @@ def draw_reflected(
                 shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
                 for material, batch in part.batches:
                     if materials.is_plain(material) == is_plain:
-                        materials.bind(shader, material, is_plain)
+                        materials.bind(shader, material)
                         batch.draw(shader)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import bpy
+import numpy as np
 
 from ..arrays import ImageArrays, MaterialArrays, ReliefArrays, ScalarsArrays
 from ..finite import usable_image, usable_material
@@ -173,7 +174,8 @@ class MaterialReader:
         if volume is None:
             return surface
         absorption = read_absorption(volume, reader.inputs)
-        if absorption is None:
+        # (What goes straight through surfaces does not know what it is inside of.)
+        if absorption is None or (any(absorption) and surface.rest.transmission == 0.0 and not surface.is_opaque):
             notes.always.append("Volumes {of} are not shown.")
             return surface
         return replace(surface, rest=replace(surface.rest, absorption=absorption))
@@ -187,9 +189,13 @@ class MaterialReader:
         space = packed.space
         uv_maps = tuple(dict.fromkeys((*found.uv_maps, space.uv_map)))
         if not _is_one_map(uv_maps):
-            notes.on_paths.append("Roughness, metallic and alpha {of} are their means: they are on another UV map.")
+            notes.on_paths.append(
+                "Roughness, metallic, transmission and alpha {of} are their means: they are on another UV map than its "
+                "color."
+            )
             return found, arrays
-        index = self._image_index(usable_image(packed.image, notes.always), arrays.image)
+        image = self._known(usable_image(packed.image, notes.always))
+        index = self._image_index(image, arrays.image)
         scalars = ScalarsArrays(index, space.scale, space.turn, space.offset)
         return replace(found, uv_maps=uv_maps), replace(arrays, scalars=scalars)
 
@@ -223,6 +229,13 @@ class MaterialReader:
         )
         return replace(found, uv_maps=uv_maps, has_relief=True), replace(arrays, relief=read)
 
+    def _known(self, image: ImageArrays) -> ImageArrays:
+        """An image in the list that is the same, if there is one: so that it is not uploaded again."""
+        for known in self.images:
+            if _plain(known) == _plain(image) and np.array_equal(known.pixels, image.pixels):
+                return known
+        return image
+
     def _image_index(self, image: ImageArrays, *kept: int) -> int:
         """Place of an image in the list, new or of one that no material shows any more, but none of `kept`."""
         for index, known in enumerate(self.images):
@@ -247,3 +260,8 @@ def _is_one_map(uv_maps: tuple[str, ...]) -> bool:
     """Whether all these may be one UV map: a mesh has one here. (Which is the default, only the mesh knows.)"""
     named = set(uv_maps) - {""}
     return len(named) <= 1 and not (len(uv_maps) > 1 and not named.isdisjoint((GENERATED, OBJECT)))
+
+
+def _plain(image: ImageArrays) -> tuple[str, str, bool]:
+    """All but the pixels."""
+    return image.name, image.extension, image.nearest

@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 CURVE_STEPS = 256
 """As Cycles tabulates color ramps and curves"""
 
+NEVER_FOLLOWED = ("Is Shadow Ray", "Is Diffuse Ray", "Is Volume Scatter Ray")
+"""Outputs of the Light Path node that are 0 for whatever is seen, directly, in mirrors and through glass"""
+
 _MIXED = {
     "RGBA": ("Factor_Float", "A_Color", "B_Color"),
     "FLOAT": ("Factor_Float", "A_Float", "B_Float"),
@@ -197,6 +200,14 @@ def _gamma(c: Any, exponent: Any) -> Any:
     return np.where(c > 0.0, power(np.maximum(c, 0.0), exponent), c)
 
 
+def _light_path(reader: ColorReader, source: Source) -> NodeColor | None:
+    """What is the same for all rays that are followed here."""
+    if source.socket.identifier not in NEVER_FOLLOWED:
+        return None
+    reader.note("Shadows {of} are those of what is seen of it: its Light Path node is read for rays that are seen.")
+    return gray(0.0)
+
+
 type _Handler = Callable[[ColorReader, Source], NodeColor | None]
 HANDLERS: dict[str, _Handler] = {
     "GAMMA": lambda reader, source: reader.changed(source, _gamma, "Color", "Gamma"),
@@ -208,6 +219,7 @@ HANDLERS: dict[str, _Handler] = {
     "RGBTOBW": lambda reader, source: reader.changed(
         source, lambda c: spread(c @ luminance_weights().astype(c.dtype)), "Color"
     ),
+    "LIGHT_PATH": _light_path,
     "MIX": _mix,
     "MIX_RGB": _mix,
     "MATH": _math,

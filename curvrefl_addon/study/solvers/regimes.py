@@ -8,7 +8,7 @@ the oracle.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -207,20 +207,36 @@ def _caustic(study: Study, eye: Float64Array, count: int, random: np.random.Gene
     delta = 1e-5
     frame = tangent_frame(u)
     moved = [_rays(study, eye, unit(u + delta * direction)) for direction in frame]
+    focal = focal_distance(
+        [(other_point - point) / delta for other_point, _, _ in moved],
+        [(other_ray - ray) / delta for _, other_ray, _ in moved],
+        ray,
+        random.random(len(u)) < 0.5,
+    )
+    vertex = point + (focal * random.uniform(0.95, 1.05, len(u)))[:, None] * ray
+    kept = (cosine > 1e-2) & (focal > 1e-2) & (focal < 20.0)
+    return Cases(eye, *_shown(study, study.oracle(), eye, vertex[kept], point[kept], count))
+
+
+def focal_distance(
+    points: Sequence[Float64Array], rays: Sequence[Float64Array], ray: Float64Array, is_farther: NDArray[np.bool_]
+) -> Float64Array:
+    """(n,) along unit rays (n, 3) to where neighbors cross them; NaN where there is no such place.
+
+    `points` and `rays`: derivatives (n, 3) of where rays start and of their directions, by two directions of the
+    surface. dP + t dR loses rank across the ray at two distances; `is_farther` (n,) takes the root with the positive
+    sign.
+    """
     across = tangent_frame(ray)
-    a = np.empty((len(u), 2, 2))
-    b = np.empty((len(u), 2, 2))
-    for column, (other_point, other_ray, _) in enumerate(moved):
+    a = np.empty((len(ray), 2, 2))
+    b = np.empty((len(ray), 2, 2))
+    for column in range(2):
         for row, axis in enumerate(across):
-            a[:, row, column] = np.einsum("ij,ij->i", other_point - point, axis) / delta
-            b[:, row, column] = np.einsum("ij,ij->i", other_ray - ray, axis) / delta
+            a[:, row, column] = np.einsum("ij,ij->i", points[column], axis)
+            b[:, row, column] = np.einsum("ij,ij->i", rays[column], axis)
     # det(A + t B) = 0
     first, last = np.linalg.det(a), np.linalg.det(b)
     middle = a[:, 0, 0] * b[:, 1, 1] + a[:, 1, 1] * b[:, 0, 0] - a[:, 0, 1] * b[:, 1, 0] - a[:, 1, 0] * b[:, 0, 1]
-    root = np.sqrt(np.maximum(middle**2 - 4.0 * first * last, 0.0))
-    focal = (-middle + np.where(random.random(len(u)) < 0.5, 1.0, -1.0) * root) / np.where(
-        last == 0.0, 1e-30, 2.0 * last
-    )
-    vertex = point + (focal * random.uniform(0.95, 1.05, len(u)))[:, None] * ray
-    kept = (cosine > 1e-2) & (middle**2 >= 4.0 * first * last) & (focal > 1e-2) & (focal < 20.0)
-    return Cases(eye, *_shown(study, study.oracle(), eye, vertex[kept], point[kept], count))
+    square = middle**2 - 4.0 * first * last
+    root = np.where(is_farther, 1.0, -1.0) * np.sqrt(np.maximum(square, 0.0))
+    return np.where(square >= 0.0, (-middle + root) / np.where(last == 0.0, 1e-30, 2.0 * last), np.nan)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every vertex method, reflector by reflector and regime by regime, against the oracle.
 
-Errors are distances on screen between a method's reflection point and the nearest true one. Where a method that looks
+Errors are distances on screen between a method's reflection point and the nearest true one; so it is with refraction
+points of surfaces of glass, for the solvers that refract. Where a method that looks
 up an environment shows a vertex follows from the oracle too: it shows it as if it were at the environment's distance.
 """
 
@@ -19,15 +20,16 @@ import numpy as np
 
 from ...errors import InputError
 from ...optics import status
-from ...optics.catalog import METHODS, Method
+from ...optics.catalog import SOLVERS, Method
 from ...optics.screen import Screen
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...scene.camera.view import View
 from .oracle import Oracle
+from .refraction_cases import REFRACTION_REGIMES, make_refraction_cases
 from .regimes import MESH_VERTICES, REGIMES, Cases, make_cases, mesh_cases
 from .study_reflector import StudyReflector
-from .study_surfaces import STUDIES
+from .study_surfaces import GLASS_STUDIES, STUDIES
 
 WIDTH, HEIGHT, FIELD_OF_VIEW = 640, 480, np.radians(40.0)
 OFF = 0.5
@@ -37,6 +39,8 @@ TIMED_REPEATS, TIMED_SECONDS = 3, 0.5
 """A solve is timed again while it has taken less"""
 FAR_AWAY = 1e6
 """Radii: where environment maps take things to be"""
+
+ALL_STUDIES = STUDIES | GLASS_STUDIES
 
 type Progress = Callable[[str], None]
 
@@ -104,35 +108,39 @@ def settings_of(method: Method, name: str, value: float) -> Settings:
 
 def solver_table(
     count: int,
-    reflectors: Sequence[str] = tuple(STUDIES),
-    regimes: Sequence[str] = REGIMES,
-    methods: Sequence[str] = tuple(METHODS),
+    reflectors: Sequence[str] = tuple(ALL_STUDIES),
+    regimes: Sequence[str] = (*REGIMES, *REFRACTION_REGIMES),
+    methods: Sequence[str] = tuple(SOLVERS),
     timed: bool = True,
     only_defaults: bool = False,
     progress: Progress = lambda _: None,
 ) -> tuple[list[Row], list[Refusal]]:
-    """Rows for `count` vertices a regime; with `only_defaults` one setting per method, the default.
+    """Rows for `count` vertices a regime; with `only_defaults` one setting per method, the default. Mirrors and glass
+    have regimes of their own.
 
     A method that works on whole meshes gets small ones about some of the vertices.
     """
     rows: list[Row] = []
     refusals: list[Refusal] = []
     for name in reflectors:
-        study = STUDIES[name]
+        study = ALL_STUDIES[name]
         oracle = study.oracle()
         reflector = StudyReflector(study)
         times: dict[tuple[str, float], float] = {}
         refused: set[str] = set()
-        for regime in regimes:
+        own = REFRACTION_REGIMES if study.refracts else REGIMES
+        for regime in dict.fromkeys(regime for regime in regimes if regime in own):
             progress(f"Solving around the {name}: {regime}")
-            cases = make_cases(study, regime, count)
+            cases = (make_refraction_cases if study.refracts else make_cases)(study, regime, count)
             if len(cases.vertices) == 0:
                 continue
             truth = _Truth(oracle, cases)
             mesh_truth: _Truth | None = None
             for method_name in methods:
-                method = METHODS[method_name]
+                method = SOLVERS[method_name]
                 if method_name in refused or not (method.maps or method.is_environment):
+                    continue
+                if method.refracts != study.refracts:
                     continue
                 judge = truth
                 if method.grid_search:

@@ -158,6 +158,7 @@ class StudyReflector:
             to_search,
             start,
             self.study.is_convex,
+            self.study.index or 1.0,
         )
 
     def _screen(self, view: View) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, Float64Array, RadialSurface, tangential
 from .oracle import Oracle
+from .refraction_oracle import RefractionOracle
 
 Z = np.array([0.0, 0.0, 1.0])
 NEWTON_STEPS = 12
@@ -22,6 +23,8 @@ ON_RIM = 1e-9
 NODES, FINE_NODES = 16, 64
 """Of the oracle along an edge of a face: for mirrors that show a point once, and for those that may show it more often.
 With 24 it missed a twelfth of the images in the torus section's caustics."""
+GLASS_NODES = 32
+"""The same for glass, which shows a point up to three times near a caustic"""
 SETTLED = 1e-15
 """Share of a radius that a Newton step no longer changes"""
 
@@ -154,6 +157,14 @@ class Study:
     """It bends both ways somewhere: a vertex may have several images"""
     rim: float = 1.0
     """No mirror in directions whose z is greater: it is open there"""
+    index: float = 0.0
+    """Of glass: index of refraction beyond the surface over that on the eye's side, which is the inside where `side` is
+    -1; 0 for a mirror"""
+
+    @property
+    def refracts(self) -> bool:
+        """It is of glass."""
+        return self.index > 0.0
 
     @property
     def is_convex(self) -> bool:
@@ -166,6 +177,8 @@ class Study:
 
     def oracle(self) -> Oracle:
         """The oracle of this reflector."""
+        if self.refracts:
+            return RefractionOracle(self.surface, self.index, GLASS_NODES, self.side)
         several = self.mixed or self.side < 0.0
         nodes = FINE_NODES if several else NODES
         return Oracle(self.surface, nodes, self.side, self.cover if self.rim < 1.0 else None)
@@ -182,3 +195,13 @@ STUDIES: dict[str, Study] = {
     "torus section": Study(TorusSection(), (-2.6, -0.6, 1.6), mixed=True),
     "tip": Study(Tip(), (2.0, -2.6, 2.2), mixed=True),
 }
+
+GLASS_STUDIES: dict[str, Study] = {
+    "glass sphere": Study(Ellipsoid(), (2.3, -2.9, 1.8), index=1.5),
+    "glass ellipsoid": Study(Ellipsoid(1.0, 0.5, 0.25), (2.3, -2.9, 1.8), index=1.5),
+    "bumpy glass": Study(Bumpy(0.15), (2.3, -2.9, 1.8), mixed=True, index=1.5),
+    "diamond sphere": Study(Ellipsoid(), (2.3, -2.9, 1.8), index=2.4),
+    "bubble": Study(Ellipsoid(), (2.3, -2.9, 1.8), index=1.0 / 1.33),
+    "glass from inside": Study(Ellipsoid(1.0, 0.8, 0.6), (0.2, -0.25, 0.15), side=-1.0, index=1.0 / 1.5),
+}
+"""Surfaces of glass, for methods that refract"""

@@ -59,7 +59,7 @@ class Answers:
     coat_passes: np.ndarray
 
 
-def scatter_program(features: tuple[str, ...] = FEATURES) -> Any:
+def scatter_program(features: tuple[str, ...] = FEATURES, main: str = MAIN) -> Any:
     return build_shader(
         "scatter of a test",
         FULL_SCREEN,
@@ -69,7 +69,7 @@ def scatter_program(features: tuple[str, ...] = FEATURES) -> Any:
             constants={"normal": "VEC3"},
             outputs=named("VEC4", *OUTPUTS),
             defines={**GGX_DEFINES, **flags(*(f"PATHS_{name}" for name in features))},
-            fragment=Snippet("scatter of a test", MAIN),
+            fragment=Snippet("scatter of a test", main),
         ),
     )
 

@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.renderer.paths.features import (
     GLASS,
     ROUGH,
     SCALARS,
+    TINT,
     path_features,
 )
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ScalarsArrays
@@ -38,13 +39,15 @@ from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.0), {COAT}),
         (replace(CHROME, coat_weight=0.5, coat_roughness=0.1), {COAT, ROUGH}),
         (replace(CHROME, film_thickness=300.0), {FILM}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2)), {TINT}),
+        (replace(CHROME, specular_tint=(0.2, 1.0, 0.2), glossy_only=True), set()),
         (replace(CHROME, absorption=(1.0, 0.0, 0.0)), set()),
         (MaterialArrays("glass", roughness=0.0, transmission=1.0), {GLASS}),
         (MaterialArrays("green", roughness=0.0, transmission=1.0, absorption=(1.0, 0.0, 1.0)), {GLASS, ABSORPTION}),
         (replace(CHROME, alpha=0.9), {ALPHA}),
         (replace(CHROME, scalars=ScalarsArrays(0)), {ROUGH, SCALARS}),
     ],
-    ids=str,
+    ids=lambda value: value.name if isinstance(value, MaterialArrays) else "-".join(sorted(value)),
 )
 def test_what_a_mirror_is_made_of(mirror: MaterialArrays, needed: set[str]) -> None:
     assert path_features(scene_of(mirror, MaterialArrays("scenery"))) == needed

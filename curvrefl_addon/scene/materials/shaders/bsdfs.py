@@ -9,12 +9,12 @@ from dataclasses import replace
 from typing import Any
 
 from ...arrays import Glass, MaterialArrays
-from ..node_color import NodeColor
+from ..node_color import NodeColor, gray
 from ..node_links import Source
 from .conductors import fitted_conductor
 from .coverage import covered, read_coverage
 from .inputs import Inputs
-from .surface import BLACK, WHITE, Surface, clear, matt
+from .surface import BLACK, WHITE, Surface, clear, matt, within
 
 LEAST_IOR = 1e-5
 LARGEST_ANISOTROPY = 0.99
@@ -92,7 +92,11 @@ def glass(source: Source, inputs: Inputs) -> Surface:
 
 def refraction(source: Source, inputs: Inputs) -> Surface:
     rest = MaterialArrays("", ior=_ior(source, inputs), transmission=1.0, glass=Glass.REFRACTION)
-    return _rough(source, inputs, inputs.color(source, "Color"), rest)
+    surface = _rough(source, inputs, inputs.color(source, "Color"), rest)
+    if "roughness" not in surface.textures and (roughness := inputs.number(source, "Roughness")) < 0.0:
+        # (Cycles squares it, and takes it for a number from 0 to 1 after that.)
+        surface = surface.with_scalar("roughness", gray(min(-roughness, 1.0)))
+    return surface
 
 
 def emission(source: Source, inputs: Inputs) -> Surface:
@@ -143,13 +147,15 @@ def _distributed(surface: Surface, source: Source, inputs: Inputs) -> Surface:
 
 
 def _coat(source: Source, inputs: Inputs) -> dict[str, Any]:
-    weight = inputs.within(source, "Coat Weight", 0.0, 1.0)
+    weight = max(inputs.number(source, "Coat Weight"), 0.0)
     if weight == 0.0:
         return {}
+    if weight > 1.0:
+        inputs.notes.on_paths.append("A coat weight {of} above 1 is drawn as 1.")
     if source.input("Coat Normal").node is not None:
         inputs.notes.on_paths.append("Normals {of} that are its coat's alone are left out.")
     return {
-        "coat_weight": weight,
+        "coat_weight": min(weight, 1.0),
         "coat_roughness": inputs.within(source, "Coat Roughness", 0.0, 1.0),
         "coat_ior": max(inputs.number(source, "Coat IOR"), 1.0),
         "coat_tint": _not_negative(inputs.constant(source, "Coat Tint")),
@@ -191,5 +197,5 @@ def _not_negative(color: tuple[float, float, float]) -> tuple[float, float, floa
 
 
 def _unit(color: tuple[float, float, float]) -> tuple[float, float, float]:
-    r, g, b = (min(max(part, 0.0), 1.0) for part in color)
+    r, g, b = (within(part, 0.0, 1.0) for part in color)
     return r, g, b

@@ -17,7 +17,7 @@ from ..node_color import triple
 
 EDGE = 1.0 / 7.0
 """Cosine of the angle at which the tint counts, about 82 degrees"""
-CLOSE = 0.03
+CLOSE = 0.06
 """Of the reflectance, at any angle"""
 
 

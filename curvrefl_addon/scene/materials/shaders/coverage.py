@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import Float64Array
 from ..node_color import NodeColor, gray, triple
 from ..node_links import Source
+from .conductors import reflectances
 from .inputs import Inputs
-from .surface import Surface, clear, folded
+from .surface import Surface, clear, folded, within
 
 ALMOST_ALL = float(np.nextafter(np.float32(1.0), np.float32(0.0)))
 
@@ -43,7 +45,7 @@ class Coverage:
 
 def read_coverage(source: Source, inputs: Inputs) -> Coverage:
     """Of what is plugged into an alpha or a mix factor. Comparisons that come last become a threshold."""
-    found = _compared(source, inputs)
+    found = _compared(source, inputs) or _by_angle(source, inputs)
     if found is None:
         value = inputs.fine.value(source)
         found = Coverage(inputs.without_paint(value, "alpha"))
@@ -65,7 +67,7 @@ def covered(surface: Surface, coverage: Coverage) -> Surface:
     alpha = made.rest.alpha
     if not coverage.is_constant:
         # (It has holes, whatever the mean of what is compared.)
-        alpha = min(max(alpha, 0.0), ALMOST_ALL)
+        alpha = min(alpha, ALMOST_ALL)
     threshold = -1.0 if coverage.threshold is None else coverage.threshold
     rest = replace(made.rest, alpha=alpha, alpha_threshold=threshold, alpha_inverted=coverage.is_inverted)
     return replace(made, rest=rest)
@@ -115,13 +117,39 @@ def _compared(source: Source, inputs: Inputs) -> Coverage | None:
     value = inputs.without_paint(inputs.fine.value(source.input("Value")), "alpha")
     if node.operation == "ROUND":
         return Coverage(value, _below(0.5))
-    limit = inputs.fine.value(source.input("Value_001"))
+    limit = inputs.without_paint(inputs.fine.value(source.input("Value_001")), "alpha")
+    is_less = node.operation == "LESS_THAN"
+    if value.is_constant:
+        value, limit, is_less = limit, value, not is_less
     if not limit.is_constant:
         return None
     # a < b is the same as not a > what comes next below b.
-    is_less = node.operation == "LESS_THAN"
     threshold = _below(limit.factor[0]) if is_less else float(np.float32(limit.factor[0]))
     return Coverage(value, threshold, is_less)
+
+
+def _by_angle(source: Source, inputs: Inputs) -> Coverage | None:
+    """The mean over all directions of what changes with the angle, with a note; None for anything else."""
+    node: Any = source.node
+    if node is None or node.type not in ("FRESNEL", "LAYER_WEIGHT"):
+        return None
+    cosines = (np.arange(256) + 0.5) / 256.0
+    if node.type == "FRESNEL":
+        shares = _fresnel(max(inputs.number(source, "IOR"), 1e-5), cosines)
+    else:
+        blend = inputs.within(source, "Blend", 0.0, 1.0 - 1e-5)
+        if source.socket.identifier == "Fresnel":
+            shares = _fresnel(1.0 / (1.0 - blend), cosines)
+        else:
+            exponent = 2.0 * blend if blend < 0.5 else 0.5 / (1.0 - blend)
+            shares = np.asarray(1.0 - cosines**exponent, np.float64)
+    inputs.notes.always.append("Mixed shaders {of} are mixed alike at all angles.")
+    return Coverage(gray(float(np.average(shares, weights=cosines))))
+
+
+def _fresnel(ior: float, cosines: Float64Array) -> Float64Array:
+    """Reflectance of a dielectric."""
+    return reflectances(np.full(3, ior), np.zeros(3), cosines)[:, 0]
 
 
 def _below(value: float) -> float:
@@ -134,7 +162,7 @@ def _settled(coverage: Coverage) -> Coverage:
     share = folded(coverage.share)
     threshold = coverage.threshold
     if threshold is None:
-        return Coverage(gray(min(max(share.factor[0], 0.0), 1.0)) if share.is_constant else share)
+        return Coverage(gray(within(share.factor[0], 0.0, 1.0)) if share.is_constant else share)
     low, high = _range(share)
     if low > threshold or high <= threshold:
         return Coverage(gray(float((low > threshold) != coverage.is_inverted)))
@@ -168,4 +196,4 @@ def _product(first: Coverage, second: Coverage, inputs: Inputs) -> Coverage:
 
 
 def _mean(coverage: Coverage) -> float:
-    return min(max(_stepped(coverage).mean()[0], 0.0), 1.0)
+    return within(_stepped(coverage).mean()[0], 0.0, 1.0)

@@ -11,7 +11,7 @@ from ..node_colors import ColorReader
 from ..node_links import Source, find_input, source_of
 from ..reliefs import Relief, read_relief
 from ..surface_textures import SurfaceTextureReader, bordered
-from .surface import Notes, folded
+from .surface import Notes, folded, within
 
 
 class Inputs:
@@ -42,8 +42,8 @@ class Inputs:
         return self.colors.number(source.input(name), name.lower())
 
     def within(self, source: Source, name: str, low: float, high: float) -> float:
-        """The same between limits; what is not a number stays so."""
-        return min(max(self.number(source, name), low), high)
+        """The same between limits."""
+        return within(self.number(source, name), low, high)
 
     def scalar(self, source: Source, name: str) -> NodeColor:
         """A number that may have a texture, as a gray."""
@@ -52,7 +52,7 @@ class Inputs:
         if not value.is_constant:
             self.notes.on_scenery.append(f"{name[:1].upper()}{name[1:].lower()} {{of}} is shown as its mean.")
             return value
-        return gray(min(max(value.factor[0], 0.0), 1.0))
+        return gray(within(value.factor[0], 0.0, 1.0))
 
     def without_paint(self, value: NodeColor, what: str) -> NodeColor:
         """Without vertex colors, which are for base colors alone."""

@@ -31,7 +31,7 @@ def packed_scalars(surface: Surface, notes: list[str]) -> SurfaceTexture | None:
             continue
         found = _on(grid, value)
         if found is None:
-            notes.append(f"{name.capitalize()} {{of}} is shown as its mean: it is not on the UV map of its alpha.")
+            notes.append(f"{name.capitalize()} {{of}} is shown as its mean.")
             continue
         is_compared = name == "alpha" and surface.rest.alpha_threshold >= 0.0
         pixels[..., channel] = found if is_compared else np.clip(found, 0.0, 1.0)

@@ -69,11 +69,11 @@ class Surface:
         return is_plain and not rest.film_thickness and not self.textures.keys() - {"alpha"}
 
     def with_scalar(self, name: str, value: NodeColor) -> Surface:
-        """With another roughness, metallic, transmission or alpha."""
+        """With another roughness, metallic, transmission or alpha, from 0 to 1 after a texture's lookup."""
         textures = {key: texture for key, texture in self.textures.items() if key != name}
         if not value.is_constant:
             textures[name] = value
-        changes: dict[str, Any] = {name: value.mean()[0]}
+        changes: dict[str, Any] = {name: within(value.mean()[0], 0.0, 1.0)}
         return replace(self, rest=replace(self.rest, **changes), textures=textures)
 
 
@@ -88,6 +88,11 @@ def clear(tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Surface:
 
 
 NOTHING = clear()
+
+
+def within(number: float, low: float, high: float) -> float:
+    """The number between limits; what is not a number stays so."""
+    return min(max(number, low), high)
 
 
 def folded(color: NodeColor) -> NodeColor:

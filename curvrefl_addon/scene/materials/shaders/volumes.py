@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Float64Array
+from ..node_color import triple
 from ..node_links import Source
 from .inputs import Inputs
 
@@ -18,8 +19,9 @@ def read_absorption(source: Source, inputs: Inputs) -> tuple[float, float, float
     found = _absorption(source, inputs)
     if found is None:
         return None
-    r, g, b = np.maximum(found, 0.0).tolist()
-    return r, g, b
+    if found.min() < 0.0:
+        inputs.notes.always.append("A volume {of} that brightens light is drawn as none.")
+    return triple(np.maximum(found, 0.0))
 
 
 def _absorption(source: Source, inputs: Inputs) -> Float64Array | None:

@@ -4,8 +4,8 @@
 // "Microfacet Models for Refraction through Rough Surfaces" (2007). A thin wall: both interfaces of a pane at once,
 // with what goes back and forth between them, as OpenPBR's.
 #include "paths/path_material.glsl"
-#include "paths/fresnel_layers.glsl"
-#include "paths/microfacet.glsl"
+#include "scattering/fresnel_layers.glsl"
+#include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
 
 // A refractive index this close to 1 bends nothing that single precision could tell.
@@ -32,14 +32,16 @@ Pane no_pane()
 // x: albedo of a rough interface without tint, single scattering; y: its mean over the hemisphere.
 vec2 glass_albedo(float roughness, float cosine, float eta)
 {
-  float slice = sqrt(abs((eta - 1.0) / (eta + 1.0))) * float(GGX_IOR_SLICES - 1);
+  float place = sqrt(abs((eta - 1.0) / (eta + 1.0)));
+  float slice = place * float(GGX_IOR_SLICES - 1);
   float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
-  vec4 albedo = ggx_glass_table(roughness, cosine, below);
-  vec4 average = ggx_glass_table(roughness, slice / float(GGX_IOR_SLICES - 1), float(GGX_IOR_SLICES - 1));
-  float between = slice - below;
-  vec2 outside = vec2(mix(albedo.x, albedo.y, between), average.x);
-  vec2 inside = vec2(mix(albedo.z, albedo.w, between), average.z);
-  return eta < 1.0 ? inside : outside;
+  vec4 here = ggx_glass_table(roughness, cosine, below);
+  vec4 next = ggx_glass_table(roughness, cosine, below + 1.0);
+  vec4 average = ggx_glass_table(roughness, place, float(GGX_IOR_SLICES));
+  vec3 steps = eta < 1.0 ? vec3(here.zw, next.z) : vec3(here.xy, next.x);
+  float between = 2.0 * (slice - below);
+  float albedo = between < 1.0 ? mix(steps.x, steps.y, between) : mix(steps.y, steps.z, between - 1.0);
+  return vec2(albedo, eta < 1.0 ? average.z : average.x);
 }
 
 // Reflectance and transmittance of both interfaces of a thin wall, whose inside is tinted.

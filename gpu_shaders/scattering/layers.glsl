@@ -3,11 +3,11 @@
 // The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): coat, metal,
 // glass, dielectric, diffuse base; as optics/scattering/layers.py.
 #include "paths/path_material.glsl"
-#include "paths/fresnel_layers.glsl"
-#include "paths/microfacet.glsl"
+#include "scattering/fresnel_layers.glsl"
+#include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
 #ifdef PATHS_GLASS
-#include "paths/glass.glsl"
+#include "scattering/glass.glsl"
 #endif
 
 struct Layers {
