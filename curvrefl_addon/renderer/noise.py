@@ -32,7 +32,7 @@ FIRST = 8
 POWER, POWER_OF_ALL = 0.6, 0.75
 """Powers p of n by which errors fall, as measured; halves of what is spread evenly as a whole alone are the worse"""
 SIGNS = "+---+-+++-++---+++--+-+-+--+-++-"
-"""Which half a sub-frame belongs to. Half of the first 8, 16 and 32 are of each, and neither sees one side of something:
+"""Which half a sub-frame belongs to. Half of the first 8, 16 and 32 are of each, and neither sees one side of a thing:
 no Walsh function, by which such points are spread, is like it (least for 32 among 200,000 orders)"""
 
 

@@ -43,25 +43,6 @@ bool step_along(ivec2 pixel, ivec2 axis, vec4 place, vec3 direction, out vec3 mo
   return least < 1e30;
 }
 
-// One over how far rays go, on average about a pixel: or lobes would change at once where an edge is met.
-float mean_nearness(ivec2 pixel, float number)
-{
-  ivec2 last = textureSize(seen_position, 0) - 1;
-  vec2 sum = vec2(0.0);
-  for (int y = -AROUND; y <= AROUND; y++) {
-    for (int x = -AROUND; x <= AROUND; x++) {
-      ivec2 other = clamp(pixel + ivec2(x, y), ivec2(0), last);
-      if (texelFetch(seen_color, other, 0).w == number) {
-        vec4 hit = texelFetch(path_position, other, 0);
-        float away = distance(hit.xyz, texelFetch(seen_position, other, 0).xyz);
-        float share = float((AROUND + 1 - abs(x)) * (AROUND + 1 - abs(y)));
-        sum += share * vec2(hit.w > 0.0 ? 1.0 / max(away, 1e-20) : 0.0, 1.0);
-      }
-    }
-  }
-  return sum.x / sum.y;
-}
-
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -84,7 +65,8 @@ void main()
       !step_along(pixel, ivec2(0, 1), place, direction, moved_y, turned_y, curved_y)) {
     return;
   }
-  float nearness = mean_nearness(pixel, number);
+  vec4 hit = texelFetch(path_position, pixel, 0);
+  float nearness = hit.w > 0.0 ? 1.0 / max(distance(hit.xyz, place.xyz), 1e-20) : 0.0;
   vec3 step_x = turned_x + nearness * moved_x;
   vec3 step_y = turned_y + nearness * moved_y;
   // Any two axes across the direction.

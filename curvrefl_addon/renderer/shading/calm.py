@@ -36,8 +36,6 @@ LARGEST_REACH = 0.25
 """Of an ellipse that holds half of a lobe, in heights of the picture"""
 LEAST_COSINE = 0.2
 """Lobes are no narrower across the plane of incidence"""
-AROUND = 2
-"""Pixels to each side, over which the distance that rays go is averaged"""
 PIXEL = 0.85
 """Of every ellipse at least, in pixels: as wide as a filtered pixel"""
 PART_OF_NOW, MARGIN = 0.12, 0.25
@@ -198,7 +196,6 @@ def _reach_shader() -> Any:
                 "WIDER": WIDER,
                 "LARGEST_REACH": LARGEST_REACH,
                 "LEAST_COSINE": LEAST_COSINE,
-                "AROUND": AROUND,
                 "PIXEL": PIXEL,
             },
             outputs={"reach": "VEC4"},
