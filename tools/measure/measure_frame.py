@@ -35,7 +35,7 @@ import bpy
 bootstrap.load_package()
 
 import numpy as np  # noqa: E402
-from curvrefl.curvrefl_addon.renderer import renderer as frame_module  # noqa: E402
+from curvrefl.curvrefl_addon.renderer import seen as frame_module  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
@@ -128,7 +128,8 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (PathBuffer, "follow", "walk", PathBuffer.follow, _of_buffer),
         (Lighting, "prepare", "shadows", Lighting.prepare, _nothing),
         (PixelClasses, "sort", "classes", sort, _nothing),
-        (ShadePass, "_add_light", "shade", ShadePass._add_light, _of_second),
+        (ShadePass, "_add_others", "shade", ShadePass._add_others, _of_second),
+        (ShadePass, "_add_shown", "shade", ShadePass._add_shown, _of_second),
         (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
     ]
     with ExitStack() as stack:
