@@ -94,7 +94,8 @@ class Lighting:
         """Texture of `ggx_table`"""
         self._lamp_maps = ShadowMaps(LAMP_MAP_RESOLUTIONS[0], bias_texels=1.0)
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
-        self._blocks: dict[int, Any] = {}
+        self._blocks: dict[int, tuple[Any, list[int], list[int]]] = {}
+        """By sub-frame its uniform block and the views of its lamps' and the world's maps"""
         self._bound: Any = None
         self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
@@ -213,14 +214,15 @@ class Lighting:
         """
         index = sub_frame % self.sub_frames
         if index not in self._blocks:
-            lamp_layers, world_layers, records = self._records(index)
-            self._lamp_maps.draw(lamp_layers, self._casters)
-            visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
-            self._world_maps.draw(world_layers, self._casters, (visit, self._world_visits))
+            lamp_views, world_views, records = self._records(index)
             # (A strong lamp of nearly no size would shine endlessly there.)
             records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
-            self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
-        self._bound = self._blocks[index]
+            self._blocks[index] = uniform_block(records.astype(np.float32).ravel()), lamp_views, world_views
+        self._bound, lamp_views, world_views = self._blocks[index]
+        # (Another sub-frame may have drawn over them.)
+        self._lamp_maps.draw(lamp_views, self._casters)
+        visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
+        self._world_maps.draw(world_views, self._casters, (visit, self._world_visits))
 
     def bind(self, shader: Any) -> None:
         """Set the samplers and the block of the sub-frame last prepared on a bound shader."""
@@ -311,7 +313,7 @@ class Lighting:
         self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
-        """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+        """Views of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
         records = np.zeros((DATA_RECORDS, 4))
         lamp_layers: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):

@@ -32,13 +32,13 @@ class ShownRays(Shown):
     @classmethod
     def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
         stage = sub_frame.stage
-        if stage.tracer is not None and not light.is_calm:
+        if stage.tracer is not None and light.calm is None:
             _trace(stage.tracer, members, sub_frame, light)
             return
         bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
         first = next(bounces)
         seen, uniforms = sub_frame.targets.seen, sub_frame.uniforms
-        calm = sub_frame.targets.calm_mirrors() if light.is_calm else None
+        calm = None if light.calm is None else sub_frame.targets.calm_mirrors()
         if calm is not None:
             calm.begin(seen, first.path, stage.materials, uniforms, first.window)
         stage.shade.add(
@@ -56,7 +56,8 @@ class ShownRays(Shown):
             shown_apart=None if calm is None else calm.sharp,
         )
         if calm is not None:
-            calm.add(light.canvas, light.weight, seen, stage.materials, uniforms, first.window)
+            history = light.calm if sub_frame.index == 0 else None
+            calm.add(light.canvas, light.weight, seen, stage.materials, sub_frame.view, uniforms, first.window, history)
 
     @classmethod
     def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:
