@@ -55,7 +55,7 @@ def test_only_rough_mirrors_that_move_are_blurred() -> None:
 
 @pytest.mark.parametrize("roughness", [0.1, 0.6])
 def test_an_even_world_stays_even(roughness: float) -> None:
-    """A tinted mirror in a world of one color has that color times its tint, to its edge."""
+    """A tinted mirror in a world of one color has that color times its tint (in half precision), to its edge."""
     arrays = soft_room(roughness, with_lamp=False)
     tinted = replace(arrays.materials[1], base_color=(0.8, 0.4, 0.2), glossy_only=True)
     arrays = replace(
@@ -69,10 +69,10 @@ def test_an_even_world_stays_even(roughness: float) -> None:
     renderer.free()
     inside = pixels[..., 3] == 1.0
     assert inside.mean() > 0.1 and (pixels[~inside] == 0.0).all()
-    np.testing.assert_allclose(pixels[inside][:, :3], np.tile((0.4, 0.2, 0.1), (inside.sum(), 1)), rtol=1e-4)
+    np.testing.assert_allclose(pixels[inside][:, :3], np.tile((0.4, 0.2, 0.1), (inside.sum(), 1)), rtol=5e-4)
 
 
-@pytest.mark.parametrize(("roughness", "most"), [(0.1, 4.0), (0.3, 4.0), (0.5, 7.0)])
+@pytest.mark.parametrize(("roughness", "most"), [(0.1, 5.0), (0.3, 5.0), (0.5, 7.0)])
 def test_it_is_blurred_as_paths_blur_it(roughness: float, most: float) -> None:
     """Mean error by 1/255 as displayed; where a sharp mirror would have several times as much."""
     errors = []
