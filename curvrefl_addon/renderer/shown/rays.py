@@ -96,6 +96,7 @@ def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame
         members[0].settings.bounces,
         light.chosen,
         sees_through,
+        _may_meet_another(members, sub_frame),
         shadows,
         light.film_transparent,
     )
@@ -131,14 +132,18 @@ def _shadows(members: Sequence[ShownRays], sub_frame: SubFrame) -> RayShadows | 
 
 def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
     """Mirrors that a ray can meet one after the other."""
+    # (One more than are followed shows what shines by itself.)
+    return _followed(members, sub_frame) + 1 if _may_meet_another(members, sub_frame) else 1
+
+
+def _may_meet_another(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool:
+    """Whether a ray off a mirror may meet one."""
     mirrors = sub_frame.stage.mirrors
-    may_meet_another = (
+    return (
         len(mirrors) > 1
         or any(not mirror.facts.never_sees_itself for mirror in mirrors)
         or _enclosing(members, sub_frame) != IN_THE_OPEN
     )
-    # (One more than are followed shows what shines by itself.)
-    return _followed(members, sub_frame) + 1 if may_meet_another else 1
 
 
 def _followed(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
