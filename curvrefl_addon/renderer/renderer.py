@@ -31,6 +31,7 @@ from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
+from .seen import draw_seen
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shading.shade import ShadePass
@@ -40,8 +41,6 @@ from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
-from .surfaces.primary import depths_of, draw_primary
-from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .tracing.tracer import PathTracer
 from .vertices.mirror_solver import require
@@ -269,7 +268,7 @@ class Renderer:
         reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
-        sub_frame = self._draw_surfaces(view, reflection, window, diagnostic is not None, index)
+        sub_frame = self._draw_surfaces(replace(reflection, view=view), window, diagnostic is not None, index)
         groups = reflection.groups
         if diagnostic is not None:
             if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
@@ -285,8 +284,8 @@ class Renderer:
             )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            film, is_calm = self.settings.film_transparent, reflection.is_calm
-            light = Light(canvas, weight, chosen, number == 0, film, is_calm)
+            film = self.settings.film_transparent
+            light = Light(canvas, weight, chosen, number == 0, film, reflection.calm)
             kind.add_light(members, sub_frame, light)
         by_rays = bool(groups) and groups[0][0] is ShownRays
         if self._tracer is not None and self._tracer.sees_through and not (mirrors_only or by_rays):
@@ -320,34 +319,10 @@ class Renderer:
             self._rays.improve()
 
     def _draw_surfaces(
-        self,
-        view: View,
-        reflection: Reflection,
-        window: Window | None = None,
-        everywhere: bool = False,
-        index: int = 0,
+        self, reflection: Reflection, window: Window | None = None, everywhere: bool = False, index: int = 0
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        targets, shadows = self._targets.of(view.width, view.height), reflection.ray_shadows(self.rays)
-        sub_frame = SubFrame(self._stage, view, view_block(view), targets, window, shadows, index)
-        mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
-        if not reflection.shown and not self.settings.entry.solves_vertices:
-            mirrors = self.mirrors
-        followed = {id(self.geometry.of_instance(mirror.index)[0]) for mirror in mirrors}
-        draw_primary(
-            sub_frame.targets.seen,
-            self.geometry.seen(view),
-            self._materials,
-            sub_frame.uniforms,
-            None if everywhere else window,
-            lambda chunk: self.geometry.hidden_faces(chunk, view),
-            is_followed=lambda chunk: id(chunk) in followed,
-            depths=depths_of(view),
-            mirrored=view.is_mirrored,
-            has_paths=self._tracer is not None,
-            has_scalars=self._tracer is not None and self._tracer.has_scalars,
-        )
-        return sub_frame
+        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index)
 
     def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
         if revision != self.revision:
@@ -357,4 +332,4 @@ class Renderer:
     def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
         """Surface buffers through the pixel centers, read back (see `Frame`)."""
         self._move_to(reflection.origin)
-        return read_surfaces(reflection, self._draw_surfaces(reflection.view, reflection))
+        return read_surfaces(reflection, self._draw_surfaces(reflection))

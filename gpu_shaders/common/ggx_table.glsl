@@ -12,7 +12,7 @@ const float LIGHTING_PI = 3.14159265358979;
 vec4 ggx_entry(float roughness, float cosine, float slice, float first_row)
 {
   vec2 place = clamp(vec2(cosine, roughness), 0.0, 1.0) * float(GGX_TABLE_SIZE - 1) + 0.5;
-  vec2 size = vec2(float(GGX_TABLE_SIZE * (GGX_IOR_SLICES + 1)), float(2 * GGX_TABLE_SIZE));
+  vec2 size = vec2(float(GGX_TABLE_SIZE * (GGX_IOR_SLICES + 1)), float(4 * GGX_TABLE_SIZE));
   return textureLod(lighting_ggx, (place + vec2(slice * float(GGX_TABLE_SIZE), first_row)) / size, 0.0);
 }
 

@@ -88,10 +88,10 @@ vec3 light_through_triangle(int instance, int triangle, vec2 place)
 }
 #endif
 
-// `own`: mirror (of a step of paths: object_id of what) that the ray starts on, 0: none; a closed one then counts where
-// it faces the ray, as a ray below the facet that it starts on, by a shading normal, would else see the inside.
-// `seen_by`: which instances count. With `any_hit` whatever is nearer than `farthest` ends the walk; with LIGHT_THROUGH
-// what light goes straight on through only once none is left.
+// `own`: mirror (of a step of paths: object_id of what) that the ray starts on, 0: none; a closed one then counts
+// where it faces the ray, as a ray below the facet that it starts on, by a shading normal, would else see the inside.
+// `seen_by`: which instances count. With `any_hit` whatever is nearer than `farthest` ends the walk; with
+// LIGHT_THROUGH what light goes straight on through only once none is left.
 Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bool any_hit)
 {
   Hit hit;

@@ -7,6 +7,7 @@
 #include "scattering/fresnel_layers.glsl"
 #include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
+#include "scattering/film.glsl"
 
 // A refractive index this close to 1 bends nothing that single precision could tell.
 #define STRAIGHT_THROUGH 1e-4
@@ -19,6 +20,8 @@ struct Pane {
   bool is_refraction; // a Refraction BSDF: reflects nothing
   bool is_sharp;
   bool is_far_sharp;
+  float film;         // nanometers
+  float film_ior;     // over that of the near side
   vec3 f0;
   vec3 reflected;     // share times tint times multiple scattering; of a thin wall times its reflectance
   vec3 transmitted;
@@ -26,7 +29,7 @@ struct Pane {
 
 Pane no_pane()
 {
-  return Pane(1.0, 0.0, 0.0, false, false, true, true, vec3(0.0), vec3(0.0), vec3(0.0));
+  return Pane(1.0, 0.0, 0.0, false, false, true, true, 0.0, 1.0, vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
 // x: albedo of a rough interface without tint, single scattering; y: its mean over the hemisphere.
@@ -45,14 +48,17 @@ vec2 glass_albedo(float roughness, float cosine, float eta)
 }
 
 // Reflectance and transmittance of both interfaces of a thin wall, whose inside is tinted.
-void thin_shares(vec3 f0, vec3 tint, float eta, float cosine, out vec3 reflectance, out vec3 transmittance)
+void thin_shares(Pane pane, vec3 tint, float cosine, out vec3 reflectance, out vec3 transmittance)
 {
-  vec3 reflects = tinted_dielectric(f0, eta, cosine);
-  vec3 passes = 1.0 - reflects;
-  float inside = refracted_cosine(cosine, eta);
+  vec3 reflects = film_or_dielectric(pane.film, pane.film_ior, pane.f0, pane.eta, cosine);
+  float inside = refracted_cosine(cosine, pane.eta);
+  vec3 reflects_inside = reflects;
+  if (has_film(pane.film)) {
+    reflects_inside = film_on_dielectric(pane.film, pane.film_ior / pane.eta, pane.f0, 1.0 / pane.eta, inside);
+  }
   vec3 way = inside > 0.0 ? pow(max(tint, 1e-10), vec3(1.0 / inside)) : vec3(0.0);
-  vec3 again = reflects * way;
-  transmittance = way * passes * passes / max(1.0 - again * again, 1e-6);
+  vec3 again = reflects_inside * way;
+  transmittance = way * (1.0 - reflects) * (1.0 - reflects_inside) / max(1.0 - again * again, 1e-6);
   reflectance = reflects + transmittance * again;
 }
 
@@ -69,6 +75,8 @@ Pane pane_of(PathMaterial m, bool is_back, float cosine, vec3 share)
   pane.is_sharp = is_sharp_alpha(roughness * roughness);
   pane.is_far_sharp = pane.is_sharp || abs(pane.eta - 1.0) < STRAIGHT_THROUGH;
   pane.f0 = vec3(normal_reflectance(pane.eta));
+  pane.film = pane.is_refraction ? 0.0 : m.film_thickness;
+  pane.film_ior = is_back && !m.thin_wall ? m.film_ior / ior : m.film_ior;
   if (pane.is_refraction) {
     pane.reflected = vec3(0.0);
     pane.transmitted = share * m.base_color;
@@ -83,7 +91,7 @@ Pane pane_of(PathMaterial m, bool is_back, float cosine, vec3 share)
     pane.f0 = clamp(pane.f0 * m.specular_tint, 0.0, 1.0);
   }
   if (m.thin_wall) {
-    thin_shares(pane.f0, through, pane.eta, cosine, pane.reflected, pane.transmitted);
+    thin_shares(pane, through, cosine, pane.reflected, pane.transmitted);
     // As wide as two refractions, Kulla and Conty (2017).
     float eta = pane.eta;
     float wider = 3.4 * max(eta - 1.0, 0.0) * (eta - 0.5) * (eta - 0.5) / (eta * eta * eta);
@@ -122,7 +130,7 @@ void pane_shares(Pane pane, float cosine, out vec3 reflects, out vec3 transmits)
     transmits *= refracted_cosine(cosine, pane.eta) > 0.0 ? 1.0 : 0.0;
     return;
   }
-  vec3 fresnel = tinted_dielectric(pane.f0, pane.eta, cosine);
+  vec3 fresnel = film_or_dielectric(pane.film, pane.film_ior, pane.f0, pane.eta, cosine);
   reflects *= fresnel;
   transmits *= 1.0 - fresnel;
 }

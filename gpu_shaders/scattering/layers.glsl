@@ -6,6 +6,7 @@
 #include "scattering/fresnel_layers.glsl"
 #include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
+#include "scattering/film.glsl"
 #ifdef PATHS_GLASS
 #include "scattering/glass.glsl"
 #endif
@@ -21,6 +22,8 @@ struct Layers {
   vec3 dielectric;      // the same of the dielectric
   vec3 dielectric_f0;
   float eta;
+  float film;           // nanometers
+  float film_ior;
   vec3 specular_albedo; // of metal and dielectric
   vec3 above;           // what the coat lets through
   vec3 base;            // what metal, glass and dielectric leave to the diffuse base, below the coat
@@ -34,6 +37,14 @@ struct Layers {
   Pane glass;
 #endif
 };
+
+vec3 metal_fresnel(Layers layers, float cosine)
+{
+  if (has_film(layers.film)) {
+    return film_on_metal(layers.film, layers.film_ior, layers.metal_f0, layers.metal_dip, cosine);
+  }
+  return tinted_metal(layers.metal_f0, layers.metal_dip, cosine);
+}
 
 // Albedo of a dielectric's lobe from `f0` to white; `scattering`: multiple scattering in parts of the single one.
 vec3 dielectric_albedo(float roughness, float cosine, float eta, vec3 f0, out vec3 scattering)
@@ -107,6 +118,8 @@ Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
   layers.metal_dip = vec3(0.0);
   layers.metal_f0 = max(m.base_color, 0.0);
   layers.metal_edge = m.glossy_only ? 0.0 : 1.0;
+  layers.film = m.film_thickness;
+  layers.film_ior = m.film_ior;
   if (m.glossy_only) {
     layers.metal = share * multiple_scattering(min(layers.metal_f0, 1.0), average, missing);
     layers.specular_albedo = table.x * layers.metal * layers.metal_f0;
@@ -121,7 +134,9 @@ Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
   layers.metal_dip = edge_dip(layers.metal_f0, clamp(m.specular_tint, 0.0, 1.0));
   vec3 mean_metal = mix(layers.metal_f0, vec3(1.0), 1.0 / 21.0) - layers.metal_dip / 126.0;
   layers.metal = share * metallic * multiple_scattering(mean_metal, average, missing);
-  layers.specular_albedo = table.x * layers.metal * mix(layers.metal_f0, vec3(1.0), table.y);
+  // (Under a film as a smooth surface, as Cycles.)
+  layers.specular_albedo = table.x * layers.metal * (has_film(layers.film) ?
+    metal_fresnel(layers, layers.cos_viewer) : mix(layers.metal_f0, vec3(1.0), table.y));
   share *= 1.0 - metallic;
 #ifdef PATHS_GLASS
   float transmission = clamp(m.transmission, 0.0, 1.0);
@@ -129,10 +144,15 @@ Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
   share *= 1.0 - transmission;
 #endif
   layers.eta = leveled_ior(max(m.ior, 1e-5), m.specular_level);
-  if (metallic < 1.0 && layers.eta != 1.0) {
+  if (metallic < 1.0 && (layers.eta != 1.0 || has_film(layers.film))) {
     vec3 scattering;
     layers.dielectric_f0 = clamp(normal_reflectance(layers.eta) * m.specular_tint, 0.0, 1.0);
     vec3 albedo = dielectric_albedo(roughness, layers.cos_viewer, layers.eta, layers.dielectric_f0, scattering);
+    if (has_film(layers.film)) {
+      vec3 f0 = layers.dielectric_f0;
+      albedo = table.x * scattering *
+               film_on_dielectric(layers.film, layers.film_ior, f0, layers.eta, layers.cos_viewer);
+    }
     layers.dielectric = share * (layers.is_sharp ? vec3(1.0) : scattering);
     layers.specular_albedo += share * albedo;
     share *= clamp(1.0 - largest(albedo), 0.0, 1.0);
@@ -144,10 +164,10 @@ Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
 // Reflectance of metal and dielectric at a microfacet.
 vec3 specular_fresnel(Layers layers, float cosine)
 {
-  vec3 sum = layers.metal * (layers.metal_edge > 0.5 ? tinted_metal(layers.metal_f0, layers.metal_dip, cosine) :
-                                                       layers.metal_f0);
+  vec3 sum = layers.metal * (layers.metal_edge > 0.5 ? metal_fresnel(layers, cosine) : layers.metal_f0);
   if (largest(layers.dielectric) > 0.0) {
-    sum += layers.dielectric * tinted_dielectric(layers.dielectric_f0, layers.eta, cosine);
+    sum += layers.dielectric *
+           film_or_dielectric(layers.film, layers.film_ior, layers.dielectric_f0, layers.eta, cosine);
   }
   return sum;
 }

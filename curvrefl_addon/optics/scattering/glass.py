@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .fresnel import normal_reflectance, refracted_cosine, tinted_dielectric
+from .film import NO_FILM, film_on_dielectric, film_or_dielectric
+from .fresnel import normal_reflectance, refracted_cosine
 from .material import PRINCIPLED, REFRACTION, Material
 from .microfacet import SHARP_ALPHA, reflected_density
 from .tables import average_albedo, glass_albedo, lobe_entry, multiple_scattering
@@ -43,6 +44,10 @@ class Pane:
     """A Refraction BSDF: reflects nothing"""
     is_sharp: bool
     is_far_sharp: bool
+    film: float
+    """Nanometers"""
+    film_ior: float
+    """Over that of the near side"""
     f0: Array
     """(3,)"""
     reflected: Array
@@ -51,18 +56,21 @@ class Pane:
     """(n, 3)"""
 
 
-def thin_shares(f0: Array, tint: Array, eta: float, cosine: Array) -> tuple[Array, Array]:
+def thin_shares(film: tuple[float, float], f0: Array, tint: Array, eta: float, cosine: Array) -> tuple[Array, Array]:
     """(n, 3) reflectance and transmittance of a pane whose inside lets `tint` through along its normal.
 
     With r of each interface and c = tint^(1 / cos inside) of each way through (Beer's law), the transmitted light is
     the series c (1-r)^2 (1 + (r c)^2 + (r c)^4 + ...), the reflected r + c (1-r)^2 (r c) (1 + (r c)^2 + ...): OpenPBR
-    1.1, "Thin-walled case".
+    1.1, "Thin-walled case". A `film` (thickness, index) on the outsides reflects another r from within.
     """
-    reflects = tinted_dielectric(f0, eta, cosine)
+    reflects = film_or_dielectric(*film, f0, eta, cosine)
     inside = refracted_cosine(cosine, eta)[:, None]
+    within = reflects
+    if film[0] > NO_FILM:
+        within = film_on_dielectric(film[0], film[1] / eta, f0, 1.0 / eta, inside[:, 0])
     way = np.where(inside > 0.0, np.maximum(tint, 1e-10) ** (1.0 / np.maximum(inside, 1e-10)), 0.0)
-    again = reflects * way
-    transmittance = way * (1.0 - reflects) ** 2 / np.maximum(1.0 - again * again, 1e-6)
+    again = within * way
+    transmittance = way * (1.0 - reflects) * (1.0 - within) / np.maximum(1.0 - again * again, 1e-6)
     return reflects + transmittance * again, transmittance
 
 
@@ -81,12 +89,13 @@ def pane_of(m: Material, is_back: bool, cosine: Array, share: Array, table: Arra
         off = np.ones(3)
         f0 = np.clip(f0 * np.array(m.specular_tint), 0.0, 1.0)
     far_alpha = alpha
+    film = m.film_thickness, m.film_ior / ior if is_back and not m.thin_wall else m.film_ior
     if m.glass == REFRACTION:
-        return Pane(
-            eta, alpha, alpha, m.thin_wall, True, is_sharp, is_far_sharp, f0, np.zeros_like(share), share * base
-        )
+        widths = max(alpha, SMALLEST_ALPHA), max(alpha, SMALLEST_ALPHA)
+        none = np.zeros_like(share)
+        return Pane(eta, *widths, m.thin_wall, True, is_sharp, is_far_sharp, 0.0, 1.0, f0, none, share * base)
     if m.thin_wall:
-        reflectance, transmittance = thin_shares(f0, through, eta, cosine)
+        reflectance, transmittance = thin_shares(film, f0, through, eta, cosine)
         # As wide as two refractions: Kulla and Conty (2017), page 40.
         far_alpha = min(alpha * np.sqrt(3.4 * max(eta - 1.0, 0.0) * (eta - 0.5) ** 2 / eta**3), 1.0)
         is_far_sharp = far_alpha <= SHARP_ALPHA
@@ -107,7 +116,7 @@ def pane_of(m: Material, is_back: bool, cosine: Array, share: Array, table: Arra
         reflected = share * off * scattering
         transmitted = share * through * (1.0 if is_far_sharp else scattering)
     widths = max(alpha, SMALLEST_ALPHA), max(far_alpha, SMALLEST_ALPHA)
-    return Pane(eta, *widths, m.thin_wall, False, is_sharp, is_far_sharp, f0, reflected, transmitted)
+    return Pane(eta, *widths, m.thin_wall, False, is_sharp, is_far_sharp, *film, f0, reflected, transmitted)
 
 
 def pane_shares(pane: Pane, cosine: Array) -> tuple[Array, Array]:
@@ -116,7 +125,7 @@ def pane_shares(pane: Pane, cosine: Array) -> tuple[Array, Array]:
         return pane.reflected, pane.transmitted
     if pane.is_refraction:
         return np.zeros_like(pane.transmitted), pane.transmitted * (refracted_cosine(cosine, pane.eta) > 0.0)[:, None]
-    fresnel = tinted_dielectric(pane.f0, pane.eta, cosine)
+    fresnel = film_or_dielectric(pane.film, pane.film_ior, pane.f0, pane.eta, cosine)
     return pane.reflected * fresnel, pane.transmitted * (1.0 - fresnel)
 
 

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .film import NO_FILM, film_on_dielectric, film_on_metal, film_or_dielectric
 from .fresnel import (
     edge_dip,
     leveled_ior,
     mean_dielectric,
     normal_reflectance,
     refracted_cosine,
-    tinted_dielectric,
     tinted_metal,
 )
 from .glass import SMALLEST_ALPHA, Pane, pane_of
@@ -67,6 +67,8 @@ class Layers:
     """(n, 3) as `metal`"""
     dielectric_f0: Array
     eta: float
+    film: tuple[float, float]
+    """Thickness in nanometers, index"""
     specular_albedo: Array
     """(n, 3) of metal and dielectric"""
     glass: Pane | None
@@ -130,22 +132,30 @@ def layers_of(m: Material, is_back: bool, cos_viewer: Array, table: Array) -> La
     if m.glossy_only:
         metal = share * multiple_scattering(np.minimum(f0, 1.0), average, missing)
         albedo = entry[:, :1] * metal * f0
-        return Layers(cosine, coat, alpha, is_sharp, metal, f0, black, True, none, black, 1.0, albedo, None, none)
+        return Layers(
+            cosine, coat, alpha, is_sharp, metal, f0, black, True, none, black, 1.0, (0.0, 1.0), albedo, None, none
+        )
     metallic = min(max(m.metallic, 0.0), 1.0)
     f0 = np.minimum(f0, 1.0)
     dip = edge_dip(f0, np.clip(np.array(m.specular_tint), 0.0, 1.0))
     mean_metal = f0 + (1.0 - f0) / 21.0 - dip / 126.0
     metal = share * metallic * multiple_scattering(mean_metal, average, missing)
-    specular_albedo = entry[:, :1] * metal * (f0 + (1.0 - f0) * entry[:, 1:2])
+    film = m.film_thickness, m.film_ior
+    has_film = m.film_thickness > NO_FILM
+    # (Under a film as a smooth surface, as Cycles.)
+    mean = film_on_metal(*film, f0, dip, cosine) if has_film else f0 + (1.0 - f0) * entry[:, 1:2]
+    specular_albedo = entry[:, :1] * metal * mean
     share = share * (1.0 - metallic)
     transmission = min(max(m.transmission, 0.0), 1.0)
     glass = pane_of(m, is_back, cosine, share * transmission, table)
     share = share * (1.0 - transmission)
     eta = leveled_ior(max(m.ior, 1e-5), m.specular_level)
     dielectric, dielectric_f0 = none, black
-    if metallic < 1.0 and eta != 1.0:
+    if metallic < 1.0 and (eta != 1.0 or has_film):
         dielectric_f0 = np.clip(normal_reflectance(eta) * np.array(m.specular_tint), 0.0, 1.0)
         albedo, scattering = dielectric_albedo(table, roughness, cosine, eta, dielectric_f0)
+        if has_film:
+            albedo = entry[:, :1] * scattering * film_on_dielectric(*film, dielectric_f0, eta, cosine)
         dielectric = share * (1.0 if is_sharp else scattering)
         specular_albedo = specular_albedo + share * albedo
         share = share * np.clip(1.0 - albedo.max(axis=1, keepdims=True), 0.0, 1.0)
@@ -162,6 +172,7 @@ def layers_of(m: Material, is_back: bool, cos_viewer: Array, table: Array) -> La
         dielectric,
         dielectric_f0,
         eta,
+        film,
         specular_albedo,
         glass,
         base,
@@ -172,5 +183,9 @@ def specular_fresnel(layers: Layers, cosine: Array) -> Array:
     """(n, 3) reflectance of metal and dielectric at microfacets seen at these cosines."""
     if layers.is_constant:
         return layers.metal * layers.metal_f0
-    metal = layers.metal * tinted_metal(layers.metal_f0, layers.metal_dip, cosine)
-    return metal + layers.dielectric * tinted_dielectric(layers.dielectric_f0, layers.eta, cosine)
+    if layers.film[0] > NO_FILM:
+        metal = film_on_metal(*layers.film, layers.metal_f0, layers.metal_dip, cosine)
+    else:
+        metal = tinted_metal(layers.metal_f0, layers.metal_dip, cosine)
+    dielectric = film_or_dielectric(*layers.film, layers.dielectric_f0, layers.eta, cosine)
+    return layers.metal * metal + layers.dielectric * dielectric

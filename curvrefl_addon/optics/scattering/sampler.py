@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random numbers of paths: four for each vertex, fixed for pixel, sub-frame and bounce.
 
-The sub-frames of a pixel are points of a four-dimensional Sobol sequence (Joe and Kuo, "Constructing Sobol Sequences
-with Better Two-Dimensional Projections", 2008), each axis scrambled as Owen by a hash of pixel and bounce (Burley,
-"Practical Hash-based Owen Scrambling", JCGT 9(4), 2020; the hash is Vegdahl's). Scrambling leaves the sequence's
-strata: of the first 2^k sub-frames each has one number in each of 2^k equal intervals of an axis, whatever the pixel.
-Bounces take the points in another order, which keeps aligned blocks of 2^k together, so that pairs of bounces are
-spread well and never alike.
+All pixels of a picture share one four-dimensional Sobol sequence (Joe and Kuo, "Constructing Sobol Sequences with
+Better Two-Dimensional Projections", 2008), its axes scrambled as Owen by hashes (Burley, "Practical Hash-based Owen
+Scrambling", JCGT 9(4), 2020; the hash is Vegdahl's). A pixel has a block of 2^k of its points, where 2^k sub-frames are
+asked for, and pixels have their blocks in Morton's order, itself scrambled (Ahmed and Wonka, "Screen-Space Blue-Noise
+Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", ACM TOG 39(6), 2020): a pixel's numbers
+are stratified, the numbers of a quad of pixels together are, and those of its quad of quads, so that what error remains
+is spread as noise of high frequency, which the eye averages.
 
-Points have 16 bits, so that a vertex's fit into a push constant and no shader computes a sequence; after 65,536
-sub-frames other scrambles begin.
+Sobol points are linear in the bits of their number: the point of (block ^ sub-frame) is that of the block, which the
+shader computes, ^ that of the sub-frame, which comes as a push constant. A bounce takes sub-frames in an order of its
+own, a scramble that keeps aligned blocks of 2^j together, for else the numbers of two bounces would go hand in hand.
 """
 
 from __future__ import annotations
@@ -24,27 +26,29 @@ type Float64Array = NDArray[np.float64]
 type UInt32Array = NDArray[np.uint32]
 
 _BITS = 16
+"""Of sub-frames; after 65,536 other scrambles begin"""
+_PIXEL_BITS = 12
+"""Of a pixel's coordinates"""
+_MOST = 256
+"""Sub-frames where no number is asked for"""
 _FULL = 0xFFFFFFFF
 
 
-def _directions(primitive: int, degree: int, first: tuple[int, ...]) -> list[int]:
-    """Direction numbers of `_BITS` bits of the axis whose polynomial's inner coefficients are `primitive`."""
-    m = list(first)
-    for index in range(degree, _BITS):
-        value = m[index - degree] ^ (m[index - degree] << degree)
-        for k in range(1, degree):
-            if primitive >> (degree - 1 - k) & 1:
-                value ^= m[index - k] << k
-        m.append(value)
-    return [value << (_BITS - 1 - index) for index, value in enumerate(m[:_BITS])]
+def _directions() -> tuple[list[int], list[int], list[int], list[int]]:
+    """Of each axis the points of the numbers 1, 2, 4, ..., from the highest bit down.
+
+    The recurrences of Sobol's polynomials of degree 0 to 3.
+    """
+    a = [1 << 31 - index for index in range(32)]
+    b, c, d = a[:1], [a[0], 3 << 30], [a[0], 3 << 30, 1 << 29]
+    for _ in range(31):
+        b.append(b[-1] ^ b[-1] >> 1)
+        c.append(c[-1] ^ c[-2] ^ c[-2] >> 2)
+        d.append(d[-2] ^ d[-3] ^ d[-3] >> 3)
+    return a, b, c, d
 
 
-_AXES = (
-    [1 << (_BITS - 1 - index) for index in range(_BITS)],
-    _directions(0, 1, (1,)),
-    _directions(1, 2, (1, 3)),
-    _directions(1, 3, (1, 3, 1)),
-)
+_AXES = _directions()
 
 
 def _hashed(x: int) -> int:
@@ -64,47 +68,62 @@ def _scrambled(reversed_bits: int, seed: int) -> int:
     return x ^ x * 0x53A22864 & _FULL
 
 
-def path_point(sub_frame: int, bounce: int) -> tuple[int, int, int, int]:
+def path_point(sub_frame: int, bounce: int, sub_frames: int = _MOST) -> tuple[int, int, int, int]:
     """The push constant `path_point` of `random.glsl` for the vertices after `bounce` others, in one sub-frame.
 
-    Four axes of 16 bits in reverse order in the first two numbers, the seed of the scrambles, and the sub-frame; all
-    as signed 32-bit integers.
+    `sub_frames`: how many the picture will have, where that is known; the error is spread best when they are complete.
+    Answers the point of the sub-frame, four axes of 16 bits in two numbers; the seed of the bounce; and the logarithm
+    of a pixel's block. All as signed 32-bit integers.
     """
     seed = _hashed(_hashed(bounce + 1) ^ (sub_frame >> _BITS))
-    # The order of a bounce's points: blocks of 2^k that begin at multiples of it stay together.
-    index = sub_frame & (1 << _BITS) - 1
-    if bounce > 0:
-        index = _turned(_scrambled(_turned(index), _hashed(seed)) & (1 << _BITS) - 1)
+    index = _turned(_scrambled(_turned(sub_frame), _hashed(seed)) & (1 << _BITS) - 1)
     point = [0] * 4
     for axis, directions in enumerate(_AXES):
         for bit in range(_BITS):
             if index >> bit & 1:
-                point[axis] ^= directions[bit]
-    a, b, c, d = (_turned(value) for value in point)
-    return tuple(_signed(value) for value in (a | b << 16, c | d << 16, seed, sub_frame & _FULL))  # type: ignore[return-value]
+                point[axis] ^= directions[bit] >> _BITS
+    a, b, c, d = point
+    block = min(max(sub_frames - 1, 0).bit_length(), _BITS)
+    return _signed(a | b << 16), _signed(c | d << 16), _signed(seed), block
 
 
 def _turned(value: int) -> int:
-    """`_BITS` bits in reverse order."""
-    return int(f"{value:0{_BITS}b}"[::-1], 2)
+    """The lowest `_BITS` bits in reverse order."""
+    return int(f"{value & (1 << _BITS) - 1:0{_BITS}b}"[::-1], 2)
 
 
 def _signed(value: int) -> int:
     return value - (1 << 32) if value >> 31 else value
 
 
-def path_random(pixels: NDArray[np.integer], sub_frame: int, bounce: int) -> Float64Array:
+def path_random(pixels: NDArray[np.integer], sub_frame: int, bounce: int, sub_frames: int = _MOST) -> Float64Array:
     """(n, 4) numbers in 0..1, 1 excluded, of (n, 2) pixels: what `path_random` of `random.glsl` answers."""
-    first, second, seed, _ = (np.uint32(value & _FULL) for value in path_point(sub_frame, bounce))
+    first, second, seed, _ = (np.uint32(value & _FULL) for value in path_point(sub_frame, bounce, sub_frames))
+    bits = np.uint32(path_point(sub_frame, bounce, sub_frames)[3])
     x, y = (np.asarray(pixels)[:, axis].astype(np.uint32) for axis in (0, 1))
+    sixteen, low = np.uint32(16), np.uint32(0xFFFF)
     with np.errstate(over="ignore"):
-        seeds = _hash_array(seed ^ _hash_array(x ^ _hash_array(y)))
-        point = (first & np.uint32(0xFFFF), first >> np.uint32(16), second & np.uint32(0xFFFF), second >> np.uint32(16))
-        columns = [
-            _reversed(_scramble_array(np.full_like(x, bits), _hash_array(seeds + np.uint32(axis))))
-            for axis, bits in enumerate(point)
-        ]
+        place = _reversed(_scramble_array(_reversed(_morton(x, y)), seed)) >> np.uint32(32 - 2 * _PIXEL_BITS)
+        within = _hash_array(seed ^ _hash_array(x ^ _hash_array(y))) & (np.uint32(1) << bits) - np.uint32(1)
+        number = place << bits | within
+        columns = []
+        for axis, point in enumerate((first & low, first >> sixteen, second & low, second >> sixteen)):
+            value = np.full_like(x, point << sixteen)
+            for bit, direction in enumerate(_AXES[axis]):
+                value = value ^ np.where(number >> np.uint32(bit) & np.uint32(1), np.uint32(direction), np.uint32(0))
+            axis_seed = _hash_array(np.array([seed + np.uint32(axis + 1)], np.uint32))
+            columns.append(_reversed(_scramble_array(_reversed(value), axis_seed)))
     return np.stack([(column >> np.uint32(8)) * 2.0**-24 for column in columns], axis=1)
+
+
+def _morton(x: UInt32Array, y: UInt32Array) -> UInt32Array:
+    """Bits of both in turns, in the upper bits of the answer."""
+    code = np.zeros_like(x)
+    for bit in range(_PIXEL_BITS):
+        one, place = np.uint32(1), np.uint32(bit)
+        pair = (x >> place & one) | (y >> place & one) << one
+        code = code | pair << np.uint32(2 * bit + 32 - 2 * _PIXEL_BITS)
+    return code
 
 
 def _hash_array(x: UInt32Array) -> UInt32Array:
@@ -115,7 +134,7 @@ def _hash_array(x: UInt32Array) -> UInt32Array:
     return x ^ x >> np.uint32(16)
 
 
-def _scramble_array(x: UInt32Array, seed: UInt32Array) -> UInt32Array:
+def _scramble_array(x: UInt32Array, seed: UInt32Array | np.uint32) -> UInt32Array:
     x = x ^ x * np.uint32(0x3D20ADEA)
     x = x + seed
     x = x * (seed >> np.uint32(16) | np.uint32(1))

@@ -16,7 +16,7 @@ type Array = NDArray[np.float64]
 
 
 def _entry(table: Array, roughness: float, column: Array, place: int, first_row: int) -> Array:
-    size = table.shape[0] // 2
+    size = table.shape[0] // 4
     x = np.clip(column, 0.0, 1.0) * (size - 1)
     y = min(max(roughness, 0.0), 1.0) * (size - 1)
     left, top = np.minimum(x.astype(int), size - 2), min(int(y), size - 2)
@@ -28,7 +28,7 @@ def _entry(table: Array, roughness: float, column: Array, place: int, first_row:
 
 def slice_of(table: Array, eta: float) -> tuple[int, float]:
     """The slice of an IOR and how far it is towards the next, which has the reflectance along the normal in common."""
-    slices = 2 * table.shape[1] // table.shape[0] - 1
+    slices = table.shape[1] // (table.shape[0] // 4) - 1
     place = np.sqrt(abs((eta - 1.0) / (eta + 1.0))) * (slices - 1)
     below = min(int(place), slices - 2)
     return below, float(place - below)
@@ -41,7 +41,7 @@ def lobe_entry(table: Array, roughness: float, cosine: Array, place: int) -> Arr
 
 def glass_albedo(table: Array, roughness: float, cosine: Array, eta: float) -> tuple[Array, float]:
     """(n,) albedo of single scattering at an interface that lets light through, and its mean over the hemisphere."""
-    size = table.shape[0] // 2
+    size = table.shape[0] // 4
     slices = table.shape[1] // size - 1
     below, between = slice_of(table, eta)
     here, after = (_entry(table, roughness, cosine, place, size) for place in (below, below + 1))

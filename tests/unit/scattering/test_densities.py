@@ -18,7 +18,7 @@ from curvrefl.curvrefl_addon.optics.scattering.microfacet import (
 from curvrefl.curvrefl_addon.optics.scattering.scatter import ENDS, PASSES, scatter, scattered
 from unit.scattering.surfaces import EAST, MATERIALS, TABLE, UP, spread, viewer_at
 
-ROWS, COLUMNS, WITHIN = 24, 24, 12
+ROWS, COLUMNS, WITHIN = 16, 16, 12
 
 
 def _sphere() -> np.ndarray:
@@ -36,7 +36,7 @@ def _sphere() -> np.ndarray:
 def test_samples_are_of_the_density(name: str, is_back: bool) -> None:
     """By bins of the sphere; and the mean weight of a bin's samples is the integral of the value there."""
     m = replace(MATERIALS[name], roughness=0.6)
-    count = 1 << 17
+    count = 1 << 16
     viewer = viewer_at(0.55)
     s = scatter(m, UP, EAST, is_back, np.tile(viewer, (count, 1)), spread(count), TABLE)
     assert (s.pdf[(s.kind != ENDS) & (s.kind != PASSES)] > 0.0).all()
@@ -52,12 +52,12 @@ def test_samples_are_of_the_density(name: str, is_back: bool) -> None:
     shares = m.alpha * solid_angle * pdf.reshape(ROWS * COLUMNS, -1).mean(axis=1)
     counts = np.bincount(number[goes], minlength=ROWS * COLUMNS) / count
     # (An even sequence misses a bin's share by less than chance would; bins at the horizon are cut.)
-    assert np.abs(counts - shares).max() < 6e-4 + 0.02 * shares.max()
+    assert np.abs(counts - shares).max() < 1e-3 + 0.02 * shares.max()
     assert abs(counts.sum() - shares.sum()) < 5e-3
     integral = m.alpha * solid_angle * value.reshape(ROWS * COLUMNS, -1, 3).mean(axis=1)
     for channel in range(3):
         sums = np.bincount(number[goes], s.weight[goes, channel], ROWS * COLUMNS) / count
-        assert np.abs(sums - integral[:, channel]).max() < 6e-4 + 0.02 * integral.max()
+        assert np.abs(sums - integral[:, channel]).max() < 1e-3 + 0.02 * integral.max()
 
 
 def test_normals_project_to_one() -> None:

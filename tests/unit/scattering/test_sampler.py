@@ -11,15 +11,16 @@ from curvrefl.curvrefl_addon.optics.scattering.sampler import path_point, path_r
 PIXELS = np.array([[0, 0], [1, 0], [511, 3], [1919, 1079], [7, 4095]])
 
 
-def samples(count: int, bounce: int, pixels: np.ndarray = PIXELS) -> np.ndarray:
+def samples(count: int, bounce: int, pixels: np.ndarray = PIXELS, asked: int = 256) -> np.ndarray:
     """(sub-frames, pixels, 4)"""
-    return np.stack([path_random(pixels, sub_frame, bounce) for sub_frame in range(count)])
+    return np.stack([path_random(pixels, sub_frame, bounce, asked) for sub_frame in range(count)])
 
 
-@pytest.mark.parametrize("bounce", [0, 1, 2, 7])
-def test_axes_are_stratified(bounce: int) -> None:
+@pytest.mark.parametrize("asked", [1, 16, 256])
+@pytest.mark.parametrize("bounce", [0, 1, 7])
+def test_axes_are_stratified(bounce: int, asked: int) -> None:
     """The first 2^k sub-frames have one number in each of 2^k intervals, at every pixel and axis."""
-    numbers = samples(64, bounce)
+    numbers = samples(64, bounce, asked=asked)
     for count in (1, 2, 4, 8, 16, 32, 64):
         strata = np.sort((numbers[:count] * count).astype(int), axis=0)
         assert (strata == np.arange(count)[:, None, None]).all()
@@ -32,6 +33,16 @@ def test_pairs_of_axes_are_stratified(bounce: int) -> None:
     for rows in (1, 2, 4, 8, 16):
         cells = (numbers[:, :, 0] * rows).astype(int) * (16 // rows) + (numbers[:, :, 1] * (16 // rows)).astype(int)
         assert (np.sort(cells, axis=0) == np.arange(16)[:, None]).all()
+
+
+@pytest.mark.parametrize("asked", [1, 4, 16])
+def test_quads_of_pixels_are_stratified_together(asked: int) -> None:
+    """When all sub-frames are there: the four pixels of a quad, and the sixteen of a quad of quads."""
+    for size in (2, 4):
+        corner = np.stack(np.meshgrid(np.arange(size), np.arange(size)), axis=-1).reshape(-1, 2)
+        numbers = samples(asked, 0, corner + size * np.array([13, 37]), asked).reshape(-1, 4)
+        strata = np.sort((numbers * len(numbers)).astype(int), axis=0)
+        assert (strata == np.arange(len(numbers))[:, None]).all()
 
 
 def test_bounces_and_axes_and_pixels_are_apart() -> None:

@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the eye sees directly, with which each sub-frame begins."""
+
+from __future__ import annotations
+
+from .reflection import Reflection
+from .settings import Settings
+from .shown.shown import Stage, SubFrame
+from .shown.targets import TargetPool
+from .surfaces.primary import depths_of, draw_primary
+from .surfaces.view_block import view_block
+from .surfaces.windows import Window
+
+
+def draw_seen(
+    stage: Stage,
+    pool: TargetPool,
+    reflection: Reflection,
+    settings: Settings,
+    window: Window | None = None,
+    everywhere: bool = False,
+    index: int = 0,
+) -> SubFrame:
+    """Draw it from where the reflection's view looks, in `window` alone if given, but `everywhere` if asked for.
+
+    `index`: number of the sub-frame.
+    """
+    view, geometry = reflection.view, stage.geometry
+    targets, shadows = pool.of(view.width, view.height), reflection.ray_shadows(stage.rays)
+    sub_frame = SubFrame(stage, view, view_block(view), targets, window, shadows, index)
+    mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
+    if not reflection.shown and not settings.entry.solves_vertices:
+        mirrors = list(stage.mirrors)
+    followed = {id(geometry.of_instance(mirror.index)[0]) for mirror in mirrors}
+    draw_primary(
+        targets.seen,
+        geometry.seen(view),
+        stage.materials,
+        sub_frame.uniforms,
+        None if everywhere else window,
+        lambda chunk: geometry.hidden_faces(chunk, view),
+        is_followed=lambda chunk: id(chunk) in followed,
+        depths=depths_of(view),
+        mirrored=view.is_mirrored,
+        has_paths=stage.tracer is not None,
+        has_scalars=stage.tracer is not None and stage.tracer.has_scalars,
+    )
+    return sub_frame
