@@ -61,7 +61,7 @@ DEFAULT_COMPARED = ("auto", "exact", "secant_star", "environment_cube")
 
 def label_of(name: str) -> str:
     """What a user reads for a method, or for what stands in its place."""
-    return METHODS[name].label if name in METHODS else name.capitalize()
+    return SOLVERS[name].label if name in SOLVERS else name.capitalize()
 
 
 METHODS: dict[str, Method] = {

@@ -17,6 +17,13 @@ SMALLEST_INDEX, LARGEST_INDEX = 1e-3, 1e3
 """Beyond them glass is a mirror, or shows nothing but its middle: single precision finds no refraction points"""
 
 
+def index_in_range(index: float) -> float:
+    """The index, or the end of the range that single precision serves. Raises ValueError for what is no number."""
+    if np.isnan(index):
+        raise ValueError("an index of refraction has to be a number")
+    return float(np.clip(index, SMALLEST_INDEX, LARGEST_INDEX))
+
+
 def refracted(to_eye: Float64Array, normal: Float64Array, index: float | Float64Array) -> Float64Array:
     """Unit directions (n, 3) beyond the surface of lines of sight; NaN where they are reflected totally.
 

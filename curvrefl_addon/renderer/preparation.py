@@ -19,6 +19,7 @@ from .mirrors.mirror import Mirror
 from .paths.left_out import lets_light_on
 from .reflection import Reflection
 from .settings import Settings
+from .shading.calm import CalmHistory
 from .shading.lookup import Environment
 from .shown.environment import ShownEnvironment
 from .shown.nothing import ShownNothing
@@ -78,9 +79,11 @@ class Preparation:
                 warnings += shown[-1].shape.warnings
         coarse = stage.lighting.too_coarse(view)
         is_calm = not at_rest and stage.tracer is not None and stage.tracer.can_be_calm
-        is_calm = is_calm and any(isinstance(one, ShownRays) for one in shown)
+        calm = None
+        if is_calm and any(isinstance(one, ShownRays) for one in shown):
+            calm = CalmHistory() if last is None or last.calm is None else last.calm
         told = tuple(dict.fromkeys(warnings))
-        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, is_calm)
+        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, calm)
 
     def _choose(
         self,

@@ -16,6 +16,7 @@ from .choice import Choice
 from .mirrors.mirror import Mirror
 from .rays.ray_scene import RayScene
 from .settings import Settings
+from .shading.calm import CalmHistory
 from .shading.shade import RayShadows
 from .shown.shown import Shown
 from .vertices.solution import SolvedChunk, VertexSolution
@@ -54,7 +55,7 @@ class Reflection:
     """Of lamps and of the world: their maps are too coarse for the view"""
     follows_shadows: bool = False
     """By rays, where that is so"""
-    is_calm: bool = False
+    calm: CalmHistory | None = None
     """The view moves: rough mirrors show what sharp ones would, blurred, in place of one noisy path"""
     origin: Float64Array = field(default_factory=lambda: np.zeros(3))
     """(3,) where in the world the scene had its origin (see `placement`)"""
@@ -76,7 +77,7 @@ class Reflection:
     @property
     def is_final(self) -> bool:
         """Nothing is left that `reflect` would do for a view at rest alone."""
-        if self.is_calm:
+        if self.calm is not None:
             return False
         return all(shown.is_final for shown in self.shown) and (self.follows_shadows or not any(self.coarse_shadows))
 

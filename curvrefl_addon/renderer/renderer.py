@@ -284,8 +284,8 @@ class Renderer:
             )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            film, is_calm = self.settings.film_transparent, reflection.is_calm
-            light = Light(canvas, weight, chosen, number == 0, film, is_calm)
+            film = self.settings.film_transparent
+            light = Light(canvas, weight, chosen, number == 0, film, reflection.calm)
             kind.add_light(members, sub_frame, light)
         by_rays = bool(groups) and groups[0][0] is ShownRays
         if self._tracer is not None and self._tracer.sees_through and not (mirrors_only or by_rays):

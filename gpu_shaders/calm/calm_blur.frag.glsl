@@ -41,8 +41,8 @@ void main()
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 sharp = texelFetch(sharp_picture, pixel, 0);
   vec4 ellipse = texelFetch(calm_reach, pixel, 0);
-  if (ellipse.w < 0.5) {
-    color = sharp * weight;
+  if (ellipse.x == 0.0) {
+    color = sharp;
     return;
   }
   float number = texelFetch(seen_color, pixel, 0).w;
@@ -72,8 +72,8 @@ void main()
       sum += alike * mix(at_level(int(finer), place, number), at_level(int(finer) + 1, place, number), level - finer);
     }
   }
-  color = sharp * weight;
+  color = sharp;
   if (sum.a > 1e-3) {
-    color.rgb = tint_at(pixel) * sum.rgb / sum.a * weight;
+    color.rgb = tint_at(pixel) * sum.rgb / sum.a;
   }
 }

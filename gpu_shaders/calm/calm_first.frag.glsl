@@ -7,7 +7,7 @@
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  if (texelFetch(calm_reach, pixel, 0).w < 0.5) {
+  if (texelFetch(calm_reach, pixel, 0).x == 0.0) {
     color = vec4(0.0);
     return;
   }

@@ -6,7 +6,8 @@
 // ray is round about the normal and, as a reflected ray turns by twice the normal's turn in the plane of incidence and
 // by twice its cosine across, an ellipse about D: its square is S = 4 alpha^2 (cos^2 I + n n'), with n the part of the
 // normal across D. In pixels the square is J^-1 S J'^-1; its root needs no axes, so that it changes smoothly.
-// `reach`: xx, xy and yy of the root, and 1 at rough mirrors.
+// `reach`: xx, xy and yy of the root, 0 where no mirror is rough; and one over how far behind the mirror the image of
+// what it shows stands, which is 1 / t + 2 c on a mirror of curvature c (as on axis).
 #include "surfaces/material_records.glsl"
 
 vec3 reflected_at(ivec2 pixel, vec3 position)
@@ -15,12 +16,15 @@ vec3 reflected_at(ivec2 pixel, vec3 position)
 }
 
 // What changes from here to the next pixel along an axis, on the side where it changes less; false at lone pixels.
-bool step_along(ivec2 pixel, ivec2 axis, vec4 place, vec3 direction, out vec3 moved, out vec3 turned)
+bool step_along(ivec2 pixel, ivec2 axis, vec4 place, vec3 direction, out vec3 moved, out vec3 turned,
+                out float curvature)
 {
   ivec2 size = textureSize(seen_position, 0);
   float number = texelFetch(seen_color, pixel, 0).w;
   float least = 1e30;
   moved = turned = vec3(0.0);
+  curvature = 0.0;
+  vec3 normal = texelFetch(seen_normal, pixel, 0).xyz;
   for (int side = -1; side <= 1; side += 2) {
     ivec2 other = pixel + side * axis;
     if (all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, size)) &&
@@ -31,6 +35,8 @@ bool step_along(ivec2 pixel, ivec2 axis, vec4 place, vec3 direction, out vec3 mo
         least = dot(turn, turn);
         moved = float(side) * (there.xyz - place.xyz);
         turned = float(side) * turn;
+        curvature = dot(texelFetch(seen_normal, other, 0).xyz - normal, moved) * float(side) /
+                    max(dot(moved, moved), 1e-30);
       }
     }
   }
@@ -54,8 +60,9 @@ void main()
   }
   vec3 direction = reflected_at(pixel, place.xyz);
   vec3 moved_x, turned_x, moved_y, turned_y;
-  if (!step_along(pixel, ivec2(1, 0), place, direction, moved_x, turned_x) ||
-      !step_along(pixel, ivec2(0, 1), place, direction, moved_y, turned_y)) {
+  float curved_x, curved_y;
+  if (!step_along(pixel, ivec2(1, 0), place, direction, moved_x, turned_x, curved_x) ||
+      !step_along(pixel, ivec2(0, 1), place, direction, moved_y, turned_y, curved_y)) {
     return;
   }
   vec4 hit = texelFetch(path_position, pixel, 0);
@@ -74,11 +81,14 @@ void main()
   float determinant = column_x.x * column_y.y - column_y.x * column_x.y;
   vec2 row_x = vec2(column_y.y, -column_y.x);
   vec2 row_y = vec2(-column_x.y, column_x.x);
-  float scale = 4.0 * alpha * alpha * WIDTH * WIDTH / max(determinant * determinant, 1e-30);
+  float width = WIDTH + WIDER * alpha;
+  float scale = 4.0 * alpha * alpha * width * width / max(determinant * determinant, 1e-30);
   float n_x = dot(row_x, across), n_y = dot(row_y, across);
   float xx = scale * (cosine2 * dot(row_x, row_x) + n_x * n_x);
   float xy = scale * (cosine2 * dot(row_x, row_y) + n_x * n_y);
   float yy = scale * (cosine2 * dot(row_y, row_y) + n_y * n_y);
+  xx += PIXEL * PIXEL;
+  yy += PIXEL * PIXEL;
   // Its root, no longer than the picture allows.
   float middle = 0.5 * (xx + yy);
   float half_gap = sqrt(max(0.25 * (xx - yy) * (xx - yy) + xy * xy, 0.0));
@@ -88,5 +98,5 @@ void main()
   // (Of the longer axis, twice: cosine and sine of twice its angle.)
   vec2 twice = half_gap > 0.0 ? vec2(0.5 * (xx - yy), xy) / half_gap : vec2(0.0);
   float mean = 0.5 * (longer + shorter), gap = 0.5 * (longer - shorter);
-  reach = vec4(mean + gap * twice.x, gap * twice.y, mean - gap * twice.x, 1.0);
+  reach = vec4(mean + gap * twice.x, gap * twice.y, mean - gap * twice.x, nearness + curved_x + curved_y);
 }

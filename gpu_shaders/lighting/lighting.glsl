@@ -27,7 +27,7 @@ struct Surface {
 #if defined(RAY_SHADOWS) || defined(WORLD_RAYS)
 #ifdef LIGHTING_ALPHA
 #define LIGHT_THROUGH
-#include "lighting/shadow_alpha.glsl"
+#include "rays/light_through.glsl"
 #endif
 #include "rays/ray_walk.glsl"
 

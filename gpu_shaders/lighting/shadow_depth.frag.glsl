@@ -5,14 +5,14 @@
 // in the window's x and y on a plane, in perspective too, so this is exact. The move is at most bias.y + bias.z (1 -
 // depth).
 #ifdef HASHED
-#include "lighting/shadow_alpha.glsl"
+#include "rays/light_through.glsl"
 
 uint mixed(uint bits)
 {
   // Multiplications and shifts by which each bit of the input flips each of the output about half of the time
   // (constants: Wellons, "Hash Function Prospector", 2018).
-  bits = (bits ^ (bits >> 16)) * 0x7feb352du;
-  bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
+  bits = (bits ^ (bits >> 16)) * 2146121005u;
+  bits = (bits ^ (bits >> 15)) * 2221713035u;
   return bits ^ (bits >> 16);
 }
 

@@ -155,16 +155,17 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
 #ifdef WORLD_RAYS
-      // (Of what is tinted its mean.)
-      float dark = cos_light > 0.0 ? 1.0 - dot(lit_by_ray(s, light.xyz, 1e30), LIT(1.0)) / LIT_CHANNELS : 0.0;
+      LIT dark = cos_light > 0.0 ? LIT(1.0) - lit_by_ray(s, light.xyz, 1e30) : LIT(0.0);
+      float mean_dark = dot(dark, LIT(1.0)) / LIT_CHANNELS;
 #else
       vec3 window = vec3(dot(lighting_data[record + 1], p),
                          dot(lighting_data[record + 2], p),
                          dot(lighting_data[record + 3], p) - 2e-6);
       float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
+      float mean_dark = dark;
 #endif
       lost += weight.rgb * (cos_light * dark);
-      lobe_lost += weight.w * lobe_window(dot(middle, light.xyz)) * dark;
+      lobe_lost += weight.w * lobe_window(dot(middle, light.xyz)) * mean_dark;
       i += stride;
     } while (i < count);
 #ifdef QUADS

@@ -3,6 +3,10 @@
 // Light that a path finds, times what is left of it on the way. One define says at which pixels: LIGHTS_MISSES (it met
 // nothing), LIGHTS_STOPS (a surface where it ends), LIGHTS_GOES_ON (a surface from which it goes on: what that shows
 // besides). With ON_PATH what a step has met (step.frag.glsl), else what the eye sees.
+#ifdef LIGHTS_STOPS
+#define QUADS
+#endif
+#include "lighting/quad.glsl"
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "paths/path_state.glsl"
@@ -37,7 +41,8 @@ void main()
   range = 2e30;
 #ifdef FILM_TRANSPARENT
   if (by_camera) {
-    cover = -1.0;
+    // (What its first surface has covered, but for what has come through.)
+    cover = -dot(throughput.rgb, vec3(1.0 / 3.0));
   }
   else
 #endif
@@ -53,6 +58,10 @@ void main()
   vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
 #ifdef LIGHTS_STOPS
   Surface surface = surface_of(position, normal, base);
+  // (Of other pixels a quad may have what an older step has met.)
+  float met_now = texelFetch(classes_before, pixel, 0).x;
+  vec3 towards = dot(normal.xyz, direction) > 0.0 ? -normal.xyz : normal.xyz;
+  world_is_shared = quad_is_one_surface(position.xyz, towards, vec3(position.w, normal.w, met_now));
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
 #else

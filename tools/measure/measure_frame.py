@@ -46,6 +46,8 @@ from curvrefl.curvrefl_addon.renderer.shading.shade import ShadePass  # noqa: E4
 from curvrefl.curvrefl_addon.renderer.shown import vertices as vertices_module  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.pixel_classes import PixelClasses  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.tracing import tracer as tracer_module  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.tracing.path_light import PathLight  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.back_faces import BackFaces  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver  # noqa: E402
 from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
@@ -102,6 +104,14 @@ def _of_second(_self: Any, buffer: Any, *_arguments: Any, **_named: Any) -> Any:
     return buffer.frame_buffer
 
 
+def _of_met(_around: Any, _vertices: Any, _scalars: Any, classes: Any, met: Any, *_arguments: Any) -> Any:
+    return met.targets(classes)["all"]
+
+
+def _of_canvas(_self: Any, canvas: Any, *_arguments: Any, **_named: Any) -> Any:
+    return canvas.frame_buffer
+
+
 @contextmanager
 def taken_apart(watch: Stopwatch) -> Iterator[None]:
     """Every pass waits for the GPU and tells its time."""
@@ -131,6 +141,9 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (ShadePass, "_add_others", "shade", ShadePass._add_others, _of_second),
         (ShadePass, "_add_shown", "shade", ShadePass._add_shown, _of_second),
         (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
+        (tracer_module, "follow", "step", tracer_module.follow, _of_met),
+        (tracer_module, "add_shared", "shared", tracer_module.add_shared, _of_canvas),
+        (PathLight, "add", "light", PathLight.add, _of_canvas),
     ]
     with ExitStack() as stack:
         for owner, attribute, name, act, target_of in passes:

@@ -17,7 +17,7 @@ import numpy as np
 from .. import status
 from ..fermat import SurfaceSample, sample, towards_eye
 from ..screen import Screen
-from ..snell import LARGEST_INDEX, SMALLEST_INDEX, is_refraction_side, refracted
+from ..snell import index_in_range, is_refraction_side, refracted
 from ..surfaces.radial_surfaces import Float64Array, RadialSurface, unit
 from .descent import minimize
 from .refraction_start import RUNG_COUNT, Circle, sphere_guesses, starts_of
@@ -82,8 +82,10 @@ def solve(
     `index` beyond the surface over that on the eye's side; `side` -1 for an eye inside; `tolerance` in pixels;
     `previous` (n, 3) are directions where the vertices were refracted in the last frame, NaN for others. REFLECTED
     means that a refraction point was found; `first_rung` leaves rungs out.
+
+    Raises ValueError for an index that is no number.
     """
-    index = float(np.clip(index, SMALLEST_INDEX, LARGEST_INDEX))
+    index = index_in_range(index)
     eye, count = screen.eye, len(vertices)
     u = sphere_guesses(surface, eye, vertices, index, side)[0]
     u = np.where(np.isfinite(u), u, unit(side * np.broadcast_to(eye[:3], vertices.shape)))

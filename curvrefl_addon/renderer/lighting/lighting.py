@@ -17,8 +17,9 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
+from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
@@ -31,7 +32,6 @@ from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
 from .suns import split_suns
 from .world import WORLD_DEFINES, world_light
-from .world_image import world_image
 
 HEADER_RECORDS = 8
 DIRECTION_RECORDS = 5
@@ -94,7 +94,8 @@ class Lighting:
         """Texture of `ggx_table`"""
         self._lamp_maps = ShadowMaps(LAMP_MAP_RESOLUTIONS[0], bias_texels=1.0)
         self._world_maps = ShadowMaps(WORLD_MAP_RESOLUTION, bias_texels=0.5)
-        self._blocks: dict[int, Any] = {}
+        self._blocks: dict[int, tuple[Any, list[int], list[int]]] = {}
+        """By sub-frame its uniform block and the views of its lamps' and the world's maps"""
         self._bound: Any = None
         self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
@@ -123,7 +124,7 @@ class Lighting:
         planned |= self._alpha.is_hashed != was_hashed
         if planned:
             self._read_geometry()
-        if scene.world is not before.world:
+        if scene.world is not before.world or self._alpha.is_hashed != was_hashed:
             self._read_world()
         if planned or scene.lights is not before.lights or scene.world is not before.world:
             self._plan_lamps()
@@ -213,13 +214,15 @@ class Lighting:
         """
         index = sub_frame % self.sub_frames
         if index not in self._blocks:
-            lamp_layers, world_layers, records = self._records(index)
-            self._lamp_maps.draw(lamp_layers, self._casters)
-            self._world_maps.draw(world_layers, self._casters)
+            lamp_views, world_views, records = self._records(index)
             # (A strong lamp of nearly no size would shine endlessly there.)
             records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
-            self._blocks[index] = uniform_block(records.astype(np.float32).ravel())
-        self._bound = self._blocks[index]
+            self._blocks[index] = uniform_block(records.astype(np.float32).ravel()), lamp_views, world_views
+        self._bound, lamp_views, world_views = self._blocks[index]
+        # (Another sub-frame may have drawn over them.)
+        self._lamp_maps.draw(lamp_views, self._casters)
+        visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
+        self._world_maps.draw(world_views, self._casters, (visit, self._world_visits))
 
     def bind(self, shader: Any) -> None:
         """Set the samplers and the block of the sub-frame last prepared on a bound shader."""
@@ -275,10 +278,26 @@ class Lighting:
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
         count = min(self._directions_at_once * self.sub_frames, MOST_WORLD_DIRECTIONS)
+        self._world_visits = 1
+        if lit and self._alpha.is_hashed and not self._many and count:
+            # More than the directions what is there by chance wants a mean of many.
+            self._directions_at_once, count = at_once, min(at_once * self.sub_frames, most)
+            self._world_visits = -(-at_once * self.sub_frames // count)
         light = world_light(self._sky.world, max(count, 1))
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
-        self._world_image, self.world_warnings = world_image(world)
+        self.world_warnings = ()
+        if world.image is None:
+            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
+        else:
+            pixels = averaged(world.image, largest_texture(), largest_texture())
+            if pixels.shape != world.image.shape:
+                self.world_warnings = (
+                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
+                )
+            image = np.ones((*pixels.shape[:2], 4), np.float32)
+            image[..., :3] = pixels
+            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
@@ -294,7 +313,7 @@ class Lighting:
         self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
-        """Layers of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+        """Views of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
         records = np.zeros((DATA_RECORDS, 4))
         lamp_layers: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):

@@ -26,7 +26,7 @@ ALPHA = "LIGHTING_ALPHA"
 """Define of the shaders that light a scene with such casters"""
 ALPHA_RECORDS = 4
 SHADOW_ALPHA = Piece(samplers={"caster_alphas": "FLOAT_2D"}, defines={"ALPHA_RECORDS": ALPHA_RECORDS})
-"""What `shadow_alpha.glsl` needs"""
+"""What `light_through.glsl` needs"""
 ROW_TEXELS = 4 * TEXTURE_WIDTH
 """Alphas of an image in one row of the texture"""
 HASHED_SAMPLES, MOST_KEPT = 8, 16
@@ -73,12 +73,15 @@ class ShadowAlpha:
 
     @property
     def is_hashed(self) -> bool:
-        """Whether maps of one point differ in what is there by chance."""
-        return bool(self.hashed)
+        """Whether maps of one point differ, in what is there by chance: not so where thresholds decide."""
+        return any(
+            self._materials[index].alpha_threshold < 0.0 or np.mean(self._materials[index].transparent_tint) < 1.0
+            for index in self.hashed
+        )
 
     def repeated(self, places: Float64Array, count: int) -> Float64Array:
         """Points of a lamp (n, k), that of one without size as often as its maps differ in what they hold."""
-        if not self.hashed or len(places) > 1:
+        if not self.is_hashed or len(places) > 1:
             return places
         return np.repeat(places, count if count > MOST_KEPT else min(count, HASHED_SAMPLES), axis=0)
 
@@ -113,7 +116,7 @@ class ShadowAlpha:
 
     def _uploaded(self) -> Any:
         """Records of all materials, then the alphas of their images, each from a row of its own, four to a record (see
-        `shadow_alpha.glsl`)."""
+        `light_through.glsl`)."""
         records = np.zeros((padded_count(len(self._materials) * ALPHA_RECORDS), 4), np.float32)
         rows = [records.reshape(-1, ROW_TEXELS)]
         starts: dict[int, tuple[int, int, int]] = {}

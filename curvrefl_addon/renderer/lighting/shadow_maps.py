@@ -8,6 +8,7 @@ Where there are more views than layers some share one: it holds the view that wa
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -101,8 +102,8 @@ class ShadowMaps:
         self.layers: Sequence[int] = ()
         """Of the texture, by view"""
         self._size = (0, 0)
-        self._held: list[int] = []
-        """By layer its view, -1 for none"""
+        self._held: list[tuple[int, int]] = []
+        """By layer its view, -1 for none, and the visit"""
 
     def plan(self, views: list[ShadowView], resolution: int | None = None, layers: Sequence[int] | None = None) -> None:
         """Hold these views from now on, in a layer each or in these `layers`, numbered from 0."""
@@ -118,22 +119,29 @@ class ShadowMaps:
 
     def forget(self) -> None:
         """What casts has moved: all are drawn again when needed."""
-        self._held = [-1] * self._size[1]
+        self._held = [(-1, 0)] * self._size[1]
 
-    def draw(self, needed: Iterable[int], casters: ShadowCasters) -> None:
-        """Make sure that these views are there; restores the frame buffer and the state."""
-        missing = [index for index in needed if self._held[self.layers[index]] != index]
+    def draw(self, needed: Iterable[int], casters: ShadowCasters, visit: tuple[int, int] = (0, 1)) -> None:
+        """Make sure that these views are there; restores the frame buffer and the state.
+
+        `visit`: which of how many times each view is looked at; each time it holds something else of what is there by
+        chance.
+        """
+        number, count = visit
+        missing = [index for index in needed if self._held[self.layers[index]] != (index, number)]
         if not missing:
             return
         for index in missing:
             view, layer = self.views[index], self.layers[index]
+            if count > 1:
+                view = replace(view, turn=(view.turn[0] * count + number, count))
             target = frame_buffer(depth=layer_of(self.texture, layer))
             with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
                 set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)
                 casters.draw(view, (self._bias_texels, *_slope_limit(view)))
-            self._held[layer] = index
+            self._held[layer] = (index, number)
 
     def hold(self, views: Sequence[int], points: Float64Array) -> bool:
         """Whether all world points (n, 3) are inside of every one of these views."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 from math import pi, sqrt
 from typing import Any
 
+from ...scene.camera.view import View
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
@@ -26,18 +27,41 @@ from ..surfaces.windows import Window
 
 LEVELS = 7
 """Each half as large as the one before; the last one's texels are 64 pixels wide"""
-TAPS = 16
+TAPS = 24
 """Places whose mean a pixel shows"""
-WIDTH = 1.0
-"""Of the ellipse, in lobes"""
+WIDTH, WIDER = 0.7, 2.0
+"""Of the ellipse, in lobes: the first for sharp ones, as levels blur, too, and more by alpha, as slopes are no angles.
+Least error at roughness 0.1 to 0.6 against converged paths"""
 LARGEST_REACH = 0.25
 """Of an ellipse that holds half of a lobe, in heights of the picture"""
 LEAST_COSINE = 0.2
 """Lobes are no narrower across the plane of incidence"""
+PIXEL = 0.85
+"""Of every ellipse at least, in pixels: as wide as a filtered pixel"""
+PART_OF_NOW, MARGIN = 0.12, 0.25
+"""Of a frame; the rest is of those before it, as far as they are within the range of the pixels around and this much of
+the range beside it"""
 CREASE = 0.2
 """Normals turn so far, radians, without being another face's"""
 DARKEST_TINT = 1e-3
 _SEEN = ("seen_position", "seen_normal", "seen_color")
+
+
+class CalmHistory:
+    """What one viewport has shown last while it moves."""
+
+    def __init__(self) -> None:
+        self.view: View | None = None
+        """Of the last frame"""
+        self._canvases: list[Canvas] = []
+
+    def turn(self, width: int, height: int) -> tuple[Canvas, Canvas]:
+        """The last frame and the place of the next, of this size."""
+        if not self._canvases or self._canvases[0].texture.width != width or self._canvases[0].texture.height != height:
+            self._canvases = [Canvas.of_size(width, height) for _ in range(2)]
+            self.view = None
+        self._canvases.reverse()
+        return self._canvases[0], self._canvases[1]
 
 
 class CalmMirrors:
@@ -46,6 +70,7 @@ class CalmMirrors:
     def __init__(self, width: int, height: int) -> None:
         self.sharp = Canvas.of_size(width, height)
         """What mirrors show with sharp rays: draw to it what is to be blurred, with a weight of 1"""
+        self._blurred = Canvas.of_size(width, height)
         self._reach = empty_texture(width, height)
         self._reach_buffer = frame_buffer(self._reach)
         self._levels = []
@@ -72,10 +97,13 @@ class CalmMirrors:
         weight: float,
         seen: SurfaceBuffer,
         materials: Materials,
+        view: View,
         view_uniforms: Any,
         window: Window,
+        history: CalmHistory | None,
     ) -> None:
-        """Add the mirrors to a picture, rough ones blurred, times `weight`."""
+        """Add the mirrors to a picture, rough ones blurred, times `weight`. `history`: of the frames before; None for
+        sub-frames after a frame's first."""
         shader = _first_shader()
         level, target = self._levels[0]
         with target.bind():
@@ -95,16 +123,54 @@ class CalmMirrors:
                 shader.uniform_sampler("finer", finer)
                 full_screen_triangle().draw(shader)
         shader = _blur_shader()
-        with drawing_state(blend="ADDITIVE_PREMULT"), canvas.frame_buffer.bind(), scissored(window):
+        self._blurred.clear()
+        with drawing_state(), self._blurred.frame_buffer.bind(), scissored(window):
             set_viewport(0, 0, seen.width, seen.height)
             shader.bind()
             _bind(shader, seen, materials, view_uniforms)
-            shader.uniform_float("weight", weight)
             shader.uniform_sampler("sharp_picture", self.sharp.texture)
             shader.uniform_sampler("calm_reach", self._reach)
             for number, (level, _) in enumerate(self._levels):
                 shader.uniform_sampler(f"level_{number}", level)
             full_screen_triangle().draw(shader)
+        shown = self._blurred if history is None else self._resolved(history, seen, view, view_uniforms, window)
+        shader = _show_shader()
+        with drawing_state(blend="ADDITIVE_PREMULT"), canvas.frame_buffer.bind(), scissored(window):
+            set_viewport(0, 0, seen.width, seen.height)
+            shader.bind()
+            shader.uniform_float("weight", weight)
+            shader.uniform_sampler("calm_picture", shown.texture)
+            full_screen_triangle().draw(shader)
+
+    def _resolved(
+        self, history: CalmHistory, seen: SurfaceBuffer, view: View, view_uniforms: Any, window: Window
+    ) -> Canvas:
+        """With what was shown before."""
+        last, shown = history.turn(seen.width, seen.height)
+        shown.clear()
+        shader = _resolve_shader()
+        with drawing_state(), shown.frame_buffer.bind(), scissored(window):
+            set_viewport(0, 0, seen.width, seen.height)
+            shader.bind()
+            shader.uniform_block("view", view_uniforms)
+            shader.uniform_float("last_to_clip", _matrix(view if history.view is None else history.view))
+            for name, texture in (
+                ("seen_position", seen.position),
+                ("seen_color", seen.color),
+                ("calm_reach", self._reach),
+                ("blurred_picture", self._blurred.texture),
+                ("last_picture", self._blurred.texture if history.view is None else last.texture),
+            ):
+                shader.uniform_sampler(name, texture)
+            full_screen_triangle().draw(shader)
+        history.view = view
+        return shown
+
+
+def _matrix(view: View) -> Any:
+    from mathutils import Matrix
+
+    return Matrix(view.world_to_clip.tolist())
 
 
 def _bind(shader: Any, seen: SurfaceBuffer, materials: Materials, view_uniforms: Any) -> None:
@@ -127,8 +193,10 @@ def _reach_shader() -> Any:
             defines={
                 "SHARPEST_LOBE": SHARPEST_LOBE,
                 "WIDTH": WIDTH,
+                "WIDER": WIDER,
                 "LARGEST_REACH": LARGEST_REACH,
                 "LEAST_COSINE": LEAST_COSINE,
+                "PIXEL": PIXEL,
             },
             outputs={"reach": "VEC4"},
             fragment="calm/calm_reach.frag.glsl",
@@ -167,7 +235,6 @@ def _blur_shader() -> Any:
         *_OF_MIRRORS,
         Piece(
             samplers=named("FLOAT_2D", "sharp_picture", "calm_reach", *names),
-            constants={"weight": "FLOAT"},
             defines={
                 "LEVELS": LEVELS,
                 "TAPS": TAPS,
@@ -178,5 +245,35 @@ def _blur_shader() -> Any:
             },
             outputs={"color": "VEC4"},
             fragment="calm/calm_blur.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _resolve_shader() -> Any:
+    return build_shader(
+        "calm resolve",
+        FULL_SCREEN,
+        VIEW,
+        Piece(
+            samplers=named("FLOAT_2D", "seen_position", "seen_color", "calm_reach", "blurred_picture", "last_picture"),
+            constants={"last_to_clip": "MAT4"},
+            defines={"PART_OF_NOW": PART_OF_NOW, "MARGIN": MARGIN},
+            outputs={"color": "VEC4"},
+            fragment="calm/calm_resolve.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _show_shader() -> Any:
+    return build_shader(
+        "calm show",
+        FULL_SCREEN,
+        Piece(
+            samplers={"calm_picture": "FLOAT_2D"},
+            constants={"weight": "FLOAT"},
+            outputs={"color": "VEC4"},
+            fragment="calm/calm_show.frag.glsl",
         ),
     )

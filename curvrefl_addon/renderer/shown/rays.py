@@ -32,13 +32,13 @@ class ShownRays(Shown):
     @classmethod
     def add_light(cls, members: Sequence[Self], sub_frame: SubFrame, light: Light) -> None:
         stage = sub_frame.stage
-        if stage.tracer is not None and not light.is_calm:
+        if stage.tracer is not None and light.calm is None:
             _trace(stage.tracer, members, sub_frame, light)
             return
         bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
         first = next(bounces)
         seen, uniforms = sub_frame.targets.seen, sub_frame.uniforms
-        calm = sub_frame.targets.calm_mirrors() if light.is_calm else None
+        calm = None if light.calm is None else sub_frame.targets.calm_mirrors()
         if calm is not None:
             calm.begin(seen, first.path, stage.materials, uniforms, first.window)
         stage.shade.add(
@@ -56,7 +56,8 @@ class ShownRays(Shown):
             shown_apart=None if calm is None else calm.sharp,
         )
         if calm is not None:
-            calm.add(light.canvas, light.weight, seen, stage.materials, uniforms, first.window)
+            history = light.calm if sub_frame.index == 0 else None
+            calm.add(light.canvas, light.weight, seen, stage.materials, sub_frame.view, uniforms, first.window, history)
 
     @classmethod
     def read_back(cls, members: Sequence[Self], sub_frame: SubFrame) -> dict[str, Float32Array]:
@@ -95,6 +96,7 @@ def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame
         members[0].settings.bounces,
         light.chosen,
         sees_through,
+        _may_meet_another(members, sub_frame),
         shadows,
         light.film_transparent,
     )
@@ -130,14 +132,18 @@ def _shadows(members: Sequence[ShownRays], sub_frame: SubFrame) -> RayShadows | 
 
 def _most_bounces(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
     """Mirrors that a ray can meet one after the other."""
+    # (One more than are followed shows what shines by itself.)
+    return _followed(members, sub_frame) + 1 if _may_meet_another(members, sub_frame) else 1
+
+
+def _may_meet_another(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool:
+    """Whether a ray off a mirror may meet one."""
     mirrors = sub_frame.stage.mirrors
-    may_meet_another = (
+    return (
         len(mirrors) > 1
         or any(not mirror.facts.never_sees_itself for mirror in mirrors)
         or _enclosing(members, sub_frame) != IN_THE_OPEN
     )
-    # (One more than are followed shows what shines by itself.)
-    return _followed(members, sub_frame) + 1 if may_meet_another else 1
 
 
 def _followed(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:

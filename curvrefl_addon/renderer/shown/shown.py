@@ -23,6 +23,7 @@ from ..lighting.lighting import Lighting
 from ..mirrors.mirror import Mirror
 from ..rays.ray_scene import RayScene
 from ..settings import Settings
+from ..shading.calm import CalmHistory
 from ..shading.lookup import Environment
 from ..shading.shade import RayShadows, ShadePass
 from ..surfaces.canvas import Canvas
@@ -81,8 +82,8 @@ class Light:
     with_others: bool = True
     """The pixels that show no mirror are of this group too"""
     film_transparent: bool = False
-    is_calm: bool = False
-    """See `Reflection.is_calm`"""
+    calm: CalmHistory | None = None
+    """See `Reflection.calm`"""
 
 
 @dataclass(frozen=True)

@@ -42,11 +42,12 @@ class PathLight:
         scalars: Any,
         classes: Any,
         before: SurfaceBuffer | PathVertices | None = None,
+        classes_before: Any = None,
     ) -> None:
         """Add the light of one class of vertices, times `weight`.
 
-        `before`: the vertices from which paths came here, None where these are what the eye sees. Others as for
-        `step.follow`.
+        `before`, `classes_before`: the vertices from which paths came here and their classes, None where these are what
+        the eye sees. Others as for `step.follow`.
         """
         shader, rays = self._shader(kind, before is not None)
         target = canvas.with_depth(classes)
@@ -62,6 +63,8 @@ class PathLight:
             if before is not None:
                 assert isinstance(vertices, PathVertices)
                 shader.uniform_sampler("before_position", before.position)
+                if kind is PathClass.STOPS:
+                    shader.uniform_sampler("classes_before", classes_before)
                 shader.uniform_sampler("path_way", vertices.way)
                 shader.uniform_sampler("path_throughput", vertices.throughput)
             self.lighting.bind(shader)
@@ -110,6 +113,7 @@ def _light_shader(
         VIEW,
         *vertex_pieces(features),
         *((way,) if on_path else ()),
+        *((Piece(samplers={"classes_before": "DEPTH_2D"}),) if kind is PathClass.STOPS else ()),
         *lighting_pieces(lighting_features),
         Piece(
             constants={"weight": "FLOAT"},

@@ -86,11 +86,12 @@ class PathTracer:
         bounces: int,
         chosen: Any = None,
         sees_through: bool = True,
+        meets_mirrors: bool = True,
         shadows: RayShadows | None = None,
         film_transparent: bool = False,
     ) -> None:
         """Add the light of one sample of the paths that begin in `window` at mirrors and, if it `sees_through` them, at
-        other surfaces that do not stop the light, times `weight`.
+        other surfaces that do not stop the light, times `weight`. `meets_mirrors`: rays off mirrors may meet mirrors.
 
         `chosen`: record texture by mirrors' numbers, 1 of those whose paths are followed; None is all. `sub_frame`:
         number of the sample.
@@ -121,16 +122,18 @@ class PathTracer:
             found = arriving
         strength = weight if arriving is None else 1.0
         before: SurfaceBuffer | PathVertices = seen
-        for step in range(1, limits.most_steps + 1):
+        # (Without anything that goes on behind the first surface one step is all.)
+        last = limits.most_steps if meets_mirrors or self._sees_through else 1
+        for step in range(1, last + 1):
             met = vertices[place_of(step)]
             follow(around, before, scalars, classes.depth(step - 1), met, limits, sub_frame, step)
             classes.sort_met(step, met, window)
             scalars = met.scalars
             kinds = [PathClass.MISSES, PathClass.STOPS]
-            if step < limits.most_steps and (self._has_base or light.lights_samples or light.has_bodies):
+            if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
-                light.add(found, strength, kind, met, scalars, classes.depth(step), before)
+                light.add(found, strength, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1))
             before = met
         if arriving is not None:
             add_shared(around, canvas, weight, seen, seen_scalars, classes.depth(0), vertices[1], arriving)

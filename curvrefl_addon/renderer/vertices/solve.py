@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...optics.catalog import SOLVERS, Method
-from ...optics.snell import LARGEST_INDEX, SMALLEST_INDEX
+from ...optics.snell import index_in_range
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
 from ...optics.surfaces.curvature_regions import SEEDS, Regions
@@ -260,7 +260,7 @@ def _solver_block(view: View, reflector: Reflector, count: int, steps: int, tole
     block["search_start"] = reflector.start
     block["focal_pixels"], block["tolerance"] = view.focal_pixels, tolerance
     block["bound"], block["side"], block["is_convex"] = reflector.bound, reflector.side, reflector.is_convex
-    block["index"] = np.clip(reflector.index, SMALLEST_INDEX, LARGEST_INDEX)
+    block["index"] = index_in_range(reflector.index)
     block["steps"], block["newton_steps"] = steps, NEWTON_STEPS
     return block
 

@@ -156,6 +156,8 @@ class MaterialReader:
         if surface.relief is not None:
             found, arrays = self._with_relief(found, arrays, surface.relief, notes.always)
         arrays = usable_material(arrays, notes.always)
+        if arrays.alpha < 1.0 and not surface.is_hidden and not material.use_transparent_shadow:
+            notes.always.append("Shadows {of} let light through, though its settings turn that off.")
         found = replace(
             found, is_seen_through=arrays.is_seen_through, lacks_scalars=bool(surface.textures) and not is_fine
         )

@@ -92,7 +92,7 @@ class Oracle:
         here_eyes, here = eyes[rows], vertices[rows]
         length = self._lengths(here_eyes, here, at.position)
         order = np.lexsort((length, rows))
-        rows, u, length, here_eyes, here = (part[order] for part in (rows, u, length, here_eyes, here))
+        rows, u, length, here_eyes, here = rows[order], u[order], length[order], here_eyes[order], here[order]
         at = sample(self.surface, u)
         return ReflectionPoints(
             rows,

@@ -31,6 +31,8 @@ REFRACTION_REGIMES = (
 CANDIDATES = 16
 """Lines of sight that are tried for each case asked for"""
 
+SHORTEST = 0.05
+
 
 def make_refraction_cases(study: Study, regime: str, count: int, seed: int = 0) -> Cases:
     """Up to `count` vertices of a regime; none where the surface has none."""
@@ -50,7 +52,7 @@ def make_refraction_cases(study: Study, regime: str, count: int, seed: int = 0) 
         return Cases(eye, vertices, np.full(vertices.shape, np.nan))
     point, ray, cosine = _rays(study, eye, u)
     kept = (cosine > 1e-3) & np.isfinite(ray[:, 0])
-    kept[kept] = oracle.is_free(point[kept], np.broadcast_to(eye, (np.count_nonzero(kept), 4)))
+    kept[kept] = oracle.is_free(point[kept], np.tile(eye, (int(kept.sum()), 1)))
     chord = _chord(study, point, ray)
     distance = chord * random.uniform(0.05, 0.95, len(u))
     if regime == "inside":
@@ -86,10 +88,10 @@ def _rays(study: Study, eye: Float64Array, u: Float64Array) -> tuple[Float64Arra
 
 
 def _chord(study: Study, point: Float64Array, ray: Float64Array) -> Float64Array:
-    """(n,) how far rays (n, 3) from points (n, 3) stay inside of a ball as large as the surface is there; 0 for an eye
-    inside, whose rays leave."""
+    """(n,) about how far rays (n, 3) from points (n, 3) stay inside: as in a ball about the star center, but no less
+    than SHORTEST; 0 for an eye inside, whose rays leave."""
     along = -2.0 * np.einsum("ij,ij->i", point, np.nan_to_num(ray))
-    return np.maximum(along, 0.0) if study.side > 0.0 else np.zeros(len(point))
+    return np.maximum(along, SHORTEST) if study.side > 0.0 else np.zeros(len(point))
 
 
 def _focal(

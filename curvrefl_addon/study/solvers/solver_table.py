@@ -29,7 +29,7 @@ from .oracle import Oracle
 from .refraction_cases import REFRACTION_REGIMES, make_refraction_cases
 from .regimes import MESH_VERTICES, REGIMES, Cases, make_cases, mesh_cases
 from .study_reflector import StudyReflector
-from .study_surfaces import GLASS_STUDIES, STUDIES
+from .study_surfaces import ALL_STUDIES
 
 WIDTH, HEIGHT, FIELD_OF_VIEW = 640, 480, np.radians(40.0)
 OFF = 0.5
@@ -39,8 +39,6 @@ TIMED_REPEATS, TIMED_SECONDS = 3, 0.5
 """A solve is timed again while it has taken less"""
 FAR_AWAY = 1e6
 """Radii: where environment maps take things to be"""
-
-ALL_STUDIES = STUDIES | GLASS_STUDIES
 
 type Progress = Callable[[str], None]
 

@@ -205,3 +205,5 @@ GLASS_STUDIES: dict[str, Study] = {
     "glass from inside": Study(Ellipsoid(1.0, 0.8, 0.6), (0.2, -0.25, 0.15), side=-1.0, index=1.0 / 1.5),
 }
 """Surfaces of glass, for methods that refract"""
+
+ALL_STUDIES = STUDIES | GLASS_STUDIES

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...optics import status
-from ...optics.catalog import METHODS, Method
+from ...optics.catalog import SOLVERS, Method
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution
 from ...scene.arrays import LARGEST_COORDINATE
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import StudyReflector
-from ..solvers.study_surfaces import STUDIES
+from ..solvers.study_surfaces import ALL_STUDIES
 
 BATCH = 1 << 14
 SPECIAL = np.array(
@@ -58,12 +58,31 @@ class Fuzz:
 
 def fuzz(
     triples: int,
-    reflectors: Sequence[str] = tuple(STUDIES),
+    reflectors: Sequence[str] = tuple(ALL_STUDIES),
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> list[Fuzz]:
-    """At least `triples` random eyes, vertices and reflectors, the same for every method that solves vertices."""
-    methods = {name: entry for name, entry in METHODS.items() if entry.solves_vertices}
+    """At least `triples` random eyes, vertices and reflectors, the same for every method that solves vertices, and as
+    many for those that refract with surfaces of glass.
+    """
+    found = []
+    for refracts in (False, True):
+        methods = {
+            name: entry for name, entry in SOLVERS.items() if entry.solves_vertices and entry.refracts == refracts
+        }
+        own = [name for name in reflectors if ALL_STUDIES[name].refracts == refracts]
+        if own:
+            found += _fuzz_with(methods, own, triples, seed, progress)
+    return found
+
+
+def _fuzz_with(
+    methods: dict[str, Method],
+    reflectors: Sequence[str],
+    triples: int,
+    seed: int,
+    progress: Callable[[str], None],
+) -> list[Fuzz]:
     counts = {method: np.zeros(8, np.int64) for method in methods}
     batches = max(-(-triples // BATCH), 1)
     for first, name in enumerate(reflectors):
@@ -71,13 +90,16 @@ def fuzz(
         if not numbers:
             break
         progress(f"Fuzzing the {name}: {len(numbers) * BATCH} eyes and vertices for each of {len(methods)} methods")
-        reflector = StudyReflector(STUDIES[name])
+        study = ALL_STUDIES[name]
+        reflector, bound = StudyReflector(study), study.surface.bound
         for number in numbers:
-            eye, vertices = _random(np.random.default_rng([seed, number]), STUDIES[name].surface.bound)
+            eye, vertices = _random(np.random.default_rng([seed, number]), bound)
+            if study.refracts and study.side < 0.0:
+                eye[:3] = study.eye
             view = study_view(eye)
             for method, entry in methods.items():
                 solution = reflector.solve(method, view, Settings(method=method), vertices)
-                counts[method] += _counts(solution, vertices, STUDIES[name].surface.bound, entry)
+                counts[method] += _counts(solution, vertices, bound, entry)
     return [Fuzz(method, *(int(number) for number in counts[method])) for method in methods]
 
 

@@ -10,15 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...optics import status
-from ...optics.catalog import METHODS
+from ...optics.catalog import SOLVERS
 from ...optics.surfaces.radial_surfaces import Float64Array
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution
 from ..solvers.oracle import Oracle
+from ..solvers.refraction_cases import make_refraction_cases
 from ..solvers.regimes import MESH_VERTICES, make_cases, mesh_cases
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import StudyReflector
-from ..solvers.study_surfaces import STUDIES
+from ..solvers.study_surfaces import ALL_STUDIES
 
 FRAMES = 16
 STEP = np.radians(0.25)
@@ -51,19 +52,20 @@ class Motion:
 def measure_motion(
     reflectors: Sequence[str], count: int, progress: Callable[[str], None] = lambda _: None
 ) -> list[Motion]:
-    """All methods that solve vertices, on a path of the eye around the reflector and one of the vertices."""
+    """All methods that solve vertices of such a reflector, on a path of the eye around it and one of the vertices."""
     found = []
     for name in reflectors:
-        study = STUDIES[name]
+        study = ALL_STUDIES[name]
         meshes = max(count // MESH_VERTICES, 1)
-        cases = mesh_cases(make_cases(study, "near", meshes), meshes)
+        near = make_refraction_cases(study, "inside", meshes) if study.refracts else make_cases(study, "near", meshes)
+        cases = mesh_cases(near, meshes)
         reflector, oracle = StudyReflector(study), study.oracle()
         for path in ("eye", "objects"):
             progress(f"Following a slow path of the {path} at the {name}: {FRAMES} frames")
             eyes, vertices = _path(path, cases.eye, cases.vertices)
             truth = _true_pixels(oracle, eyes, vertices)
-            for method, entry in METHODS.items():
-                if entry.solves_vertices:
+            for method, entry in SOLVERS.items():
+                if entry.solves_vertices and entry.refracts == study.refracts:
                     found.append(_follow(reflector, name, path, method, eyes, vertices, truth))
     return found
 

@@ -28,7 +28,7 @@ from .page import stability_page
 from .pictures import draw_trial
 from .scenes import trials
 
-MOVING = ("sphere", "ellipsoid", "bumpy", "saddle")
+MOVING = ("sphere", "ellipsoid", "bumpy", "saddle", "glass sphere", "bumpy glass")
 MOTION_VERTICES = 2000
 
 type Progress = Callable[[str], None]

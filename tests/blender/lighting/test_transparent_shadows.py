@@ -23,7 +23,7 @@ from lighting.harness import our_picture
 from lighting.stage import Body, Stage, box, lamp, plane, scene_arrays
 
 pytestmark = pytest.mark.usefixtures("gpu")
-UNDER = {"eye": (0.0, -0.02, 0.9), "width": 1.0, "pixels": 40}
+UNDER = {"eye": (0.0, -0.02, 0.9), "width": 1.0, "pixels": 24}
 """A floor from under what hangs 1 m above it"""
 SUN = lamp("SUN", (2.0, 2.0, 2.0), (0.0, 0.0, 4.0))
 UV = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -48,12 +48,12 @@ def share_lit(bodies: list[Body], light: LightArrays = SUN, world: WorldArrays |
     return our_picture(stage)[0] / our_picture(bare)[0]
 
 
-@pytest.mark.parametrize("alphas", [(0.5,), (0.3,), (0.5, 0.5), (0.3, 0.6, 0.2)], ids=str)
+@pytest.mark.parametrize("alphas", [(0.3,), (0.3, 0.6, 0.2)], ids=str)
 @pytest.mark.parametrize("angle", [0.0, 0.1], ids=["hard", "soft"])
 def test_each_surface_lets_its_share_of_a_lamp_through(alphas: tuple[float, ...], angle: float) -> None:
     light = share_lit(panes(*alphas), replace(SUN, angle=angle))
     through = float(np.prod(1.0 - np.array(alphas)))
-    assert light.mean() == pytest.approx(through, abs=0.01)
+    assert light.mean() == pytest.approx(through, abs=0.015)
     # What each place has, whatever falls on it by chance.
     assert np.abs(light - through).std() < 0.1
 
@@ -66,6 +66,19 @@ def test_both_sides_of_a_thin_pane_count() -> None:
 def test_the_world_is_let_through_as_well() -> None:
     wide = plane(400.0, 1.0, material=seen_through(alpha=0.4))
     assert share_lit([plane(20.0), wide], world=WorldArrays((0.7, 0.7, 0.7))).mean() == pytest.approx(0.6, rel=0.03)
+
+
+def test_more_sub_frames_leave_less_of_the_chance() -> None:
+    """Of lamps, whose maps differ then, and of the world, whose directions are looked at again."""
+    wide = plane(400.0, 1.0, material=seen_through(alpha=0.4))
+    stages = {
+        "soft lamp": Stage([plane(20.0), wide], [replace(SUN, angle=0.1)], **UNDER | {"pixels": 16}),
+        "world": Stage([plane(20.0), wide], [], WorldArrays((0.7, 0.7, 0.7)), **UNDER | {"pixels": 16}),
+    }
+    for name, stage in stages.items():
+        few, many = (our_picture(stage, count)[0] for count in (16, 64))
+        assert few.mean() == pytest.approx(many.mean(), rel=0.03), name
+        assert many.std() < 0.6 * few.std(), name
 
 
 @pytest.mark.parametrize(

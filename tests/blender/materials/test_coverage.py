@@ -110,6 +110,40 @@ def test_full_transparency_is_no_surface() -> None:
     assert [instance.object_name for instance in extracted().instances] == ["floor"]
 
 
+def test_opaque_shadows_of_what_is_transparent_are_said() -> None:
+    square = add_square("square", 1.0)
+    tree, _ = new_material(square, "ShaderNodeEmission")
+    tree.links.new(principled(tree, 0.5), tree.nodes["Material Output"].inputs["Surface"])
+    square.data.materials[0].use_transparent_shadow = False
+    said = 'Shadows of material "square" let light through, though its settings turn that off.'
+    assert extracted().warnings == (said,)
+
+
+def test_diffuse_surfaces_are_mixed_by_images() -> None:
+    tree, _ = new_material(add_square("square", 1.0), "ShaderNodeEmission")
+    both = [node(tree, "ShaderNodeBsdfDiffuse", {"Color": color}).outputs[0] for color in (COLOR, OTHER)]
+    shader = mixed(tree, alpha_of(tree), *both)
+    tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
+    scene = extracted()
+    material = material_of(scene, "square")
+    assert material.base_color == (1.0, 1.0, 1.0) and material.specular_level == 0.0 and not scene.warnings
+    share = pixels_of(bpy.data.images["leaf"])[..., 3:]
+    expected = (1.0 - share) * np.array(COLOR[:3]) + share * np.array(OTHER[:3])
+    height, width = expected.shape[:2]
+    found = scene.images[material.image].pixels[..., :3]
+    factor = found.shape[0] // height
+    middles = slice(factor // 2, None, factor)
+    assert width * factor == found.shape[1]
+    np.testing.assert_allclose(found[middles, middles], expected, atol=5e-3)
+
+
+def pixels_of(image: bpy.types.Image) -> Float32Array:
+    """(h, w, 4)"""
+    values = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(image.size[1], image.size[0], 4)
+
+
 def leaf_image(float_buffer: bool = False) -> bpy.types.Image:
     """16 x 16 pixels of smooth alpha, without color."""
     y, x = np.mgrid[0:16, 0:16] / 15.0

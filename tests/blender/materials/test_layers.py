@@ -129,6 +129,14 @@ def test_other_distributions_are_said_where_they_matter(kind: str) -> None:
         assert (about_ggx in extracted(cube).warnings) == said
 
 
+def test_facets_that_lose_light_are_said() -> None:
+    for distribution, roughness, said in (("GGX", 0.25, 0), ("GGX", 0.5, 1), ("MULTI_GGX", 0.5, 0)):
+        empty_scene()
+        cube, _, _ = cube_of("ShaderNodeBsdfPrincipled", {"distribution": distribution}, Metallic=1.0)
+        cube.data.materials[0].node_tree.nodes[0].inputs["Roughness"].default_value = roughness
+        assert sum("Multiscatter GGX" in warning for warning in extracted(cube).warnings) == said
+
+
 BAD: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "negative roughness": ("Principled", {"Roughness": -0.5}, {"roughness": 0.0}),
     "large roughness": ("Glass", {"Roughness": 3.0}, {"roughness": 1.0}),

@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 import pytest
-from curvrefl.curvrefl_addon.optics.catalog import METHODS
+from curvrefl.curvrefl_addon.optics.catalog import SOLVERS
 from curvrefl.curvrefl_addon.study.solvers.solver_table import Row, solver_table
+from curvrefl.curvrefl_addon.study.solvers.study_surfaces import STUDIES
 from curvrefl.curvrefl_addon.study.stability.fuzz import fuzz
 from curvrefl.curvrefl_addon.study.stability.motion import measure_motion
 
@@ -104,11 +105,19 @@ def test_environments_are_right_far_away_and_wrong_nearby(rows: dict[tuple[str, 
 
 
 def test_any_input_ends_with_a_code() -> None:
-    results = fuzz(100_000)
-    assert {item.method for item in results} == {name for name, entry in METHODS.items() if entry.solves_vertices}
+    results = fuzz(100_000, tuple(STUDIES)) + fuzz(20_000, ("bumpy glass", "glass from inside"))
+    assert {item.method for item in results} == {name for name, entry in SOLVERS.items() if entry.solves_vertices}
     for item in results:
         assert (item.not_finite, item.wild, item.without_code) == (0, 0, 0), item.method
         assert item.invalid > 0 and item.reflected > 0 and item.hidden > 0
+
+
+def test_refractions_move_steadily() -> None:
+    for item in measure_motion(("glass sphere",), 240):
+        assert item.method == "newton_refraction"
+        assert item.identical_at_rest
+        assert item.jitter_p99_px < 0.1
+        assert item.iterations_later < 1.5
 
 
 def test_reflections_move_steadily() -> None:
@@ -127,3 +136,31 @@ def test_reflections_move_steadily() -> None:
         # A search from texel to texel cannot be steadier than its texels, and starts where it ended.
         assert found[path, "bisector_screen"].jitter_p99_px < 8.0
         assert found[path, "bisector_screen"].iterations_later < 0.2 * found[path, "bisector_screen"].iterations_first
+
+
+@pytest.fixture(scope="module")
+def glass_rows() -> dict[tuple[str, str], Row]:
+    table, refusals = solver_table(
+        120,
+        ("glass sphere", "bumpy glass"),
+        ("inside", "behind", "far", "contact", "hidden"),
+        timed=False,
+        only_defaults=True,
+    )
+    assert not refusals
+    # No method for mirrors is judged by glass.
+    assert {row.method for row in table} == {"newton_refraction"}
+    return {(row.reflector, row.regime): row for row in table}
+
+
+@pytest.mark.parametrize("surface", ["glass sphere", "bumpy glass"])
+def test_newton_through_glass(glass_rows: dict[tuple[str, str], Row], surface: str) -> None:
+    here = [glass_rows[surface, regime] for regime in ("inside", "behind", "far", "contact")]
+    assert max(row.error_p95_px for row in here) < 0.15
+    assert max(row.off for row in here) <= 0.02
+    assert max(row.misclassified + row.unconverged for row in here) <= 0.02
+    mean = sum(row.iterations_mean for row in here) / len(here)
+    assert mean < {"glass sphere": 1.8, "bumpy glass": 4.5}[surface]
+    hidden = glass_rows[surface, "hidden"]
+    assert hidden.misclassified == 0.0
+    assert hidden.unconverged <= 0.1

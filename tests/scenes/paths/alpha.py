@@ -13,7 +13,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.demo.data_blocks import add_object
 from curvrefl.curvrefl_addon.demo.shapes import plane
 
-from ..awkward.stage import find, joined, matte, node, output_of, picture, principled_node
+from ..awkward.stage import find, joined, matte, node, picture, principled_node
 from .metals import LIMITS
 from .registry import OBJECT, add_scene, path_scene
 from .stage import clear, metal, of_principled, put_ball, put_box, room
@@ -193,20 +193,18 @@ def unseen_in_mirror() -> None:
 
 
 def emitting_leaves() -> None:
-    """Leaves by clip whose color is their light, about a sharp mirror: one sample without noise tells them apart."""
+    """Leaves by clip about a sharp mirror, all of one light each: a sample without noise tells what it has met."""
     leaves(clipped_leaf)
-    bpy.data.objects.remove(find("Area"))
-    for material in list(bpy.data.materials):
+    for name in ("Area", "Sun"):
+        bpy.data.objects.remove(find(name))
+    materials = [material for material in bpy.data.materials if material.name != "Metal"]
+    for number, material in enumerate(materials):
         tree: Any = material.node_tree
         shader = principled_node(material)
-        if material.name == "Metal":
-            continue
         color = shader.inputs["Base Color"]
-        shader.inputs["Emission Strength"].default_value = 1.0
-        shader.inputs["Emission Color"].default_value = (
-            (0.1, 0.5, 0.1, 1.0) if material.name == "Leaf" else (0.2, 0.2, 0.9, 1.0)
-        )
         for link in list(color.links):
             tree.links.remove(link)
         color.default_value = (0.0, 0.0, 0.0, 1.0)
-        assert output_of(tree).inputs["Surface"].links
+        light = [0.2 + 0.6 * (number >> channel & 1) for channel in range(3)]
+        shader.inputs["Emission Color"].default_value = (*light, 1.0)
+        shader.inputs["Emission Strength"].default_value = 1.0

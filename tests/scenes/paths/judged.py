@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of scenes of paths by Cycles, kept in build/paths until a scene or Blender changes, and ours beside them."""
+"""Pictures of scenes of paths by Cycles, kept in build/paths for each state of a scene, and ours beside them."""
 
 from __future__ import annotations
 
@@ -119,12 +119,11 @@ def references(scene: PathScene) -> References:
             "mask": judged_pixels(scene.judged),
         }
         for samples in PEER_SAMPLES:
-            pictures[f"peer{samples}"] = shoot(samples, SEEDS[2])
-        for old in CACHE.glob(f"{scene.name}-????????????????.npz"):
-            old.unlink()
+            if samples <= scene.samples // 4:
+                pictures[f"peer{samples}"] = shoot(samples, SEEDS[2])
         np.savez_compressed(path, allow_pickle=False, **pictures)
     with np.load(path) as kept:
-        peers = {samples: kept[f"peer{samples}"] for samples in PEER_SAMPLES}
+        peers = {samples: kept[f"peer{samples}"] for samples in PEER_SAMPLES if f"peer{samples}" in kept}
         return References(kept["first"], kept["second"], peers, kept["mask"])
 
 

@@ -156,13 +156,14 @@ def put_wine_glass(material: bpy.types.Material, drink: bpy.types.Material | Non
     bowl = [point for point in outer if point[0] > 0.2]
     profile = [*foot, *bowl, *inner[::-1]]
     profile[-1] = (0.0, profile[-1][1])
-    add_object(name, turned_profile(profile, 96), material, smooth=True)
+    stand = (0.0, 0.0, 0.02)
+    add_object(name, turned_profile(profile, 96), material, smooth=True, location=stand)
     if drink is not None:
         half = [(0.77 * float(np.sin(a)), 1.35 - 0.715 * float(np.cos(a))) for a in angle if a < 0.5 * np.pi]
         half[0] = (0.0, half[0][1])
         level = half[-1][1]
         surface = [(half[-1][0] - 0.004, level + 0.002), (0.0, level + 0.002)]
-        thing = add_object("Drink", turned_profile([*half, *surface], 96), drink, smooth=True)
+        thing = add_object("Drink", turned_profile([*half, *surface], 96), drink, smooth=True, location=stand)
         thing.data.set_sharp_from_angle(angle=0.6)
 
 

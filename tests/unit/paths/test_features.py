@@ -20,7 +20,7 @@ from curvrefl.curvrefl_addon.renderer.paths.features import (
     path_features,
 )
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ScalarsArrays
-from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
+from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.renderer.paths.left_out import left_out_by, reasons_for_rays
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ReliefArrays, ScalarsArrays, SceneArrays
-from scenes.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
+from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
 
 SEE_IT = ": choose Automatic or Exact to see it."
 BUMPY = replace(CHROME, relief=ReliefArrays(0, is_bump=True))

@@ -3,18 +3,20 @@
 """Errors of paths at rough, glassy and leafy surfaces against Cycles, scene by scene, beside the numbers wanted.
 
     .venv/bin/python tools/measure/paths/measure_paths.py [NAME ..] [--sub-frames 16,64] [--keep DIR]
-        [--references-only]
+        [--references-only] [--quick]
 
 A name may be a topic: metals, layers, glass, alpha, furnace. A scene's row: FLIP over what is judged at each number of
 sub-frames; the same of Cycles with as many samples; the references' own noise, which counts where it is above a
 quarter of what is measured; the largest relative error of the mean color over the three channels at the most
-sub-frames, and Cycles' between its two seeds. `--keep` writes ours, Cycles and the error of each scene side by side.
+sub-frames, and Cycles' between its two seeds. `--quick`: references of 64 samples, to find what is wrong, not how far
+off it is. `--keep` writes ours, Cycles and the error of each scene side by side.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -36,6 +38,7 @@ from scenes.paths import SCENES, TOPICS, PathScene  # noqa: E402
 from scenes.paths.furnace import FURNACE_WORLD, ROUGHNESSES, ball_name  # noqa: E402
 from scenes.paths.judged import References, judged_pixels, open_scene, references  # noqa: E402
 
+QUICK_SAMPLES = 64
 MEAN_LIMIT = 0.01
 FURNACE_LIMIT = 0.005
 
@@ -132,12 +135,15 @@ def main() -> None:
     parser.add_argument("--sub-frames", default="16,64")
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--references-only", action="store_true", help="render what Cycles has to, and no more")
+    parser.add_argument("--quick", action="store_true", help="noisy references")
     arguments = parser.parse_args()
     numbers = [int(number) for number in arguments.sub_frames.split(",")]
     if not arguments.references_only:
         print("| scene | FLIP | limits | Cycles 16 / 64 | noise | mean color | Cycles' seeds | | warnings |")
         print("|---|---|---|---|---|---|---|---|---|")
     for scene in chosen(arguments.names):
+        if arguments.quick:
+            scene = replace(scene, samples=min(scene.samples, QUICK_SAMPLES))
         print(measure(scene, numbers, arguments.keep, arguments.references_only), flush=True)
 
 

@@ -21,6 +21,8 @@ LARGEST_ANISOTROPY = 0.99
 """Of a Glossy BSDF"""
 SMOOTH = 0.05
 """Roughness up to which the distributions of facets look alike"""
+DARKENS = 0.3
+"""Roughness from which on GGX loses more than 1 % of the light between its facets, where Multiscatter GGX loses none"""
 THINNEST_FILM = 0.1
 """Nanometers; Cycles leaves out thinner ones"""
 _IGNORED = ("Subsurface Weight", "Sheen Weight", "Diffuse Roughness")
@@ -143,6 +145,8 @@ def _distributed(surface: Surface, source: Source, inputs: Inputs) -> Surface:
     is_rough = surface.rest.roughness > SMOOTH or "roughness" in surface.textures
     if is_rough and node.distribution in ("BECKMANN", "ASHIKHMIN_SHIRLEY"):
         inputs.notes.on_paths.append("Roughness {of} is drawn by the distribution GGX, not by its own.")
+    elif surface.rest.roughness > DARKENS and node.distribution == "GGX" and node.type != "BSDF_REFRACTION":
+        inputs.notes.on_paths.append("Roughness {of} is drawn by the distribution Multiscatter GGX, which is brighter.")
     return surface
 
 
