@@ -120,16 +120,7 @@ class PathTracer:
         sample = (sub_frame, self._lighting.sub_frames)
         for step in range(1, last + 1):
             met = vertices[place_of(step)]
-            follow(
-                around,
-                before,
-                scalars,
-                classes.depth(step - 1),
-                met,
-                limits,
-                (sub_frame, self._lighting.sub_frames),
-                step,
-            )
+            follow(around, before, scalars, classes.depth(step - 1), met, limits, sample, step)
             classes.sort_met(step, met, window)
             scalars = met.scalars
             kinds = [PathClass.MISSES, PathClass.STOPS]
