@@ -56,7 +56,9 @@ void main()
     float u = (float(k) + 0.5) / float(TAPS);
     float slope2 = u / (1.0 - u);
     float turn = GOLDEN_ANGLE * float(k);
-    vec2 place = gl_FragCoord.xy + root * (sqrt(slope2) * vec2(cos(turn), sin(turn)));
+    vec2 toward = vec2(cos(turn), sin(turn));
+    // (And those of a pixel's filter, a Gaussian.)
+    vec2 place = gl_FragCoord.xy + root * (sqrt(slope2) * toward) + PIXEL * sqrt(-2.0 * log(1.0 - u)) * toward;
     if (all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, size))) {
       ivec2 other = ivec2(place);
       float alike = 1.0;
@@ -66,7 +68,7 @@ void main()
         alike = clamp(2.0 - turned / wide, 0.0, 1.0);
       }
       // (The density of places is that of the slopes.)
-      float spacing = extent * (1.0 + slope2) * SPACING;
+      float spacing = (extent * (1.0 + slope2) + PIXEL) * SPACING;
       float level = clamp(log2(max(spacing, 1e-6)), 0.0, float(LEVELS - 1));
       float finer = min(floor(level), float(LEVELS - 2));
       sum += alike * mix(at_level(int(finer), place, number), at_level(int(finer) + 1, place, number), level - finer);

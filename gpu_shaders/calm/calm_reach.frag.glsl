@@ -87,8 +87,6 @@ void main()
   float xx = scale * (cosine2 * dot(row_x, row_x) + n_x * n_x);
   float xy = scale * (cosine2 * dot(row_x, row_y) + n_x * n_y);
   float yy = scale * (cosine2 * dot(row_y, row_y) + n_y * n_y);
-  xx += PIXEL * PIXEL;
-  yy += PIXEL * PIXEL;
   // Its root, no longer than the picture allows.
   float middle = 0.5 * (xx + yy);
   float half_gap = sqrt(max(0.25 * (xx - yy) * (xx - yy) + xy * xy, 0.0));

@@ -155,14 +155,20 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     }
 #endif
     float cos_light = dot(s.normal, to_light);
-    if (cos_light > 0.0 && irradiance != vec3(0.0)) {
+    bool is_lit = cos_light > 0.0;
+#if defined(PATH_LOBES) && defined(PATHS_GLASS)
+    // (Rough lobes that let light through are lit from behind.)
+    is_lit = true;
+    s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
+#endif
+    if (is_lit && irradiance != vec3(0.0)) {
 #ifdef RAY_SHADOWS
       // (Without a kind it casts no shadow, or nothing could be in it.)
       irradiance *= int(lighting_data[base + 6].w) == 0 ? LIT(1.0) : lit_by_ray(s, to_light, range);
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif
-      vec3 scattered = lobes.diffuse * (cos_light / LIGHTING_PI);
+      vec3 scattered = lobes.diffuse * (max(cos_light, 0.0) / LIGHTING_PI);
 #ifdef LIGHTING_PARTS
       scattered *= lighting_data[base + 11].y;
 #endif
@@ -187,6 +193,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
       sum += scattered * irradiance;
     }
+#if defined(PATH_LOBES) && defined(PATHS_GLASS)
+    s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
+#endif
     i++;
   } while (i < count);
 #endif

@@ -54,13 +54,6 @@ void main()
   state.ends = state.reflected > limits.x || state.transmitted > limits.y || state.passed > limits.z ||
                state.reflected + state.transmitted > limits.w;
   vec3 weight = next.kind == SCATTER_ENDS ? vec3(0.0) : next.weight;
-  // (What scatters to the other side is not lit by samples of lamps: rays have to meet them.)
-  float density = next.kind == SCATTER_TRANSMITS ? 0.0 : next.pdf;
-#if defined(SHARES) && !defined(ON_PATH)
-  // What the first surface makes of the light comes at the end.
-  state.is_shared = next.kind == SCATTER_REFLECTS && density > 0.0;
-  weight = state.is_shared && max(weight.r, max(weight.g, weight.b)) > 0.0 ? vec3(1.0) : weight;
-#endif
   vec3 throughput = before.rgb * weight;
   float media = way.w;
 #ifdef PATHS_ABSORPTION
@@ -68,9 +61,9 @@ void main()
     media = crossed(media, medium_of(v.index), !v.facing.is_back);
   }
 #endif
-  way_out = pack_way(next.direction, density, media);
+  way_out = pack_way(next.direction, next.pdf, media);
   bool is_alive = max(throughput.r, max(throughput.g, throughput.b)) > 0.0;
-  // Of the object that it leaves, if that is closed, it meets only sides that it can see from where it is.
+  // (See `walk`.)
   own_side = crosses == v.facing.is_back ? 1.0 : -1.0;
   int seen_by = state.kind == RAY_CAMERA ? SEEN_BY_CAMERA :
                 (state.kind == RAY_REFLECTED ? SEEN_IN_MIRRORS : SEEN_THROUGH_GLASS);

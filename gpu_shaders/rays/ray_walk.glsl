@@ -117,6 +117,10 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
   bool is_clear = false;
   walked_light = vec3(1.0);
 #endif
+#ifdef PATH_STEP
+  float near_end = 0.0;     // nearer than this only the side `near_facing` counts
+  float near_facing = 0.0;
+#endif
   float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
   // Where the walk is: link and count as in a node's record, or NOWHERE, or OVER.
   int link = 0;
@@ -193,7 +197,14 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         bool one_sided = is_own && (flags & IS_CLOSED) != 0;
         facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
 #ifdef PATH_STEP
-        facing *= own_side;
+        // Inside of it a path may meet what reaches into it, from both sides, but not where it has just come in: what is
+        // near has to be seen from inside.
+        near_end = 0.0;
+        if (one_sided && own_side < 0.0) {
+          near_end = nearest;
+          near_facing = -facing;
+          nearest = facing = 0.0;
+        }
 #endif
         instance = record;
         nodes = REGION_UNIT * int(regions.x);
@@ -222,6 +233,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         float range = dot(ac, q) * scale;
         // (Comparisons with what is not a number fail.)
         if (place.x >= -OVERLAP && place.y >= -OVERLAP && place.x + place.y <= 1.0 + OVERLAP && range > nearest &&
+#ifdef PATH_STEP
+            (range > near_end || determinant * near_facing >= 0.0) &&
+#endif
             range < hit.range && determinant * facing >= 0.0) {
 #ifdef LIGHT_THROUGH
           walked_light *= is_clear ? light_through_triangle(instance, triangle, place) : vec3(0.0);

@@ -29,17 +29,17 @@ LEVELS = 7
 """Each half as large as the one before; the last one's texels are 64 pixels wide"""
 TAPS = 24
 """Places whose mean a pixel shows"""
-WIDTH, WIDER = 0.7, 2.0
+WIDTH, WIDER = 0.6, 2.3
 """Of the ellipse, in lobes: the first for sharp ones, as levels blur, too, and more by alpha, as slopes are no angles.
 Least error at roughness 0.1 to 0.6 against converged paths"""
 LARGEST_REACH = 0.25
 """Of an ellipse that holds half of a lobe, in heights of the picture"""
 LEAST_COSINE = 0.2
 """Lobes are no narrower across the plane of incidence"""
-PIXEL = 0.85
-"""Of every ellipse at least, in pixels: as wide as a filtered pixel"""
-PART_OF_NOW, MARGIN = 0.12, 0.25
-"""Of a frame; the rest is of those before it, as far as they are within the range of the pixels around and this much of
+PIXEL = 0.5
+"""Standard deviation of a filter over all that, in pixels: a filtered pixel is not much narrower"""
+PART_OF_NOW, MARGIN = 0.12, 1.0
+"""Of a frame; the rest is of those before it, as far as they are within the range of the pixels around, or this much of
 the range beside it"""
 CREASE = 0.2
 """Normals turn so far, radians, without being another face's"""
@@ -196,7 +196,6 @@ def _reach_shader() -> Any:
                 "WIDER": WIDER,
                 "LARGEST_REACH": LARGEST_REACH,
                 "LEAST_COSINE": LEAST_COSINE,
-                "PIXEL": PIXEL,
             },
             outputs={"reach": "VEC4"},
             fragment="calm/calm_reach.frag.glsl",
@@ -238,6 +237,7 @@ def _blur_shader() -> Any:
             defines={
                 "LEVELS": LEVELS,
                 "TAPS": TAPS,
+                "PIXEL": PIXEL,
                 "SPACING": sqrt(pi / TAPS),
                 "GOLDEN_ANGLE": pi * (3.0 - sqrt(5.0)),
                 "CREASE": CREASE,

@@ -13,7 +13,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.ggx import GGX_DEFINES
-from ..paths.features import ABSORPTION, ANISOTROPY, ROUGH, SCALARS
+from ..paths.features import ABSORPTION, ANISOTROPY, SCALARS
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CLASS
@@ -154,7 +154,7 @@ def _look_up(around: Surroundings, met: PathVertices, target: Any, of_scalars: b
 @gpu_cache
 def _step_shader(features: frozenset[str], on_path: bool, with_images: bool) -> Any:
     outputs = {**(named("VEC4", "uv_out") if with_images else {}), **named("VEC4", "way_out", "throughput_out")}
-    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ()), *(("SHARES",) if ROUGH in features else ())]
+    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ())]
     way = Piece(samplers=named("FLOAT_2D", "path_way", "path_throughput"), defines=flags("ON_PATH"))
     return build_shader(
         "path step",

@@ -112,6 +112,7 @@ def test_alpha_of_an_image_is_looked_up_where_the_ray_passes() -> None:
 def test_the_world_gets_through_by_rays_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where its maps are said to be too coarse, in a still: of a sheet that hides nearly all of the sky."""
     monkeypatch.setattr(lighting, "are_too_coarse", lambda *_: True)
+    view = look_at(np.array([0.0, -5.5, 0.6]), np.zeros(3), 80, 60, 0.6)
     pictures = []
     for material in (replace(CLEAR, alpha=0.0), replace(CLEAR, alpha=0.4, transparent_tint=(1.0, 0.5, 0.25))):
         room = Room()
@@ -122,13 +123,13 @@ def test_the_world_gets_through_by_rays_as_well(monkeypatch: pytest.MonkeyPatch)
         instances = (*arrays.instances[:2], replace(arrays.instances[2], materials=(2,)))
         materials = (replace(arrays.materials[0], specular_level=0.0), arrays.materials[1], material)
         renderer = Renderer(
-            replace(arrays, instances=instances, materials=materials), Settings(method="exact", samples=16)
+            replace(arrays, instances=instances, materials=materials), Settings(method="exact", samples=8)
         )
-        frame = renderer.render(VIEW)
+        frame = renderer.render(view)
         on_floor = (frame.mask() > 0) & (frame.reflected_object() == 2)
         pictures.append(frame.color()[on_floor][:, :3])
         renderer.free()
-    assert on_floor.sum() > 300
+    assert on_floor.sum() > 80
     light = pictures[1].mean(axis=0) / pictures[0].mean(axis=0)
     # (Pixels at the floor's edge show some of the sky.)
-    assert light == pytest.approx(np.array([0.6, 0.3, 0.15]), abs=0.008)
+    assert light == pytest.approx(np.array([0.6, 0.3, 0.15]), abs=0.015)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import mesh_pieces
 from curvrefl.curvrefl_addon.renderer.lighting.ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
+from curvrefl.curvrefl_addon.renderer.lighting.lamp_views import plan_lamps
 from curvrefl.curvrefl_addon.renderer.lighting.lamps import lamp_points, lamp_records
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MeshArrays
@@ -173,3 +174,18 @@ def test_ggx_table_at_its_known_ends() -> None:
     assert np.allclose(table[:, -1, -1, 0], 1.0, atol=0.01)
     assert np.allclose(table[4:, -1, -1, 1], np.linspace(0.0, 1.0, TABLE_SIZE)[4:], atol=0.04)
     assert np.all(table[16, -1, :24, 0] > cosine[:24])
+
+
+def test_points_of_a_lamp_take_turns_with_its_maps() -> None:
+    """What a sub-frame needs is never drawn over by what it needs itself; sixteen sub-frames share nothing."""
+    extent = extent_of(*floor_and_box())
+    lights = [lamp("SUN", angle=0.2), lamp("POINT", radius=0.3), lamp("AREA", size=(1.0, 1.0))]
+    planned = plan_lamps(extent, lights, [lamp_points(light, 64, row) for row, light in enumerate(lights)], 16)
+    of_sub_frames = []
+    for number in range(64):
+        views = [view for places in planned.places for view in places[number][1] if view >= 0]
+        of_sub_frames.append([planned.layers[view] for view in views])
+        assert len(set(of_sub_frames[-1])) == len(of_sub_frames[-1]) >= 3
+    first = [layer for layers in of_sub_frames[:16] for layer in layers]
+    assert len(set(first)) == len(first)
+    assert max(planned.layers) + 1 < 2 * len(first)
