@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from .optics.catalog import SOLVERS, Method
+from .optics.catalog import Method, entry_of
 from .setting import Choice, Flag, setting, settings_in
 from .settings_choices import DIAGNOSTIC_CHOICES, ENVIRONMENT_CHOICES, FRESNEL_CHOICES, METHOD_CHOICES, MOTION_CHOICES
 
@@ -171,7 +171,7 @@ class Settings:
     @property
     def entry(self) -> Method:
         """Of the method, in the catalog."""
-        return SOLVERS[self.method]
+        return entry_of(self.method)
 
 
 @dataclass(frozen=True, slots=True)

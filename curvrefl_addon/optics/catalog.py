@@ -59,9 +59,35 @@ DEFAULT_COMPARED = ("auto", "exact", "secant_star", "environment_cube")
 """Put beside Cycles where no method is named"""
 
 
+REFRACTIONS: dict[str, Method] = {
+    "newton_refraction": Method(
+        "Newton through Glass",
+        "Newton on Fermat's principle with Snell's law; proposed by Roger & Holzschuch 2005 and 2006, section 5",
+        "every ray from the star center leaves the glass once; one image per vertex; light bends at one surface alone",
+        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
+        maps=("radial", "previous"),
+        steps=6,
+        stragglers="newton_refraction_stragglers",
+        refracts=True,
+    ),
+}
+"""Solvers for what glass shows through its surface; no picture is drawn by them"""
+
+
+def solvers() -> dict[str, Method]:
+    """The methods, and what else has a shader in `gpu_shaders/solvers`, by name."""
+    return METHODS | REFRACTIONS
+
+
+def entry_of(name: str) -> Method:
+    """Of a method or another solver. Raises KeyError for what is neither."""
+    return METHODS[name] if name in METHODS else REFRACTIONS[name]
+
+
 def label_of(name: str) -> str:
     """What a user reads for a method, or for what stands in its place."""
-    return SOLVERS[name].label if name in SOLVERS else name.capitalize()
+    found = solvers()
+    return found[name].label if name in found else name.capitalize()
 
 
 METHODS: dict[str, Method] = {
@@ -165,21 +191,3 @@ METHODS: dict[str, Method] = {
         ("environment_resolution", (64, 128, 256, 512)),
     ),
 }
-
-REFRACTIONS: dict[str, Method] = {
-    "newton_refraction": Method(
-        "Newton through Glass",
-        "Newton on Fermat's principle with Snell's law; proposed by Roger & Holzschuch 2005 and 2006, section 5",
-        "every ray from the star center leaves the glass once; one image per vertex; light bends at one surface alone",
-        ("pixel_tolerance", (4.0, 1.0, 0.5, 0.25)),
-        maps=("radial", "previous"),
-        steps=6,
-        stragglers="newton_refraction_stragglers",
-        refracts=True,
-        curves_edges=True,
-    ),
-}
-"""Solvers for what glass shows through its surface; no picture is drawn by them alone"""
-
-SOLVERS: dict[str, Method] = METHODS | REFRACTIONS
-"""All that has a shader in `gpu_shaders/solvers`, and the other methods"""

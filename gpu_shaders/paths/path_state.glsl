@@ -15,7 +15,6 @@ struct PathState {
   int reflected;    // how often it was reflected, went through an interface, went straight on
   int transmitted;
   int passed;
-  bool is_shared;   // its first way is one that other pixels may take as well (reuse.frag.glsl)
 };
 
 PathState unpack_state(float packed_state)
@@ -27,14 +26,13 @@ PathState unpack_state(float packed_state)
   state.reflected = (bits >> 3) & STATE_MOST;
   state.transmitted = (bits >> 9) & STATE_MOST;
   state.passed = (bits >> 15) & STATE_MOST;
-  state.is_shared = (bits & (1 << 21)) != 0;
   return state;
 }
 
 float pack_state(PathState state)
 {
   return float(state.kind + (state.ends ? 4 : 0) + (min(state.reflected, STATE_MOST) << 3) +
-               (min(state.transmitted, STATE_MOST) << 9) + (min(state.passed, STATE_MOST) << 15) + (state.is_shared ? 1 << 21 : 0));
+               (min(state.transmitted, STATE_MOST) << 9) + (min(state.passed, STATE_MOST) << 15));
 }
 
 // The way to a vertex: its direction as a place on an octahedron, its density, and what it is in (media.glsl).

@@ -54,11 +54,6 @@ void main()
   state.ends = state.reflected > limits.x || state.transmitted > limits.y || state.passed > limits.z ||
                state.reflected + state.transmitted > limits.w;
   vec3 weight = next.kind == SCATTER_ENDS ? vec3(0.0) : next.weight;
-#if defined(SHARES) && !defined(ON_PATH)
-  // What the first surface makes of the light comes at the end.
-  state.is_shared = next.kind == SCATTER_REFLECTS && next.pdf > 0.0;
-  weight = state.is_shared && max(weight.r, max(weight.g, weight.b)) > 0.0 ? vec3(1.0) : weight;
-#endif
   vec3 throughput = before.rgb * weight;
   float media = way.w;
 #ifdef PATHS_ABSORPTION

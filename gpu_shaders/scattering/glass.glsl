@@ -42,9 +42,10 @@ vec2 glass_albedo(float roughness, float cosine, float eta)
   vec4 next = ggx_glass_table(roughness, cosine, below + 1.0);
   vec4 average = ggx_glass_table(roughness, place, float(GGX_IOR_SLICES));
   vec3 steps = eta < 1.0 ? vec3(here.zw, next.z) : vec3(here.xy, next.x);
-  float between = 2.0 * (slice - below);
-  float albedo = between < 1.0 ? mix(steps.x, steps.y, between) : mix(steps.y, steps.z, between - 1.0);
-  return vec2(albedo, eta < 1.0 ? average.z : average.x);
+  // (A parabola through three steps.)
+  float t = slice - below;
+  float albedo = dot(steps, vec3((2.0 * t - 1.0) * (t - 1.0), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)));
+  return vec2(min(albedo, 1.0), eta < 1.0 ? average.z : average.x);
 }
 
 // Reflectance and transmittance of both interfaces of a thin wall, whose inside is tinted.

@@ -123,10 +123,9 @@ vec3 spread_direction(int number)
   return vec3(ring * cos(longitude), ring * sin(longitude), z);
 }
 
-// Where the surface is farthest out along a normal, by Newton on normal . r u.
-vec3 support_direction(vec3 normal)
+// Where the surface is farthest out along a normal, by Newton on normal . r u from u.
+vec3 support_direction(vec3 normal, vec3 u)
 {
-  vec3 u = normal;
   SurfaceSample at = sample_surface(u);
   for (int i = 0; i < SUPPORT_STEPS; i++) {
     vec3 first, second;

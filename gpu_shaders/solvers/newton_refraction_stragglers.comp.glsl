@@ -4,7 +4,7 @@
 // optics/solvers/newton_refraction.py.
 #include "solver_pieces/refraction_start.glsl"
 #from optics.solvers.newton_refraction import STEPS, HORIZON_BISECTIONS
-#from optics.solvers.refraction_start import STARTS, ROOTS, NORMAL_ROUNDS
+#from optics.solvers.refraction_start import STARTS, ROOTS, NORMAL_STARTS, NORMAL_ROUNDS
 #from optics.solvers.refraction_start import FIRST_GUESS, ENTRY, CIRCLE, NORMAL, SEEDED, RUNG_COUNT
 
 #define STEP_BITS 1023
@@ -55,7 +55,7 @@ struct Rung {
 
 int starts_of(int rung)
 {
-  return rung == CIRCLE ? ROOTS : rung == NORMAL ? NORMAL_ROUNDS : rung == SEEDED ? STARTS : 2;
+  return rung == CIRCLE ? ROOTS : rung == NORMAL ? NORMAL_STARTS : rung == SEEDED ? STARTS : 2;
 }
 
 // The seed whose ray passes the vertex closest of those that are worse than the last one, the later of equal ones.
@@ -98,8 +98,11 @@ bool start_of(int number, int k, vec3 vertex, Circle circle, inout Rung rung, ou
     return enters;
   }
   if (number == NORMAL) {
-    u = support_direction(normal_asked_for(vertex, rung.point));
-    rung.point = sample_surface(u).position;
+    for (int i = 0; i < (k == 0 ? 1 : NORMAL_ROUNDS); i++) {
+      vec3 normal = normal_asked_for(vertex, rung.point);
+      u = support_direction(normal, rung.point == vec3(0.0) ? normal : safe_unit(rung.point));
+      rung.point = sample_surface(u).position;
+    }
     return true;
   }
   int seed = next_seed(vertex, rung);

@@ -142,7 +142,6 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (ShadePass, "_add_shown", "shade", ShadePass._add_shown, _of_second),
         (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
         (tracer_module, "follow", "step", tracer_module.follow, _of_met),
-        (tracer_module, "add_shared", "shared", tracer_module.add_shared, _of_canvas),
         (PathLight, "add", "light", PathLight.add, _of_canvas),
     ]
     with ExitStack() as stack:

@@ -66,7 +66,7 @@ def film_sensitivity() -> ComplexArray:
     matching = _matching(wavelength)
     paths = np.linspace(0.0, LONGEST_PATH, FILM_STEPS)
     turned = np.exp(-2j * np.pi * paths[:, None] / wavelength)
-    return (turned @ matching.T) / matching.sum(axis=1)
+    return np.asarray((turned @ matching.T) / matching.sum(axis=1), np.complex128)
 
 
 def _sensitivity(path: Array) -> ComplexArray:
@@ -75,7 +75,7 @@ def _sensitivity(path: Array) -> ComplexArray:
     place = np.clip(path / LONGEST_PATH, 0.0, 1.0) * (FILM_STEPS - 1)
     below = np.minimum(place.astype(int), FILM_STEPS - 2)
     between = (place - below)[:, None]
-    return table[below] * (1.0 - between) + table[below + 1] * between
+    return np.asarray(table[below] * (1.0 - between) + table[below + 1] * between, np.complex128)
 
 
 def polarized_dielectric(cosine: Array, eta: Array | float) -> tuple[Array, Array, Array]:

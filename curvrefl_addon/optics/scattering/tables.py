@@ -47,10 +47,11 @@ def glass_albedo(table: Array, roughness: float, cosine: Array, eta: float) -> t
     here, after = (_entry(table, roughness, cosine, place, size) for place in (below, below + 1))
     average = _entry(table, roughness, np.array([(below + between) / (slices - 1)]), slices, size)[0]
     side = 2 if eta < 1.0 else 0
-    steps = np.stack([here[:, side], here[:, side + 1], after[:, side]])
-    first = int(between >= 0.5)
-    weight = 2.0 * between - first
-    return steps[first] * (1.0 - weight) + steps[first + 1] * weight, float(average[side])
+    # (A parabola through three steps.)
+    t = between
+    albedo = here[:, side] * (2.0 * t - 1.0) * (t - 1.0) + here[:, side + 1] * 4.0 * t * (1.0 - t)
+    albedo = albedo + after[:, side] * t * (2.0 * t - 1.0)
+    return np.minimum(albedo, 1.0), float(average[side])
 
 
 def average_albedo(roughness: float) -> float:

@@ -23,8 +23,9 @@ HALVINGS = 6
 """Of such an interval, by false position and halves in turn"""
 ROOTS = 3
 """Most zeros on the great circle that are started from"""
-NORMAL_ROUNDS = 3
-"""How often the normal that Snell's law asks for is looked for on the surface, each time as seen from the last point"""
+NORMAL_STARTS, NORMAL_ROUNDS = 3, 8
+"""Starts by the normal that Snell's law asks for, and how often it is looked for on the surface between two of them,
+each time as seen from the last point"""
 SUPPORT_STEPS, SUPPORT_TRIALS = 10, 4
 """Newton steps to the point of a normal, and lengths of one step that are tried"""
 SEEDS = 64
@@ -166,30 +167,33 @@ def circle_guesses(
 def normal_guesses(
     surface: RadialSurface, eye: Float64Array, vertices: Float64Array, index: float, side: float
 ) -> list[Float64Array]:
-    """Directions (n, 3) where the surface has the normal that Snell's law asks for between eye and vertex as seen from
-    the star center, and from that point again, NORMAL_ROUNDS of them.
+    """NORMAL_STARTS directions (n, 3) where the surface has the normal that Snell's law asks for between eye and
+    vertex, as seen from the star center and then from the last point again and again.
 
     A sharp tip is seen from the center in few directions and yet refracts into nearly all: there seeds that are even
     over the sphere are too few.
     """
     points = np.zeros(vertices.shape)
-    starts = []
-    for _ in range(NORMAL_ROUNDS):
+    starts: list[Float64Array] = []
+    u: Float64Array | None = None
+    for number in range(1 + NORMAL_ROUNDS * (NORMAL_STARTS - 1)):
         bent = half_vector(eye, vertices, points, index)
         # From inside the index is the inverse and the normal the other one: the same outward normal.
         normal = unit(bent if (index < 1.0) == (side > 0.0) else -bent)
-        u = support_direction(surface, normal)
-        starts.append(u)
+        u = support_direction(surface, normal, normal if u is None else u)
+        if number % NORMAL_ROUNDS == 0:
+            starts.append(u)
         points = sample(surface, u).position
     return starts
 
 
-def support_direction(surface: RadialSurface, normal: Float64Array) -> Float64Array:
-    """Directions (n, 3) of the points that are farthest out along unit normals (n, 3), by Newton on normal . r u.
+def support_direction(surface: RadialSurface, normal: Float64Array, start: Float64Array) -> Float64Array:
+    """Directions (n, 3) of the points that are farthest out along unit normals (n, 3), by Newton on normal . r u from
+    `start` (n, 3).
 
     On a convex surface there is one such point and its normal is the one given; elsewhere a nearby maximum is found.
     """
-    u = normal.copy()
+    u = start.copy()
     at = sample(surface, u)
     height = np.einsum("ij,ij->i", normal, at.position)
     for _ in range(SUPPORT_STEPS):

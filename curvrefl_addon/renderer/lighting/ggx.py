@@ -64,7 +64,7 @@ def integrate_glass(strata: int) -> Float32Array:
     """
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
     table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
-    iors = _iors(GLASS_STEPS)
+    iors = _iors(GLASS_STEPS, 0.9999)
     places = np.linspace(0.0, 1.0, GLASS_STEPS)
     for row, rough in enumerate(np.linspace(0.0, 1.0, TABLE_SIZE)):
         alpha = max(rough * rough, 1e-4)
@@ -73,7 +73,8 @@ def integrate_glass(strata: int) -> Float32Array:
         averages = np.zeros((GLASS_STEPS, 2))
         for index, ior in enumerate(iors):
             for side, eta in enumerate((ior, 1.0 / ior)):
-                reflected = fresnel_dielectric(cos_difference, eta)
+                # (Never below that along the normal, as it is shaded.)
+                reflected = np.maximum(fresnel_dielectric(cos_difference, eta), ((eta - 1.0) / (eta + 1.0)) ** 2)
                 inner = np.sqrt(np.maximum(1.0 - (1.0 - cos_difference**2) / eta**2, 0.0))
                 light_z = (cos_difference / eta - inner) * normal_z - cosine[:, None] / eta
                 lambda_view = _smith_lambda(alpha, cosine)[:, None]
@@ -100,7 +101,7 @@ def integrate_lobe(strata: int) -> Float32Array:
     roughness = np.linspace(0.0, 1.0, TABLE_SIZE)
     cosine = np.maximum(np.linspace(0.0, 1.0, TABLE_SIZE), 1e-3)
     table = np.zeros((TABLE_SIZE, IOR_SLICES + 1, TABLE_SIZE, 4))
-    iors = _iors(IOR_SLICES)
+    iors = _iors(IOR_SLICES, 0.99)
     for row, rough in enumerate(roughness):
         weight, cos_difference, light = _sample_lobe(max(rough * rough, 1e-4), cosine, strata)
         albedo = weight.mean(axis=1)
@@ -131,8 +132,8 @@ def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
     return np.where(square > 0.0, 0.5 * a * a * (1.0 + b * b), 1.0)
 
 
-def _iors(count: int) -> list[float]:
-    squares = np.minimum(np.linspace(0.0, 1.0, count), 0.99) ** 2
+def _iors(count: int, last: float) -> list[float]:
+    squares = np.minimum(np.linspace(0.0, 1.0, count), last) ** 2
     return [float(max((1.0 + z) / (1.0 - z), 1.0 + 1e-4)) for z in squares]
 
 

@@ -67,11 +67,11 @@ class PathClasses:
 
 
 def place_of(step: int) -> int:
-    """Of buffers of which the first two are kept and the others take turns."""
-    return step if step < 2 else 2 + step % 2
+    """Of buffers of which the first is kept and two others take turns."""
+    return 0 if step == 0 else 1 + step % 2
 
 
-BUFFERS = 4
+BUFFERS = 3
 """Places there are"""
 
 

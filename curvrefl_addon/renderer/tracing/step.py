@@ -13,7 +13,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.ggx import GGX_DEFINES
-from ..paths.features import ABSORPTION, ANISOTROPY, ROUGH, SCALARS
+from ..paths.features import ABSORPTION, ANISOTROPY, SCALARS
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CLASS
@@ -74,13 +74,13 @@ def follow(
     classes: Any,
     met: PathVertices,
     limits: Limits,
-    sub_frame: int,
+    sub_frame: tuple[int, int],
     step: int,
 ) -> None:
     """Follow all paths that go on from `vertices` to what they meet.
 
-    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `step`: 1 for the
-    first, whose vertices are what the eye sees.
+    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `sub_frame`: its
+    number, and how many there are. `step`: 1 for the first, whose vertices are what the eye sees.
     """
     before = vertices if isinstance(vertices, PathVertices) else None
     shader = _step_shader(around.features, before is not None, met.uv is not None)
@@ -92,7 +92,7 @@ def follow(
         bind_vertices(shader, around, vertices, scalars)
         shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
         shader.uniform_float("limits", (limits.reflections, limits.interfaces, limits.transparent, limits.bounces))
-        shader.uniform_int("path_point", path_point(sub_frame, step - 1))
+        shader.uniform_int("path_point", path_point(sub_frame[0], step - 1, sub_frame[1]))
         if around.absorbing is not None:
             shader.uniform_sampler("absorbing", around.absorbing)
         if before is None:
@@ -154,7 +154,7 @@ def _look_up(around: Surroundings, met: PathVertices, target: Any, of_scalars: b
 @gpu_cache
 def _step_shader(features: frozenset[str], on_path: bool, with_images: bool) -> Any:
     outputs = {**(named("VEC4", "uv_out") if with_images else {}), **named("VEC4", "way_out", "throughput_out")}
-    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ()), *(("SHARES",) if ROUGH in features else ())]
+    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ())]
     way = Piece(samplers=named("FLOAT_2D", "path_way", "path_throughput"), defines=flags("ON_PATH"))
     return build_shader(
         "path step",

@@ -21,12 +21,11 @@ from .object_frames import object_frames
 from .path_classes import BUFFERS, PathClass, PathClasses, place_of
 from .path_light import PathLight
 from .path_vertices import PathVertices
-from .reuse import add_shared
 from .step import Limits, Surroundings, follow
 
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
-type _Targets = tuple[PathClasses, dict[int, PathVertices], Canvas | None]
+type _Targets = tuple[PathClasses, dict[int, PathVertices]]
 
 
 class PathTracer:
@@ -45,7 +44,7 @@ class PathTracer:
             if goes_on(scene.materials[index], instance.object_id in scene.reflectors)
         }
         self._has_base = any(_has_base(scene.materials[index]) for index in used)
-        self._limits = (scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
+        self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
         self._sees_through = any(scene.materials[index].is_seen_through for index in used)
         self._has_images = bool(scene.images)
         self._targets: dict[tuple[int, int], _Targets] = {}
@@ -68,11 +67,11 @@ class PathTracer:
 
     def limits(self, bounces: int) -> Limits:
         """`bounces`: mirrors that are followed at most."""
-        reflections, interfaces, transparent = self._limits
+        most, reflections, interfaces, transparent = self._limits
         reflections = min(reflections, bounces)
         interfaces = min(interfaces, MOST_EVENTS) if "PATHS_GLASS" in self.features else 0
         transparent = min(transparent, MOST_EVENTS) if "PATHS_ALPHA" in self.features else 0
-        return Limits(reflections, interfaces, transparent, max(reflections, interfaces))
+        return Limits(reflections, interfaces, transparent, min(most, reflections + interfaces))
 
     def add(
         self,
@@ -99,7 +98,7 @@ class PathTracer:
         window = window or (0, 0, seen.width, seen.height)
         if window[2] <= 0 or window[3] <= 0:
             return
-        classes, vertices, arriving = self._targets_for(seen)
+        classes, vertices = self._targets_for(seen)
         around = Surroundings(
             self.features,
             self._materials,
@@ -112,41 +111,33 @@ class PathTracer:
         )
         light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base)
         scalars = seen.with_scalars()[0] if self.has_scalars else None
-        seen_scalars = scalars
         limits = self.limits(bounces)
         classes.sort_seen(seen, window, chosen, sees_through and self._sees_through)
         light.add(canvas, weight, PathClass.GOES_ON, seen, scalars, classes.depth(0))
-        found = canvas
-        if arriving is not None:
-            arriving.clear()
-            found = arriving
-        strength = weight if arriving is None else 1.0
         before: SurfaceBuffer | PathVertices = seen
         # (Without anything that goes on behind the first surface one step is all.)
         last = limits.most_steps if meets_mirrors or self._sees_through else 1
+        sample = (sub_frame, self._lighting.sub_frames)
         for step in range(1, last + 1):
             met = vertices[place_of(step)]
-            follow(around, before, scalars, classes.depth(step - 1), met, limits, sub_frame, step)
+            follow(around, before, scalars, classes.depth(step - 1), met, limits, sample, step)
             classes.sort_met(step, met, window)
             scalars = met.scalars
             kinds = [PathClass.MISSES, PathClass.STOPS]
             if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
-                light.add(found, strength, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1))
+                light.add(canvas, weight, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1))
             before = met
-        if arriving is not None:
-            add_shared(around, canvas, weight, seen, seen_scalars, classes.depth(0), vertices[1], arriving)
 
     def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
         size = (seen.width, seen.height)
         if size not in self._targets:
             while len(self._targets) >= MOST_SIZES:
                 del self._targets[next(iter(self._targets))]
-            shares = ROUGH in self.features
             classes = PathClasses([depth_texture(*size) for _ in range(BUFFERS)])
             vertices = {place: PathVertices(*size, self.features, self._has_images) for place in range(1, BUFFERS)}
-            self._targets[size] = (classes, vertices, Canvas.of_size(*size) if shares else None)
+            self._targets[size] = (classes, vertices)
         return self._targets[size]
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ...optics.catalog import SOLVERS, Method
+from ...optics.catalog import Method, entry_of
 from ...optics.snell import index_in_range
 from ...optics.solvers.newton_region import STEPS as REGION_STEPS
 from ...optics.solvers.secant_star import NEWTON_STEPS
@@ -154,7 +154,7 @@ class PreparedSolve:
         block["is_same_view"] = previous is not None and previous.inputs == inputs
         self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
         """There once it has run"""
-        self._method, self._entry = method, SOLVERS[method]
+        self._method, self._entry = method, entry_of(method)
         self._images = {
             "reflection_points": self.solution.reflection_points,
             "virtual_positions": self.solution.virtual_positions,
@@ -244,7 +244,7 @@ def _vertices_block(
     first_rung: int = 0,
 ) -> np.ndarray:
     """Of a solve by a method's own shader, without a last frame; see `solve_vertices`."""
-    block = _solver_block(view, reflector, count, steps or SOLVERS[method].steps, tolerance)
+    block = _solver_block(view, reflector, count, steps or entry_of(method).steps, tolerance)
     block["first_rung"] = first_rung
     return block
 

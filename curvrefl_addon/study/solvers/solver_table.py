@@ -20,7 +20,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...optics import status
-from ...optics.catalog import SOLVERS, Method
+from ...optics.catalog import Method, entry_of, solvers
 from ...optics.screen import Screen
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
@@ -108,7 +108,7 @@ def solver_table(
     count: int,
     reflectors: Sequence[str] = tuple(ALL_STUDIES),
     regimes: Sequence[str] = (*REGIMES, *REFRACTION_REGIMES),
-    methods: Sequence[str] = tuple(SOLVERS),
+    methods: Sequence[str] = tuple(solvers()),
     timed: bool = True,
     only_defaults: bool = False,
     progress: Progress = lambda _: None,
@@ -135,7 +135,7 @@ def solver_table(
             truth = _Truth(oracle, cases)
             mesh_truth: _Truth | None = None
             for method_name in methods:
-                method = SOLVERS[method_name]
+                method = entry_of(method_name)
                 if method_name in refused or not (method.maps or method.is_environment):
                     continue
                 if method.refracts != study.refracts:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...optics import status
-from ...optics.catalog import SOLVERS, Method
+from ...optics.catalog import Method, solvers
 from ...optics.surfaces.radial_surfaces import Float64Array, unit
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution
@@ -68,7 +68,7 @@ def fuzz(
     found = []
     for refracts in (False, True):
         methods = {
-            name: entry for name, entry in SOLVERS.items() if entry.solves_vertices and entry.refracts == refracts
+            name: entry for name, entry in solvers().items() if entry.solves_vertices and entry.refracts == refracts
         }
         own = [name for name in reflectors if ALL_STUDIES[name].refracts == refracts]
         if own:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...optics import status
-from ...optics.catalog import SOLVERS
+from ...optics.catalog import solvers
 from ...optics.surfaces.radial_surfaces import Float64Array
 from ...renderer.settings import Settings
 from ...renderer.vertices.solution import VertexSolution
@@ -64,7 +64,7 @@ def measure_motion(
             progress(f"Following a slow path of the {path} at the {name}: {FRAMES} frames")
             eyes, vertices = _path(path, cases.eye, cases.vertices)
             truth = _true_pixels(oracle, eyes, vertices)
-            for method, entry in SOLVERS.items():
+            for method, entry in solvers().items():
                 if entry.solves_vertices and entry.refracts == study.refracts:
                     found.append(_follow(reflector, name, path, method, eyes, vertices, truth))
     return found

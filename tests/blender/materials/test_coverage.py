@@ -319,3 +319,31 @@ def test_an_image_that_ends_is_not_there_beyond_it() -> None:
     assert there[: SIZE // 2, SIZE // 2 + 2 :].all() and not there.all()
     wrong = np.abs(seen(material, there) - in_middles_of_pixels()).max(axis=-1) > 0.01
     assert wrong.mean() < 5e-3
+
+
+def test_what_changes_with_the_angle_is_its_mean() -> None:
+    """Over all directions, as Cycles' own nodes have it on a ball seen from far away: its disk is that mean."""
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
+    ball = bpy.context.object
+    bpy.ops.object.shade_smooth()
+    look_down(4.0)
+    for kind, output, inputs in (
+        ("ShaderNodeFresnel", "Fac", {"IOR": 1.75}),
+        ("ShaderNodeLayerWeight", "Fresnel", {"Blend": 0.25}),
+        ("ShaderNodeLayerWeight", "Facing", {"Blend": 0.75}),
+    ):
+        ball.data.materials.clear()
+        tree, (shown,) = new_material(ball, "ShaderNodeEmission")
+        factor = node(tree, kind, inputs).outputs[output]
+        tree.links.new(factor, shown.inputs["Strength"])
+        shown.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        y, x = (np.mgrid[0:SIZE, 0:SIZE] + 0.5) / SIZE * 4.0 - 2.0
+        disk = x**2 + y**2 < 0.97
+        mean = cycles_picture(SIZE, SIZE, 16)[disk, 0].mean()
+        shader = mixed(tree, factor, clear(tree), shine(tree))
+        tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
+        scene = extracted()
+        share = material_of(scene, ball.name).alpha
+        # (The rim, which the mean over the disk leaves out, is the brightest.)
+        assert mean < share < mean + 0.03, output
+        assert [warning.partition(" of material")[0] for warning in scene.warnings] == ["Mixed shaders"]

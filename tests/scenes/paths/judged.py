@@ -165,10 +165,21 @@ def _of_pass(found: dict[str, np.ndarray], name: str) -> np.ndarray:
 
 def judged_pixels(names: tuple[str, ...]) -> np.ndarray:
     """(h, w) whether the pixel's center shows one of these objects."""
+    return judged_numbers(names) > 0
+
+
+def judged_numbers(names: tuple[str, ...]) -> np.ndarray:
+    """(h, w) which of these objects the pixel's center shows, from 1; 0 none."""
     opened: Any = bpy.context.scene
     ids = {name: number for number, name in enumerate(names, 1)}
-    found = render_geometry(opened, bpy.context.view_layer, *size_of(opened), ids, list(ids.values()))
-    return found.mask > 0
+    return render_geometry(opened, bpy.context.view_layer, *size_of(opened), ids, list(ids.values())).mask
+
+
+def inner(here: np.ndarray) -> np.ndarray:
+    """(h, w) pixels whose neighbors are all in the mask, too: no edge is mixed into them."""
+    wide = np.pad(here, 1)
+    height, width = here.shape
+    return np.all([wide[y : y + height, x : x + width] for y in range(3) for x in range(3)], axis=0)
 
 
 def _source(build: Callable[[], None]) -> str:

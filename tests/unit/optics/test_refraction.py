@@ -169,7 +169,7 @@ def test_derivatives_are_those_of_the_path(index: float) -> None:
     inside=st.booleans(),
     seed=st.integers(0, 10_000),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_what_is_made_is_found(index: float, inverse: bool, scale: float, shape: str, inside: bool, seed: int) -> None:
     """Whatever is found obeys Snell's law, and next to nothing is not found."""
     surface = SHAPES[shape](scale)

@@ -20,8 +20,8 @@ SURFACES = {
     "lacquered metal": material(base_color=WHITE, metallic=1.0, coat_weight=1.0, coat_roughness=0.3),
     "lacquered plastic": material(base_color=WHITE, coat_weight=0.5, coat_roughness=0.1, coat_ior=1.8),
     "pane": material(base_color=WHITE, transmission=1.0, thin_wall=True),
-    **{f"plastic {ior}": material(base_color=WHITE, ior=ior) for ior in (1.1, 1.5, 2.5, 5.0)},
-    **{f"glass {ior}": material(base_color=WHITE, ior=ior, transmission=1.0) for ior in (0.6, 1.1, 1.5, 2.5)},
+    **{f"plastic {ior}": material(base_color=WHITE, ior=ior) for ior in (1.1, 1.5, 2.5, 8.0)},
+    **{f"glass {ior}": material(base_color=WHITE, ior=ior, transmission=1.0) for ior in (0.6, 1.1, 1.5, 2.5, 20.0)},
 }
 
 

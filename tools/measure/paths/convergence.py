@@ -5,7 +5,7 @@
     .venv/bin/python tools/measure/paths/convergence.py OUT [--roughness 0.1,0.2,0.3,0.5,0.7,1.0]
         [--sub-frames 1,4,16,64,256] [--mitsuba PYTHON]
 
-One smooth sphere of white metal under one sky, seen by all three. The truth is Mitsuba's analytic sphere with 4,096
+One smooth sphere of white metal under one sky, seen by all three. The truth is Mitsuba's analytic sphere with 1,024
 samples, divided by what that leaves of a white world: microfacets that scatter once lose energy, which Cycles and we
 put back in proportion. Writes convergence.json, convergence.md and convergence.png into the folder OUT: FLIP over the
 inner 95 % of the sphere's outline, and the mean color's error of the most samples.
@@ -46,7 +46,7 @@ from surroundings import ANGLE, DISTANCE, SIZE, blender_map, disc  # noqa: E402
 
 matplotlib.use("Agg")
 
-TRUTH_SAMPLES = 4096
+TRUTH_SAMPLES = 1024
 SEEDS = (7, 8)
 CELLS = 96
 ENGINES = {"ours": ("Curvrefl", "#0077BB"), "cycles": ("Cycles", "#777777"), "mitsuba": ("Mitsuba", "#EE7733")}
@@ -136,7 +136,7 @@ def draw(rows: list[dict[str, Any]], numbers: list[int], path: Path) -> None:
         axis.set_xticks(numbers, [str(number) for number in numbers], fontsize=7)
         axis.minorticks_off()
         axis.grid(alpha=0.3)
-    axes[0, 0].set_ylabel("FLIP against Mitsuba, 4,096 samples", fontsize=8)
+    axes[0, 0].set_ylabel("FLIP against Mitsuba, 1,024 samples", fontsize=8)
     axes[0, 0].legend(fontsize=7)
     figure.tight_layout()
     figure.savefig(path, dpi=110)

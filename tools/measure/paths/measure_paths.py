@@ -36,7 +36,7 @@ from curvrefl.curvrefl_addon.report.images import save_png  # noqa: E402
 from curvrefl.curvrefl_addon.report.metrics import error_map  # noqa: E402
 from scenes.paths import SCENES, TOPICS, PathScene  # noqa: E402
 from scenes.paths.furnace import FURNACE_WORLD, ROUGHNESSES, ball_name  # noqa: E402
-from scenes.paths.judged import References, judged_pixels, open_scene, references  # noqa: E402
+from scenes.paths.judged import References, inner, judged_numbers, open_scene, references  # noqa: E402
 
 QUICK_SAMPLES = 64
 MEAN_LIMIT = 0.01
@@ -84,10 +84,12 @@ def peers(cycles: References) -> str:
 def furnace_rows(scene: PathScene, cycles: References, ours: np.ndarray, warnings: tuple[str, ...]) -> str:
     """A line for each row of balls: what each reflects of the world, ours and Cycles'."""
     lines = []
+    with dropped(STDOUT):
+        numbers = judged_numbers(scene.mirrors)
     for row in range(len(scene.mirrors) // len(ROUGHNESSES)):
         shares = []
         for column in range(len(ROUGHNESSES)):
-            here = judged_pixels((ball_name(row, column),))
+            here = inner(numbers == scene.mirrors.index(ball_name(row, column)) + 1)
             mean = ours[here][:, :3].mean() / FURNACE_WORLD
             shares.append((mean, cycles.truth[here][:, :3].mean() / FURNACE_WORLD))
         worst = max(abs(mean - 1.0) for mean, _ in shares)

@@ -133,7 +133,7 @@ def _by_angle(source: Source, inputs: Inputs) -> Coverage | None:
     node: Any = source.node
     if node is None or node.type not in ("FRESNEL", "LAYER_WEIGHT"):
         return None
-    cosines = (np.arange(256) + 0.5) / 256.0
+    cosines: Float64Array = np.linspace(0.5 / 256.0, 255.5 / 256.0, 256)
     if node.type == "FRESNEL":
         shares = _fresnel(max(inputs.number(source, "IOR"), 1e-5), cosines)
     else:
