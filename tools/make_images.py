@@ -131,6 +131,14 @@ def _methods(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "measure_methods.py"), "--output", str(folder))
 
 
+def _materials(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "paths" / "draw_materials.py"), str(folder / "materials.jpg"))
+
+
+def _convergence(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -145,6 +153,8 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "chart": _chart,
     "stability": _stability,
     "methods": _methods,
+    "materials": _materials,
+    "convergence": _convergence,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -160,6 +170,8 @@ IMAGES: dict[str, Picture] = {
     "vertex_count.png": Picture("chart", _copied),
     "stability.jpg": Picture("stability", _drawn_stability),
     "methods.png": Picture("methods", _copied),
+    "materials.jpg": Picture("materials", _copied),
+    "convergence.png": Picture("convergence", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -13,16 +13,14 @@ import pytest
 from curvrefl.curvrefl_addon.report.metrics import flip_in_mask, missing_flip
 from scenes.paths import SCENES
 from scenes.paths.alpha import emitting_leaves
-from scenes.paths.furnace import FURNACE_WORLD, ROUGHNESSES
+from scenes.paths.furnace import FURNACE_WORLD
 from scenes.paths.judged import Opened, cycles_picture, inner, judged_numbers, judged_pixels, layered_picture, read_open
 from scenes.paths.one_sample import centers, wrong_pixels
 from scenes.paths.registry import OBJECT
 
 pytestmark = pytest.mark.usefixtures("gpu")
 SIZE = (80, 60)
-REFERENCE_SAMPLES = 256
-MOST_OFF = 0.015
-"""Of the mean color: a hundredth, and the noise of a small picture"""
+REFERENCE_SAMPLES = 192
 
 
 def small(build: Callable[[], None], mirrors: tuple[str, ...], size: tuple[int, int] = SIZE) -> Opened:
@@ -33,25 +31,23 @@ def small(build: Callable[[], None], mirrors: tuple[str, ...], size: tuple[int, 
     return read_open(mirrors)
 
 
-# FLIP bounds are of 16 sub-frames, with the edges of a picture this small and the reference's noise.
+# Bounds are of 16 sub-frames: FLIP a third above what is found; the mean color a hundredth off, or what noise makes of
+# the darkest channel.
 @pytest.mark.parametrize(
-    ("name", "most"),
+    ("name", "most", "most_off"),
     [
-        ("metal_01", 0.05),
-        ("metal_03", 0.07),
-        ("metal_05", 0.09),
-        ("gltf", 0.07),
-        ("coat_on_color", 0.05),
-        ("brushed_03", 0.07),
-        ("glass_ball", 0.09),
-        ("window_thin", 0.06),
-        ("wine_glass_filled", 0.12),
-        ("absorbing_block", 0.08),
-        ("leaves_hashed", 0.06),
-        ("foil_mixed", 0.05),
+        ("metal_03", 0.05, 0.01),
+        ("metal_05", 0.047, 0.01),
+        ("brushed_03", 0.053, 0.01),
+        ("gltf", 0.056, 0.01),
+        ("glass_ball", 0.088, 0.025),
+        ("window_thin", 0.036, 0.01),
+        ("absorbing_block", 0.048, 0.025),
+        ("leaves_hashed", 0.05, 0.01),
+        ("foil_mixed", 0.03, 0.01),
     ],
 )
-def test_pictures_are_those_of_cycles(name: str, most: float) -> None:
+def test_pictures_are_those_of_cycles(name: str, most: float, most_off: float) -> None:
     if missing := missing_flip():
         pytest.skip(missing)
     scene = SCENES[name]
@@ -61,7 +57,7 @@ def test_pictures_are_those_of_cycles(name: str, most: float) -> None:
     ours, warnings = opened.picture(16)
     assert not [warning for warning in warnings if "not shown" in warning]
     means = ours[mask][:, :3].mean(0) / truth[mask][:, :3].mean(0)
-    assert np.abs(means - 1.0).max() < MOST_OFF
+    assert np.abs(means - 1.0).max() < most_off
     flip = flip_in_mask(ours, truth, mask)
     assert flip is not None and flip < most
 
@@ -75,7 +71,8 @@ def test_leaves_by_clip_are_where_cycles_has_them() -> None:
 @pytest.mark.parametrize("name", ["furnace_metallic", "furnace_glass"])
 def test_white_furnaces_stay_white(name: str) -> None:
     scene = SCENES[name]
-    opened = small(scene.build, scene.mirrors, (12 * len(ROUGHNESSES), 12 * len(scene.mirrors) // len(ROUGHNESSES)))
+    scene.build()
+    opened = read_open(scene.mirrors)
     ours, _ = opened.picture(64)
     numbers = judged_numbers(scene.mirrors)
     for number, thing in enumerate(scene.mirrors, 1):

@@ -118,9 +118,3 @@ def thin_film() -> None:
 def coat_teapot() -> None:
     room(soft=True)
     put_teapot(of_principled("Lacquer", Base_Color=RED, Roughness=0.4, Coat_Weight=1.0, Coat_Roughness=0.03))
-
-
-@path_scene("a rough mirror that shines by itself", LIMITS[0.3])
-def glowing() -> None:
-    room()
-    put_ball(metal(0.3, Emission_Color=(0.4, 0.1, 0.0, 1.0), Emission_Strength=0.5))
