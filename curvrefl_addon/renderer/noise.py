@@ -25,7 +25,7 @@ from .device.shaders import FULL_SCREEN, Piece, build_shader
 from .device.state import drawing_state, set_viewport
 from .surfaces.canvas import Canvas
 
-MOST_PIXELS = 1 << 14
+MOST_PIXELS = 1 << 12
 """That are looked at: one in each square of as many as need be"""
 FIRST = 8
 """Sub-frames that say anything"""

@@ -290,17 +290,17 @@ def _run(
         found, right = scene_to_rec709(frame.color), scene_to_rec709(reference.pixels)
         difference = inverse_display_transform(error_map(found, right))
         save_png(folder / f"{method}_error.png", difference)
-        methods[method] = {
+        known: dict[str, Any] = {
             "image": image_error(frame.color, reference.pixels, mask),
             "geometry": frame_geometry_error(frame, truth),
             "time_ms": {"extract": extract_ms, **frame.times_ms},
             "solve": frame.solve,
         }
         if frame.choice is not None:
-            methods[method]["choice"] = frame.choice
+            known["choice"] = frame.choice
         if frame.convergence is not None:
-            methods[method]["sub_frames"] = frame.convergence.done
-            methods[method]["noise"] = frame.convergence.noise
+            known |= {"sub_frames": frame.convergence.done, "noise": frame.convergence.noise}
+        methods[method] = known
         mismatch[method] = mask_mismatch(frame.mask, truth.mask)
 
     peers = {}

@@ -262,6 +262,8 @@ class SceneArrays:
     """What could not be represented, one sentence each"""
     mirror_bounces: int = UNLIMITED_BOUNCES
     """Mirrors one after the other that the file's own renders follow; the last shows only what shines by itself"""
+    most_bounces: int = UNLIMITED_BOUNCES
+    """Mirrors and interfaces together"""
     transmission_bounces: int = UNLIMITED_BOUNCES
     """Interfaces that they follow light through"""
     transparent_bounces: int = UNLIMITED_BOUNCES

@@ -337,6 +337,7 @@ class SceneReader:
             world=self._world,
             reflectors=reflecting,
             warnings=sentences([*warnings, *self._unseen, *self._images.remarks, *self._world_warnings]),
+            most_bounces=bounces.most,
             mirror_bounces=bounces.mirror,
             transmission_bounces=bounces.transmission,
             transparent_bounces=bounces.transparent,

@@ -102,6 +102,7 @@ def object_of(uid: int, name: str) -> bpy.types.Object | None:
 class Bounces:
     """As `SceneArrays.mirror_bounces` and the like."""
 
+    most: int = UNLIMITED_BOUNCES
     mirror: int = UNLIMITED_BOUNCES
     transmission: int = UNLIMITED_BOUNCES
     transparent: int = UNLIMITED_BOUNCES
@@ -116,6 +117,7 @@ def bounces_of(scene: bpy.types.Scene) -> Bounces:
         return Bounces()
     # (What light goes straight through does not count as a bounce there.)
     return Bounces(
+        cycles.max_bounces,
         min(cycles.max_bounces, cycles.glossy_bounces),
         min(cycles.max_bounces, cycles.transmission_bounces),
         cycles.transparent_max_bounces,
@@ -209,6 +211,7 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.lights is last.lights
         and result.world is last.world
         and result.reflectors == last.reflectors
+        and result.most_bounces == last.most_bounces
         and result.mirror_bounces == last.mirror_bounces
         and result.transmission_bounces == last.transmission_bounces
         and result.transparent_bounces == last.transparent_bounces

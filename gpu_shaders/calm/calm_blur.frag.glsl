@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What mirrors show while the view moves: sharp ones what they do, rough ones the mean of TAPS places of their ellipse,
-// spread as the slopes of GGX (of which u have a square below alpha^2 u / (1 - u)) on a spiral of golden angles that is
-// the same at every pixel and in every frame. A place has the level whose texels are as wide as places lie apart.
-// Places of other mirrors, and those whose normal has turned farther than a lobe is wide, count for nothing, the rest
-// for more. LEVEL_CASES is a CASE of each of the LEVELS textures (renderer/shading/calm.py).
+// What mirrors show while the view moves: sharp ones what they do, rough ones the mean of TAPS places of their
+// ellipse, spread as the slopes of GGX (of which u have a square below alpha^2 u / (1 - u)) on a spiral of golden
+// angles that is the same at every pixel and in every frame. A place has the level whose texels are as wide as
+// places lie apart. Places of other mirrors, and those whose normal has turned farther than a lobe is wide, count
+// for nothing, the rest for more. LEVEL_CASES is a CASE of each of the LEVELS textures (renderer/shading/calm.py).
 #include "calm/calm_level.glsl"
 #include "calm/calm_tint.glsl"
 #define CASE(index, texels) if (level == index) { found = bilinear(texels, level, place, number); }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texels of the levels that a calm mirror is blurred by: light times the share of the texel that one mirror covers, and
-// that mirror's number times two plus the share.
+// Texels of the levels that a calm mirror is blurred by: light times the share of the texel that one mirror covers,
+// and that mirror's number times two plus the share.
 
 float number_of(vec4 texel)
 {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A moving picture's mirrors: a part of what they show now, the rest of what they have shown one frame before, where the
-// image behind the mirror was then, as far as that lies among what the pixels around show now (Karis, "High-Quality Temporal
-// Supersampling", 2014). So that an edge that jumps by a pixel does so over a few frames. Alpha is the mirror's number.
+// A moving picture's mirrors: a part of what they show now, the rest of what they have shown one frame before, where
+// the image behind the mirror was then, as far as that lies among what the pixels around show now (Karis, "High-
+// Quality Temporal Supersampling", 2014). So that an edge that jumps by a pixel does so over a few frames. Alpha is
+// the mirror's number.
 vec4 before_at(vec2 place, float number)
 {
   ivec2 last = textureSize(last_picture, 0) - 1;

@@ -203,8 +203,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 }
 
 #ifdef PATH_LIGHT
-// Density with which the ray was chosen among all that leave a rough surface, whose lobes samples of lamps light too; 0
-// of other rays.
+// Density with which the ray was chosen among all that leave a rough surface, whose lobes samples of lamps light too;
+// 0 of other rays.
 float ray_density = 0.0;
 
 // Share of a lamp that is met by chance in what rays and samples find of it (Veach and Guibas, "Optimally combining
@@ -253,7 +253,8 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
                                                        max(abs(across.x), abs(across.y)) <= 1.0;
         hit = facing < 0.0 && t > 0.0 && t < distance && inside;
 #ifdef PATH_LIGHT
-        radiance *= share_of_ray(base, 1.0 / max(t * t, lighting_data[base + 1].w * lighting_data[base + 1].w), -facing);
+        float nearest2 = lighting_data[base + 1].w * lighting_data[base + 1].w;
+        radiance *= share_of_ray(base, 1.0 / max(t * t, nearest2), -facing);
 #endif
 #ifdef LIGHTING_SPREAD
         radiance *= spread_share(base, -facing);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a path is in: up to three media, by numbers of `absorbing` (renderer/tracing/media.py), eight bits each of a whole
-// number that a float holds. Media in one another add up, as volumes in Cycles.
+// What a path is in: up to three media, by numbers of `absorbing` (renderer/tracing/media.py), eight bits each of a
+// whole number that a float holds. Media in one another add up, as volumes in Cycles.
 
 int medium_at(int media, int place)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Images at the texture coordinates that a step has left in `path_uv` (uv, whether a surface is there): of base colors,
-// to be multiplied with them, or with OF_SCALARS of roughness, metallic, transmission and alpha. Of the images
+// Images at the texture coordinates that a step has left in `path_uv` (uv, whether a surface is there): of base
+// colors, to be multiplied with them, or with OF_SCALARS of roughness, metallic, transmission and alpha. Of the images
 // `first_image` .. `first_image` + IMAGES - 1 here, as samplers cannot be indexed by what differs from pixel to pixel.
 #include "surfaces/material_records.glsl"
 #include "paths/material_number.glsl"

@@ -71,9 +71,12 @@ void main()
   radiance = light_of_vertex(surface_of(position, normal, base), vertex_at(pixel), -direction);
 #endif
 #endif
+#if defined(LIGHTS_MISSES) || defined(LIGHTING_NEAR_LAMPS)
+  // (Suns are behind all surfaces.)
 #ifdef PATH_LIGHT
   ray_density = density;
 #endif
   radiance += lamps_seen(origin, direction, range, by_camera).rgb;
+#endif
   color = vec4(throughput.rgb * radiance, cover) * weight;
 }

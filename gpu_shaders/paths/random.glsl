@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers of a vertex of a path, as optics/scattering/sampler.py: a block of a scrambled Sobol sequence for each
-// pixel, in Morton's order; Burley, "Practical Hash-based Owen Scrambling" (2020), Ahmed and Wonka, "Screen-Space
-// Blue-Noise Diffusion of Monte Carlo Sampling Error" (2020). Needs the push constant `path_point` (IVEC4), which
-// path_point() makes for each sub-frame and bounce.
+// Random numbers of a vertex of a path, as optics/scattering/sampler.py: a block of a scrambled Sobol sequence for
+// each pixel, in scrambled Morton order; Burley, "Practical Hash-based Owen Scrambling" (2020), Ahmed and Wonka,
+// "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error" (2020). Needs the push constant `path_point`
+// (IVEC4), which path_point() makes for each sub-frame and bounce.
 
 uint hashed(uint x)
 {

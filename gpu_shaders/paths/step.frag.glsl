@@ -22,8 +22,16 @@ void main()
   vec4 before = texelFetch(path_throughput, pixel, 0);
 #else
   vec4 way = vec4(0.0);
+  vec3 eye_light = vec3(1.0);
   vec3 incoming = normalize(v.position * view.eye.w - view.eye.xyz);
-  vec4 before = vec4(1.0, 1.0, 1.0, float(RAY_CAMERA));
+#ifdef PATHS_ABSORPTION
+  if (v.facing.is_back && view.eye.w > 0.0) {
+    // The eye is inside.
+    way.w = crossed(0.0, medium_of(v.index), true);
+    eye_light = exp(-density_of(way.w) * distance(v.position, view.eye.xyz / view.eye.w));
+  }
+#endif
+  vec4 before = vec4(eye_light, float(RAY_CAMERA));
 #endif
   PathState state = unpack_state(before.w);
   vec4 random = path_random(pixel);

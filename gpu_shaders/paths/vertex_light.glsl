@@ -23,7 +23,7 @@ vec3 light_of_vertex(Surface s, PathVertex v, vec3 to_viewer)
     return v.material.alpha * shade_surface(s, to_viewer);
   }
 #endif
-  vec3 sum = s.emission;
+  vec3 sum = s.emission * coat_passes(v.material, dot(v.facing.normal, to_viewer));
 #if defined(PATHS_BASE) || defined(PATH_LOBES)
   float cos_viewer = dot(s.normal, to_viewer);
   Lobes lobes;

@@ -197,8 +197,8 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         bool one_sided = is_own && (flags & IS_CLOSED) != 0;
         facing = one_sided ? ((flags & IS_MIRRORED) != 0 ? -1.0 : 1.0) : 0.0;
 #ifdef PATH_STEP
-        // Inside of it a path may meet what reaches into it, from both sides, but not where it has just come in: what is
-        // near has to be seen from inside.
+        // Inside of it a path may meet what reaches into it, from both sides, but not where it has just come in:
+        // what is near has to be seen from inside.
         near_end = 0.0;
         if (one_sided && own_side < 0.0) {
           near_end = nearest;

@@ -102,7 +102,7 @@ def watch_frames() -> Callable[[], bool]:
         seen.clear()
         return answer
 
-    Frame.color = color  # type: ignore[method-assign]
+    Frame.color = color  # type: ignore[method-assign, assignment]
     return all_finite
 
 

@@ -16,13 +16,14 @@ WIDTH, HEIGHT = 48, 36
 SAMPLES = 4
 
 
-def mark(scene: bpy.types.Scene, *names: str) -> None:
+def mark(scene: Any, *names: str) -> None:
     """The engine, small, with these mirrors."""
     scene.render.engine = "CURVREFL"
     scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
     scene.curvrefl.render_samples = SAMPLES
     for name in names:
-        bpy.data.objects[name].curvrefl.is_mirror = True
+        thing: Any = bpy.data.objects[name]
+        thing.curvrefl.is_mirror = True
 
 
 def render(path: Path, file_format: str = "OPEN_EXR", **keywords: Any) -> Path:
@@ -61,7 +62,8 @@ def pixels(path: Path) -> np.ndarray:
 
 def open_image_io() -> Any:
     """The module that comes with Blender."""
-    home = Path(bpy.utils.system_resource("PYTHON")) / "lib" / f"python3.{sys.version_info.minor}"
+    utils: Any = bpy.utils
+    home = Path(utils.system_resource("PYTHON")) / "lib" / f"python3.{sys.version_info.minor}"
     folder = os.fspath(home / "site-packages")
     if folder not in sys.path:
         sys.path.append(folder)

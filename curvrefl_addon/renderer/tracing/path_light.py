@@ -73,12 +73,12 @@ class PathLight:
     @property
     def lights_samples(self) -> bool:
         """Lobes are lit by samples of lamps as well as by what rays meet."""
-        return "PATHS_ROUGH" in self.around.features and self.has_bodies
+        return "PATHS_ROUGH" in self.around.features and bool(self.lighting.features & LAMPS)
 
     @property
     def has_bodies(self) -> bool:
-        """Lamps may be met."""
-        return bool(self.lighting.features & LAMPS)
+        """Lamps may be met before surfaces."""
+        return bool(self.lighting.features & LAMPS - {"LIGHTING_SUN"})
 
     def _shader(self, kind: PathClass, on_path: bool) -> tuple[Any, Any]:
         """And the rays that it needs bound, if any."""

@@ -74,13 +74,13 @@ def follow(
     classes: Any,
     met: PathVertices,
     limits: Limits,
-    sub_frame: int,
+    sub_frame: tuple[int, int],
     step: int,
 ) -> None:
     """Follow all paths that go on from `vertices` to what they meet.
 
-    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `step`: 1 for the
-    first, whose vertices are what the eye sees.
+    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `sub_frame`: its
+    number, and how many there are. `step`: 1 for the first, whose vertices are what the eye sees.
     """
     before = vertices if isinstance(vertices, PathVertices) else None
     shader = _step_shader(around.features, before is not None, met.uv is not None)
@@ -92,7 +92,7 @@ def follow(
         bind_vertices(shader, around, vertices, scalars)
         shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
         shader.uniform_float("limits", (limits.reflections, limits.interfaces, limits.transparent, limits.bounces))
-        shader.uniform_int("path_point", path_point(sub_frame, step - 1))
+        shader.uniform_int("path_point", path_point(sub_frame[0], step - 1, sub_frame[1]))
         if around.absorbing is not None:
             shader.uniform_sampler("absorbing", around.absorbing)
         if before is None:

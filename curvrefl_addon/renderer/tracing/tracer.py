@@ -44,7 +44,7 @@ class PathTracer:
             if goes_on(scene.materials[index], instance.object_id in scene.reflectors)
         }
         self._has_base = any(_has_base(scene.materials[index]) for index in used)
-        self._limits = (scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
+        self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
         self._sees_through = any(scene.materials[index].is_seen_through for index in used)
         self._has_images = bool(scene.images)
         self._targets: dict[tuple[int, int], _Targets] = {}
@@ -67,11 +67,11 @@ class PathTracer:
 
     def limits(self, bounces: int) -> Limits:
         """`bounces`: mirrors that are followed at most."""
-        reflections, interfaces, transparent = self._limits
+        most, reflections, interfaces, transparent = self._limits
         reflections = min(reflections, bounces)
         interfaces = min(interfaces, MOST_EVENTS) if "PATHS_GLASS" in self.features else 0
         transparent = min(transparent, MOST_EVENTS) if "PATHS_ALPHA" in self.features else 0
-        return Limits(reflections, interfaces, transparent, max(reflections, interfaces))
+        return Limits(reflections, interfaces, transparent, min(most, reflections + interfaces))
 
     def add(
         self,
@@ -117,9 +117,10 @@ class PathTracer:
         before: SurfaceBuffer | PathVertices = seen
         # (Without anything that goes on behind the first surface one step is all.)
         last = limits.most_steps if meets_mirrors or self._sees_through else 1
+        sample = (sub_frame, self._lighting.sub_frames)
         for step in range(1, last + 1):
             met = vertices[place_of(step)]
-            follow(around, before, scalars, classes.depth(step - 1), met, limits, sub_frame, step)
+            follow(around, before, scalars, classes.depth(step - 1), met, limits, sample, step)
             classes.sort_met(step, met, window)
             scalars = met.scalars
             kinds = [PathClass.MISSES, PathClass.STOPS]

@@ -56,9 +56,8 @@ def progressive_points(samples: int, seed: int) -> Float64Array:
     """
     bits = max(int(samples - 1).bit_length(), 1)
     chance = np.random.default_rng(seed)
-    index = np.arange(samples)
     # (Runs of a power of two change places with their like.)
-    index = _scrambled(index, bits, chance)
+    index = _scrambled(np.arange(samples, dtype=np.int64), bits, chance)
     second = np.zeros(samples, np.int64)
     column = 1 << (bits - 1)
     for bit in range(bits):

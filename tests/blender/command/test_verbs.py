@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -42,6 +43,17 @@ def test_render_is_silent_and_whole(tmp_path: Path) -> None:
     assert "picture" not in result.stdout
     assert output.read_bytes().startswith(b"\x89PNG")
     assert [path.name for path in output.parent.iterdir()] == ["picture.png"]
+
+
+def test_render_says_how_many_sub_frames_and_what_noise_is_left(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    picture = ["render", str(saved(tmp_path)), *BALL, "--resolution", "24x18", "--output", str(tmp_path / "a.exr")]
+    assert re.search(r"^Sub-frames: 256, noise \d[\d.e-]* %$", done([*picture, "--samples", "256"], capfd), re.M)
+    ended = done([*picture, "--samples", "256", "--noise", "20"], capfd)
+    assert re.search(r"^Sub-frames: (8|16|32|64) of 256, noise \d[\d.e-]* %$", ended, re.M)
+    assert "Sub-frames: 4\n" in done([*picture, "--samples", "4"], capfd)
+    assert load_exr(tmp_path / "a.exr").shape == (18, 24, 4)
 
 
 def test_no_gpu_object_outlives_a_verb(

@@ -134,6 +134,20 @@ def test_plane_is_as_bright_as_in_cycles(name: str, scene: Any, program: Any, tm
         np.testing.assert_allclose(found, truth, rtol=0.01, atol=0.002)
 
 
+def test_emission_shines_through_the_coat(scene: Any, program: Any, tmp_path: Path) -> None:
+    """The green of it."""
+    fields = {"base_color": COLOR, "metallic": 1.0, "roughness": 0.3, **COATED}
+    emission = {"Emission Color": (1.0, 1.0, 1.0), "Emission Strength": 2.0}
+    cycles_plane.set_material(PRINCIPLED, {**{SOCKETS[key]: value for key, value in fields.items()}, **emission}, {})
+    truth = cycles_plane.mean_radiance(scene, 0.5, False, tmp_path)[1]
+    m = material(**fields)
+    viewers = cycles_plane.viewer(0.5, False)[None]
+    passes = scattering([m], np.zeros(1, int), viewers, viewers, spread(1), program=program).coat_passes[0]
+    assert passes < 0.9
+    found = _mean_of_shader(m, 0.5, False, program)[1] + 2.0 * passes
+    assert found == pytest.approx(truth, rel=0.005)
+
+
 def test_the_comparison_can_fail(scene: Any, program: Any, tmp_path: Path) -> None:
     m = material(base_color=COLOR, metallic=1.0, roughness=0.5)
     cycles_plane.set_material(PRINCIPLED, {"Base Color": COLOR, "Metallic": 1.0, "Roughness": 0.5}, {})

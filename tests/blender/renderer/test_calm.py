@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.report.display import display_transform
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.settings_table import Settings
-from scenes.soft_room import soft_room, soft_view
+from scenes.paths.soft_room import soft_room, soft_view
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

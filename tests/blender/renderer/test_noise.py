@@ -18,7 +18,7 @@ from curvrefl.curvrefl_addon.report.display import display_transform
 from curvrefl.curvrefl_addon.scene.camera.lens import Lens
 from curvrefl.curvrefl_addon.settings_table import Settings
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture
-from scenes.soft_room import soft_room, soft_view
+from scenes.paths.soft_room import soft_room, soft_view
 
 pytestmark = pytest.mark.usefixtures("gpu")
 

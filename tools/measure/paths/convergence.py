@@ -42,7 +42,7 @@ from curvrefl.curvrefl_addon.report.metrics import flip_in_mask  # noqa: E402
 from scenes.paths.judged import cycles_picture, read_open  # noqa: E402
 from scenes.paths.registry import OBJECT  # noqa: E402
 from scenes.paths.stage import empty  # noqa: E402
-from surroundings import ANGLE, DISTANCE, SIZE, blender_map, disc  # noqa: E402
+from surroundings import ANGLE, DISTANCE, SIZE, blender_map, disc  # type: ignore[import-not-found]  # noqa: E402
 
 matplotlib.use("Agg")
 

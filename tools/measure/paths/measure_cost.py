@@ -39,7 +39,8 @@ def renderer_of(roughness: float, size: list[int]) -> tuple[Renderer, Any]:
     """A renderer of the sphere's scene, warm, and the view."""
     with dropped(STDOUT):
         reflector = mirror_sphere()
-        principled_node(reflector.data.materials[0]).inputs["Roughness"].default_value = roughness
+        material: Any = reflector.data.materials[0]
+        principled_node(material).inputs["Roughness"].default_value = roughness
         scene: Any = bpy.context.scene
         scene.render.resolution_x, scene.render.resolution_y = size
         opened = read_open((reflector.name,))

@@ -13,12 +13,12 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-import mitsuba as mi
+import mitsuba as mi  # type: ignore[import-not-found]
 import numpy as np
 
 mi.set_variant("scalar_rgb")
 
-from surroundings import ANGLE, DISTANCE, MITSUBA_TURN, SIZE, mitsuba_map  # noqa: E402
+from surroundings import ANGLE, DISTANCE, MITSUBA_TURN, SIZE, mitsuba_map  # type: ignore[import-not-found]  # noqa: E402
 
 FURNACE_SAMPLES = 256
 
@@ -61,7 +61,7 @@ def main() -> None:
     made = scene(roughness, {"type": "envmap", "bitmap": mi.Bitmap(mitsuba_map()), "to_world": turn})
     pictures = {number: picture(made, int(number), seed) for number in counts.split(",")}
     white = scene(roughness, {"type": "constant", "radiance": 1.0})
-    np.savez(out, furnace=picture(white, FURNACE_SAMPLES, seed), **pictures)
+    np.savez(out, allow_pickle=False, furnace=picture(white, FURNACE_SAMPLES, seed), **pictures)
 
 
 if __name__ == "__main__":

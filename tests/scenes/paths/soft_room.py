@@ -12,8 +12,8 @@ from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MaterialArrays, Sc
 from curvrefl.curvrefl_addon.scene.camera.lens import Lens
 from curvrefl.curvrefl_addon.scene.camera.view import View
 
-from .mirror_room import Room
-from .views import look_at
+from ..mirror_room import Room
+from ..views import look_at
 
 BALLS = (
     ((1.8, -1.0, -0.6), 0.5, (0.8, 0.2, 0.1)),
