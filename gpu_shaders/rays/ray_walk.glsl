@@ -9,7 +9,7 @@
 // Of a triangle: corner A; edges B - A and C - A; numbers of its corners and its material slot. Object space.
 // Of a corner: normal; uv and packed color.
 // Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as
-// none); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
+// none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
 #include "common/records.glsl"
 
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
@@ -39,6 +39,12 @@ struct Hit {
 #ifdef PATH_STEP
 // 1: the ray starts outside of the closed mesh that it starts on, -1: inside.
 float own_side = 1.0;
+// Share of the length that counts as none within which two surfaces touch: a millionth of the size.
+#define TOUCHES 1e-2
+// Where along the ray boxes begin to count: a little before its start, as what touches there may lie on either side.
+float first_range = 0.0;
+#else
+#define first_range 0.0
 #endif
 
 Ray ray_along(vec3 origin, vec3 direction)
@@ -58,9 +64,14 @@ float entry(Ray ray, vec3 low, vec3 high, float farthest)
   vec3 second = (high - ray.origin) * ray.inverse;
   vec3 near = min(first, second);
   vec3 far = max(first, second);
-  float enter = max(max(near.x, near.y), max(near.z, 0.0));
+  float enter = max(max(near.x, near.y), max(near.z, first_range));
   // Grown by what rounding may take away.
+#ifdef PATH_STEP
+  float leave = min(min(far.x, far.y), min(far.z, farthest));
+  leave += 1e-6 * abs(leave);
+#else
   float leave = min(min(far.x, far.y), min(far.z, farthest)) * 1.000001;
+#endif
   return enter <= leave ? enter : 3e38;
 }
 
@@ -120,6 +131,10 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
 #ifdef PATH_STEP
   float near_end = 0.0;     // nearer than this only the side `near_facing` counts
   float near_facing = 0.0;
+  vec3 lowest = min(fetch_record(rays, nodes).xyz, fetch_record(rays, nodes + 2).xyz);
+  vec3 highest = max(fetch_record(rays, nodes + 1).xyz, fetch_record(rays, nodes + 3).xyz);
+  float top_first = -TOUCHES * 1e-4 * length(highest - lowest);
+  first_range = top_first;
 #endif
   float facing = 0.0;  // 0: both sides of triangles count; 1: that of the winding's normal; -1: the other
   // Where the walk is: link and count as in a node's record, or NOWHERE, or OVER.
@@ -134,6 +149,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
           outside = -1;
           ray = world;
           nodes = rays_top.x;
+#ifdef PATH_STEP
+          first_range = top_first;
+#endif
         }
         if (top == 0) {
           count = OVER;
@@ -200,7 +218,14 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
         // Inside of it a path may meet what reaches into it, from both sides, but not where it has just come in:
         // what is near has to be seen from inside.
         near_end = 0.0;
-        if (one_sided && own_side < 0.0) {
+        first_range = 0.0;
+        if (!is_own) {
+          // A path that comes out of a thing enters what that stands on, and does not meet what it comes out of again.
+          near_end = TOUCHES * about.w;
+          near_facing = (flags & IS_MIRRORED) != 0 ? -1.0 : 1.0;
+          nearest = first_range = -near_end;
+        }
+        else if (one_sided && own_side < 0.0) {
           near_end = nearest;
           near_facing = -facing;
           nearest = facing = 0.0;

@@ -314,6 +314,7 @@ class RayScene:
         mirrors = [self._mirrors[place] for place in places]
         records[:, 3, 0] = [item.object_id for item in placed]
         records[:, 3, 1] = mirrors
+        records[:, 3, 3] = OWN_RANGE * np.linalg.norm(self._high[places] - self._low[places], axis=1)
         lets_light_on = [not self._seen_through.isdisjoint(item.materials) for item in placed]
         for index in np.flatnonzero(np.logical_or(mirrors, lets_light_on)):
             facts = self._facts.of(items[index].mesh)

@@ -10,13 +10,17 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.demo.data_blocks import add_camera, add_object, emitter
+from curvrefl.curvrefl_addon.demo.shapes import plane
 from curvrefl.curvrefl_addon.report.metrics import flip_in_mask, missing_flip
+from scenes.awkward.stage import surface
 from scenes.paths import SCENES
 from scenes.paths.alpha import emitting_leaves
 from scenes.paths.furnace import FURNACE_WORLD
 from scenes.paths.judged import Opened, cycles_picture, inner, judged_numbers, judged_pixels, layered_picture, read_open
 from scenes.paths.one_sample import centers, wrong_pixels
 from scenes.paths.registry import OBJECT
+from scenes.paths.stage import empty, put_box
 
 pytestmark = pytest.mark.usefixtures("gpu")
 SIZE = (80, 60)
@@ -78,6 +82,17 @@ def test_white_furnaces_stay_white(name: str) -> None:
     for number, thing in enumerate(scene.mirrors, 1):
         share = ours[inner(numbers == number)][:, :3].mean() / FURNACE_WORLD
         assert abs(share - 1.0) < 0.005, f"{thing}: {share:.4f}"
+
+
+def test_a_path_that_leaves_a_thing_meets_the_floor_that_it_stands_on() -> None:
+    """A transparent box whose lower side lies in the floor's plane takes its tint twice and hides no floor."""
+    scene: Any = empty((4.0, 4.0, 4.0))
+    scene.render.resolution_x, scene.render.resolution_y = 24, 18
+    add_object("Floor", plane((6.0, 6.0)), emitter("Floor", (0.25, 0.25, 0.25)))
+    put_box(surface("Foil", "BsdfTransparent", Color=(0.5, 0.5, 0.5, 1.0)), (1.0, 1.0, 0.8), (0.3, 0.2, 0.4))
+    add_camera((0.3, 0.2, 3.0), (0.3, 0.2, 0.0), lens=120.0)
+    ours, _ = read_open((OBJECT,)).picture(4)
+    assert np.abs(ours[..., :3] - 0.25 * 0.5**2).max() < 1e-3
 
 
 @pytest.mark.parametrize("name", ["metal_03", "glass_ball"])

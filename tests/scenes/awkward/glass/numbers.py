@@ -139,7 +139,7 @@ def absorption_huge(folder: Path) -> None:
     _absorbing(1e6)
 
 
-@awkward("a volume of a negative density", words=("density", "volume"))
+@awkward("a volume of a negative density")
 def absorption_negative(folder: Path) -> None:
     _absorbing(-1.0)
 
