@@ -62,6 +62,7 @@ void main()
   float met_now = texelFetch(classes_before, pixel, 0).x;
   vec3 towards = dot(normal.xyz, direction) > 0.0 ? -normal.xyz : normal.xyz;
   world_is_shared = quad_is_one_surface(position.xyz, towards, vec3(position.w, normal.w, met_now));
+  world_is_parted = density > 0.0;
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
 #else
