@@ -32,14 +32,14 @@ def small(build: Callable[[], None], mirrors: tuple[str, ...], size: tuple[int, 
 
 
 # Bounds are of 16 sub-frames: FLIP a third above what is found; the mean color a hundredth off, or what noise makes of
-# the darkest channel.
+# the darkest channel and of glints of the sun.
 @pytest.mark.parametrize(
     ("name", "most", "most_off"),
     [
         ("metal_03", 0.05, 0.01),
         ("metal_05", 0.047, 0.01),
         ("brushed_03", 0.053, 0.01),
-        ("gltf", 0.056, 0.01),
+        ("gltf", 0.056, 0.03),
         ("glass_ball", 0.088, 0.025),
         ("window_thin", 0.036, 0.01),
         ("absorbing_block", 0.048, 0.025),

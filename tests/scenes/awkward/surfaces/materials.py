@@ -145,13 +145,13 @@ def fire_volume(folder: Path) -> None:
     give("Red", material)
 
 
-@awkward("glass", words=("glass", "transmi", "refract"))
+@awkward("glass")
 def glass(folder: Path) -> None:
     stage()
     give("Blue", surface("Glass", "BsdfGlass", Color=(0.9, 1.0, 0.9, 1.0), Roughness=0.0, IOR=1.45))
 
 
-@awkward("glass by Principled's transmission", words=("glass", "transmi", "refract"))
+@awkward("glass by Principled's transmission")
 def principled_transmission(folder: Path) -> None:
     stage()
     material = principled("Clear", (0.95, 0.95, 0.95), roughness=0.0)
@@ -159,7 +159,7 @@ def principled_transmission(folder: Path) -> None:
     give("Blue", material)
 
 
-@awkward("a wall of glass before the mirror", words=("glass", "transmi", "refract"))
+@awkward("a wall of glass before the mirror")
 def window_pane(folder: Path) -> None:
     stage()
     add_sheet(
@@ -185,7 +185,7 @@ def alpha_half(folder: Path) -> None:
     give("Red", material)
 
 
-@awkward("Principled's alpha of zero", words=("alpha", "transparen"))
+@awkward("Principled's alpha of zero")
 def alpha_zero(folder: Path) -> None:
     stage()
     material = matte("None", (0.8, 0.1, 0.1))

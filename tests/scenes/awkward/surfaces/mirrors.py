@@ -49,22 +49,22 @@ def _metal(**inputs: Any) -> Any:
     return material.node_tree
 
 
-@awkward("roughness 0.1", words=("roughness",))
+@awkward("roughness 0.1")
 def mirror_roughness_low(folder: Path) -> None:
     _metal(Roughness=0.1)
 
 
-@awkward("roughness 0.3", words=("roughness",))
+@awkward("roughness 0.3")
 def mirror_roughness(folder: Path) -> None:
     _metal(Roughness=0.3)
 
 
-@awkward("roughness 1", words=("roughness",))
+@awkward("roughness 1")
 def mirror_roughness_full(folder: Path) -> None:
     _metal(Roughness=1.0)
 
 
-@awkward("roughness by an image", words=("roughness",))
+@awkward("roughness by an image")
 def mirror_roughness_image(folder: Path) -> None:
     tree = _metal()
     texture = tree.nodes.new("ShaderNodeTexImage")
@@ -73,7 +73,7 @@ def mirror_roughness_image(folder: Path) -> None:
     tree.links.new(texture.outputs[0], principled_node(bpy.data.materials["Chrome 2"]).inputs["Roughness"])
 
 
-@awkward("an anisotropic mirror", words=("anisotrop", "roughness"))
+@awkward("an anisotropic mirror")
 def mirror_anisotropic(folder: Path) -> None:
     _metal(Anisotropic=1.0, Roughness=0.3)
 
@@ -83,46 +83,46 @@ def mirror_gold(folder: Path) -> None:
     _metal(Base_Color=(1.0, 0.6, 0.2, 1.0))
 
 
-@awkward("a black metal", words=("black", "Chrome 2"))
+@awkward("a black metal")
 def mirror_black(folder: Path) -> None:
     _metal(Base_Color=(0.0, 0.0, 0.0, 1.0))
 
 
-@awkward("metal with an edge tint", words=("Specular Tint",))
+@awkward("metal with an edge tint")
 def mirror_edge_tint(folder: Path) -> None:
     _metal(Base_Color=(0.5, 0.1, 0.1, 1.0), Specular_Tint=(0.2, 1.0, 0.2, 1.0))
 
 
-@awkward("half metal, half paint", words=("metal", "diffuse"))
+@awkward("half metal, half paint")
 def mirror_half_metallic(folder: Path) -> None:
     _metal(Metallic=0.5, Base_Color=(0.7, 0.1, 0.1, 1.0))
 
 
-@awkward("a dielectric: polished stone", words=("diffuse", "specular", "dielectric", "Chrome 2"))
+@awkward("a dielectric: polished stone")
 def mirror_dielectric(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.02, 0.02, 0.05, 1.0))
 
 
-@awkward("white china", words=("diffuse", "specular", "dielectric", "Chrome 2"))
+@awkward("white china")
 def mirror_china(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.8, 0.8, 0.8, 1.0))
     _without_bounces()
 
 
-@awkward("a matte mirror: nothing is reflected", words=("roughness", "diffuse", "Mirror"))
+@awkward("a matte mirror: nothing is reflected")
 def mirror_matte(folder: Path) -> None:
     stage()
     _of(matte("Chalk", (0.8, 0.3, 0.2)))
     _without_bounces()
 
 
-@awkward("a mirror of glass", words=("glass", "transmi", "refract"))
+@awkward("a mirror of glass")
 def mirror_glass(folder: Path) -> None:
     stage()
     _of(surface("Glass", "BsdfGlass", Roughness=0.0, IOR=1.45))
 
 
-@awkward("a mirror of Principled glass", words=("glass", "transmi", "refract"))
+@awkward("a mirror of Principled glass")
 def mirror_principled_glass(folder: Path) -> None:
     _metal(Metallic=0.0, Transmission_Weight=1.0)
 
@@ -132,7 +132,7 @@ def mirror_coat(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.5, 0.02, 0.02, 1.0), Roughness=1.0, Coat_Weight=1.0, Coat_Roughness=0.0)
 
 
-@awkward("a coat on metal", words=("coat",))
+@awkward("a coat on metal")
 def mirror_coat_on_metal(folder: Path) -> None:
     _metal(Base_Color=(0.5, 0.1, 0.05, 1.0), Coat_Weight=1.0, Coat_Roughness=0.0, Coat_Tint=(0.3, 0.5, 1.0, 1.0))
 
@@ -147,7 +147,7 @@ def mirror_subsurface(folder: Path) -> None:
     _metal(Metallic=0.0, Base_Color=(0.8, 0.3, 0.2, 1.0), Subsurface_Weight=1.0)
 
 
-@awkward("a mirror that is half transparent", words=("alpha", "transparen"))
+@awkward("a mirror that is half transparent")
 def mirror_alpha(folder: Path) -> None:
     _metal(Alpha=0.5)
 
@@ -157,7 +157,7 @@ def mirror_emission(folder: Path) -> None:
     _metal(Emission_Color=(0.3, 0.1, 0.0, 1.0), Emission_Strength=1.0)
 
 
-@awkward("a mirror with a thin film", words=("film",))
+@awkward("a mirror with a thin film")
 def mirror_thin_film(folder: Path) -> None:
     _metal(Thin_Film_Thickness=450.0)
 
@@ -174,13 +174,13 @@ def mirror_glossy_shader(folder: Path) -> None:
     _of(surface("Glossy", "BsdfAnisotropic", Color=(0.9, 0.7, 0.4, 1.0), Roughness=0.0))
 
 
-@awkward("a Metallic shader without roughness", words=("metallic", "shader"))
+@awkward("a Metallic shader without roughness")
 def mirror_metallic_shader(folder: Path) -> None:
     stage()
     _of(surface("Metal", "BsdfMetallic", Base_Color=(0.9, 0.7, 0.4, 1.0), Roughness=0.0))
 
 
-@awkward("a Metallic shader by physical values", words=("metallic", "shader", "conductor"))
+@awkward("a Metallic shader by physical values")
 def mirror_metallic_physical(folder: Path) -> None:
     stage()
     material = surface("Metal", "BsdfMetallic", Roughness=0.0)
@@ -276,7 +276,7 @@ def mirror_displacement(folder: Path) -> None:
     tree.links.new(displace.outputs[0], output_of(tree).inputs["Displacement"])
 
 
-@awkward("a mirror of two materials, one of them matte", words=("roughness", "diffuse", "Paint"))
+@awkward("a mirror of two materials, one of them matte")
 def mirror_two_materials(folder: Path) -> None:
     stage()
     mesh = find(MIRROR).data
@@ -323,7 +323,7 @@ def mirror_one_way(folder: Path) -> None:
     _of(material)
 
 
-@awkward("two mirrors, one rough and one clear", words=("roughness",), mirrors=(MIRROR, "Second"))
+@awkward("two mirrors, one rough and one clear", mirrors=(MIRROR, "Second"))
 def mirror_pair_rough(folder: Path) -> None:
     stage()
     add_ball("Second", (-1.1, -1.3, 0.7), 0.6, principled("Satin", (0.9, 0.8, 0.6), metallic=1.0, roughness=0.4))
