@@ -172,6 +172,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #ifdef LIGHTING_PARTS
       scattered *= lighting_data[base + 11].y;
 #endif
+#if !defined(PATH_LOBES) || defined(PATHS_ALPHA)
       // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
       float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
       if (alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
@@ -181,6 +182,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
         scattered += glossy;
       }
+#endif
 #ifdef PATH_LOBES
       vec3 body = abs(lighting_data[base + 6].rgb) * (lighting_data[base + 5].w > 0.5 ? 1.0 : 0.0);
       vec3 even = abs(even_irradiance);

@@ -120,6 +120,8 @@ vec3 lobe_middle(vec3 to_viewer, vec3 normal, float cos_normal)
 
 #ifdef QUADS
 bool world_is_shared = false;  // the pixel's quad lies on one surface (quad.glsl)
+bool world_is_parted = false;  // it does not, but a part of the directions stands for all: where chance rules anyway
+int world_turn = 0;            // whose part which is changes from sub-frame to sub-frame and from quad to quad
 #endif
 
 // Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
@@ -139,8 +141,10 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     int count = int(lighting_data[0].y);
 #ifdef QUADS
     // The four pixels of a quad take a quarter of the directions each.
-    int i = world_is_shared ? quad_lane() : 0;
-    int stride = world_is_shared ? 4 : 1;
+    // (Of few directions none is left out: there are many sub-frames then, and little to gain.)
+    int parts = count < 4 ? 1 : 4;
+    int i = world_is_shared ? quad_lane() : (world_is_parted ? (quad_lane() + world_turn) % parts : 0);
+    int stride = world_is_shared ? 4 : (world_is_parted ? parts : 1);
 #else
     int i = 0;
     int stride = 1;
@@ -170,8 +174,8 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     } while (i < count);
 #ifdef QUADS
     vec4 all = quad_sum(vec4(lost, lobe_lost));
-    lost = world_is_shared ? all.xyz : lost;
-    lobe_lost = world_is_shared ? all.w : lobe_lost;
+    lost = world_is_shared ? all.xyz : (world_is_parted ? float(parts) * lost : lost);
+    lobe_lost = world_is_shared ? all.w : (world_is_parted ? float(parts) * lobe_lost : lobe_lost);
 #endif
     vec3 seen = world_irradiance(place) - world_map(place, 1).rgb * lost;
     vec4 lobe = world_lobe(middle, shape.y);

@@ -62,6 +62,13 @@ void main()
   float met_now = texelFetch(classes_before, pixel, 0).x;
   vec3 towards = dot(normal.xyz, direction) > 0.0 ? -normal.xyz : normal.xyz;
   world_is_shared = quad_is_one_surface(position.xyz, towards, vec3(position.w, normal.w, met_now));
+  world_is_parted = density > 0.0;
+  // (By a hash, as the directions' order has a pattern.)
+  ivec2 quad = pixel >> 1;
+  uint mixed = uint(quad.x) * 73856093u ^ uint(quad.y) * 19349663u ^ uint(turn) * 83492791u;
+  mixed = (mixed ^ (mixed >> 16u)) * 0x7feb352du;
+  mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
+  world_turn = int(mixed >> 24u);
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
 #else

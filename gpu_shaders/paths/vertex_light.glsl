@@ -10,6 +10,9 @@ PathVertex lit_vertex;
 
 vec3 followed_lobes(vec3 to_viewer, vec3 to_light, float density)
 {
+  if (!lit_vertex.follows) {
+    return vec3(0.0);
+  }
   float of_rays;
   vec3 value = scattered(lit_vertex.material, lit_vertex.facing, to_viewer, to_light, of_rays);
   return of_rays > 0.0 ? value * (density > 0.0 ? density / (density + of_rays) : 1.0) : vec3(0.0);
@@ -18,6 +21,9 @@ vec3 followed_lobes(vec3 to_viewer, vec3 to_light, float density)
 
 vec3 light_of_vertex(Surface s, PathVertex v, vec3 to_viewer)
 {
+#ifdef PATH_LOBES
+  lit_vertex = v;
+#endif
 #ifdef PATHS_ALPHA
   if (!v.follows) {
     return v.material.alpha * shade_surface(s, to_viewer);
@@ -27,15 +33,16 @@ vec3 light_of_vertex(Surface s, PathVertex v, vec3 to_viewer)
 #if defined(PATHS_BASE) || defined(PATH_LOBES)
   float cos_viewer = dot(s.normal, to_viewer);
   Lobes lobes;
+#ifdef PATHS_BASE
   lobes.diffuse = base_share(v.material, v.facing, max(cos_viewer, 1e-4));
+#else
+  lobes.diffuse = vec3(0.0);
+#endif
   lobes.metal_f0 = lobes.metal_weight = lobes.specular_albedo = vec3(0.0);
   lobes.metal_edge = lobes.dielectric_weight = 0.0;
   lobes.eta = 1.5;
   lobes.alpha = 1.0;
   lobes.cos_viewer = max(cos_viewer, 1e-4);
-#ifdef PATH_LOBES
-  lit_vertex = v;
-#endif
   sum += lamps_on(s, lobes, to_viewer);
 #ifdef PATHS_BASE
   sum += world_on(s, lobes, to_viewer);

@@ -43,6 +43,7 @@ class PathLight:
         classes: Any,
         before: SurfaceBuffer | PathVertices | None = None,
         classes_before: Any = None,
+        sub_frame: int = 0,
     ) -> None:
         """Add the light of one class of vertices, times `weight`.
 
@@ -65,6 +66,7 @@ class PathLight:
                 shader.uniform_sampler("before_position", before.position)
                 if kind is PathClass.STOPS:
                     shader.uniform_sampler("classes_before", classes_before)
+                    shader.uniform_int("turn", sub_frame)
                 shader.uniform_sampler("path_way", vertices.way)
                 shader.uniform_sampler("path_throughput", vertices.throughput)
             self.lighting.bind(shader)
@@ -113,7 +115,11 @@ def _light_shader(
         VIEW,
         *vertex_pieces(features),
         *((way,) if on_path else ()),
-        *((Piece(samplers={"classes_before": "DEPTH_2D"}),) if kind is PathClass.STOPS else ()),
+        *(
+            (Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "INT"}),)
+            if kind is PathClass.STOPS
+            else ()
+        ),
         *lighting_pieces(lighting_features),
         Piece(
             constants={"weight": "FLOAT"},

@@ -127,7 +127,9 @@ class PathTracer:
             if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
-                light.add(canvas, weight, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1))
+                light.add(
+                    canvas, weight, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1), sub_frame
+                )
             before = met
 
     def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
