@@ -179,6 +179,8 @@ class Renderer:
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         found += left_out_by(self.settings.entry, self.scene, self._numbers)
         found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
+        if self._tracer is not None:
+            found += self._tracer.warnings
         if self._rays is not None:
             found += self._rays.warnings
         return tuple(found)

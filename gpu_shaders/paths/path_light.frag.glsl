@@ -66,8 +66,8 @@ void main()
   // (By a hash, as the directions' order has a pattern.)
   ivec2 quad = pixel >> 1;
   uint mixed = uint(quad.x) * 73856093u ^ uint(quad.y) * 19349663u ^ uint(turn) * 83492791u;
-  mixed = (mixed ^ (mixed >> 16u)) * 0x7feb352du;
-  mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
+  mixed = (mixed ^ (mixed >> 16u)) * 2146121005u;
+  mixed = (mixed ^ (mixed >> 15u)) * 2221713035u;
   world_turn = int(mixed >> 24u);
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);

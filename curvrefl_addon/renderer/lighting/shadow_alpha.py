@@ -62,7 +62,7 @@ class ShadowAlpha:
         self.materials = frozenset(index for index, share in enumerate(through) if share > 0.0)
         self.hashed = frozenset(index for index in self.materials if through[index] < 1.0)
         cause = "Shadows {of} are gray where shadow maps serve: its tint is left out."
-        tinted = [self._materials[index] for index in self.hashed]
+        tinted = [self._materials[index] for index in sorted(self.materials)]
         self.warnings = sentences(
             Remark(cause, "material", item.name) for item in tinted if np.ptp(item.transparent_tint) > GRAY
         )

@@ -17,11 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...scene.arrays import (
-    InstanceArrays,
-    MeshArrays,
-    SceneArrays,
-)
+from ...scene.arrays import InstanceArrays, MeshArrays, SceneArrays
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
 from ..geometry.mesh_facts import MeshFactsCache

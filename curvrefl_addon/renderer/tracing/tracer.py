@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...scene.arrays import MaterialArrays, SceneArrays
+from ...scene.arrays import UNLIMITED_BOUNCES, MaterialArrays, SceneArrays
 from ..device.textures import depth_texture
 from ..lighting.lighting import Lighting
 from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, SCALARS, goes_on
@@ -64,6 +64,15 @@ class PathTracer:
     def sees_through(self) -> bool:
         """Paths begin at other surfaces than mirrors, too."""
         return self._sees_through
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence each."""
+        _, _, interfaces, transparent = self._limits
+        most = max(interfaces if GLASS in self.features else 0, transparent if ALPHA in self.features else 0)
+        if MOST_EVENTS < most < UNLIMITED_BOUNCES:
+            return (f"Light is followed through {MOST_EVENTS} surfaces, fewer than the file's bounces allow.",)
+        return ()
 
     def limits(self, bounces: int) -> Limits:
         """`bounces`: mirrors that are followed at most."""
@@ -143,8 +152,8 @@ class PathTracer:
         return self._targets[size]
 
 
-MOST_EVENTS = 32
-"""Interfaces or transparent surfaces that a path is followed through, whatever the file says"""
+MOST_EVENTS = 63
+"""Interfaces or transparent surfaces that a path is followed through at most: what its state counts"""
 
 
 def _has_base(material: MaterialArrays) -> bool:
