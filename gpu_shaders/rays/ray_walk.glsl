@@ -9,7 +9,8 @@
 // Of a triangle: corner A; edges B - A and C - A; numbers of its corners and its material slot. Object space.
 // Of a corner: normal; uv and packed color.
 // Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as
-// none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of materials).
+// none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of
+// materials).
 #include "common/records.glsl"
 
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
