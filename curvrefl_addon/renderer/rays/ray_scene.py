@@ -316,8 +316,7 @@ class RayScene:
             facts = self._facts.of(items[index].mesh)
             flags[index] += InstanceFlag.NEVER_SEES_ITSELF * facts.never_sees_itself
             flags[index] += InstanceFlag.IS_CLOSED * facts.is_closed
-            size = np.linalg.norm(matrices[index, :3, :3] @ (facts.box[1] - facts.box[0]))
-            records[index, 3, 3] = OWN_RANGE * size
+            records[index, 3, 3] = OWN_RANGE * np.linalg.norm(matrices[index, :3, :3] @ (facts.box[1] - facts.box[0]))
         records[:, 3, 2] = flags
         records[:, 4, :3] = np.array([item.starts for item in items]) // UNIT
         records[:, 5, 0] = [len(item.materials) for item in placed]
