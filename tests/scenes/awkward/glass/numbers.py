@@ -151,7 +151,9 @@ def film_negative(folder: Path) -> None:
     give(MIRROR, _linked(material, "Thin Film Thickness", -300.0))
 
 
-@awkward("a transparent color that is brighter than all, and one below 0", words=("transparen", "color", "range", "tint"))
+@awkward(
+    "a transparent color that is brighter than all, and one below 0", words=("transparen", "color", "range", "tint")
+)
 def transparent_out_of_range(folder: Path) -> None:
     _scene()
     give("Red", surface("Bright", "BsdfTransparent", Color=(3.0, 0.5, -0.5, 1.0)))
