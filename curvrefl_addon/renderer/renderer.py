@@ -25,7 +25,7 @@ from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .noise import Convergence
-from .paths.features import path_features
+from .paths.features import path_features, same_for_paths
 from .paths.left_out import left_out_by, reasons_for_rays
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
@@ -86,6 +86,13 @@ class Renderer:
         features = path_features(self.scene)
         return PathTracer(self.scene, features, self._lighting, self._materials) if features else None
 
+    def _follow_paths(self, scene: SceneArrays) -> None:
+        features = path_features(scene)
+        if self._tracer is not None and self._tracer.features == features:
+            self._tracer.follow(scene)
+        else:
+            self._tracer = self._new_tracer()
+
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
 
@@ -110,8 +117,8 @@ class Renderer:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
-        if scene.materials is not before.materials or scene.instances is not before.instances:
-            self._tracer = self._new_tracer()
+        if not same_for_paths(before, scene):
+            self._follow_paths(scene)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
 

@@ -41,6 +41,15 @@ def path_features(scene: SceneArrays) -> frozenset[str]:
     return frozenset(found)
 
 
+def same_for_paths(before: SceneArrays, scene: SceneArrays) -> bool:
+    """Whether nothing has changed that paths' features or limits are made of."""
+    objects = ("materials", "instances", "images", "meshes")
+    values = ("reflectors", "most_bounces", "mirror_bounces", "transmission_bounces", "transparent_bounces")
+    return all(getattr(scene, name) is getattr(before, name) for name in objects) and all(
+        getattr(scene, name) == getattr(before, name) for name in values
+    )
+
+
 def goes_on(material: MaterialArrays, is_mirror: bool) -> bool:
     """Whether a path that meets the material may go on from there. `is_mirror`: of a chosen mirror."""
     return is_mirror or material.is_seen_through

@@ -35,6 +35,13 @@ class PathTracer:
         """`features`: what the scene needs of paths, not empty (`paths.features.path_features`)."""
         self.features = features
         self._lighting, self._materials = lighting, materials
+        self._has_images = bool(scene.images)
+        self._targets: dict[tuple[int, int], _Targets] = {}
+        self.follow(scene)
+
+    def follow(self, scene: SceneArrays) -> None:
+        """Know another state of the scene, which needs the same features."""
+        features = self.features
         self._absorbing: Any = absorbing(scene) if ABSORPTION in features else None
         self._frames: Any = object_frames(scene) if ANISOTROPY in features else None
         used = {
@@ -46,8 +53,9 @@ class PathTracer:
         self._has_base = any(_has_base(scene.materials[index]) for index in used)
         self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
         self._sees_through = any(scene.materials[index].is_seen_through for index in used)
-        self._has_images = bool(scene.images)
-        self._targets: dict[tuple[int, int], _Targets] = {}
+        if self._has_images != bool(scene.images):
+            self._has_images = bool(scene.images)
+            self._targets.clear()
 
     @property
     def has_scalars(self) -> bool:
