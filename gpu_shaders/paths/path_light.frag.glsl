@@ -39,14 +39,16 @@ void main()
   float range = distance(position.xyz, origin);
 #ifdef LIGHTS_MISSES
   range = 2e30;
+  bool is_hole = texelFetch(vertex_color, pixel, 0).w == HOLE;
+  bool is_open = is_hole;
 #ifdef FILM_TRANSPARENT
-  if (by_camera) {
+  is_open = is_open || by_camera;
+#endif
+  if (is_open) {
     // (What its first surface has covered, but for what has come through.)
     cover = -dot(throughput.rgb, vec3(1.0 / 3.0));
   }
-  else
-#endif
-  {
+  else {
 #ifdef PATH_LIGHT
     radiance = world_met(direction, by_camera, density);
 #else
@@ -82,6 +84,9 @@ void main()
   // (Suns are behind all surfaces.)
 #ifdef PATH_LIGHT
   ray_density = density;
+#endif
+#ifdef LIGHTS_MISSES
+  range = is_hole ? 0.0 : range;
 #endif
   radiance += lamps_seen(origin, direction, range, by_camera).rgb;
 #endif

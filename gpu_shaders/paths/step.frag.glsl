@@ -85,7 +85,12 @@ void main()
 #ifdef WITH_IMAGES
   uv_out = vec4(0.0);
 #endif
-  if (hit.instance >= 0) {
+  bool is_hole = hit.instance >= 0 && state.kind == RAY_CAMERA &&
+                 (int(fetch_record(rays, hit.instance + 3).z) & HOLDS_OUT) != 0;
+  if (is_hole) {
+    surface_color_out.w = HOLE;
+  }
+  else if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, v.position, next.direction);
     vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
     bool is_seen_through = fetch_record(materials, MATERIAL_RECORDS * surface.material + 12).w > 0.5;

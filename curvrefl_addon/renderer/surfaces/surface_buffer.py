@@ -16,6 +16,8 @@ from ..device.textures import depth_texture, empty_texture
 
 SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
 """Color targets of a SurfaceBuffer"""
+HOLE = -2.0
+"""In place of a mirror's number: a hole in the picture"""
 SEEN_THROUGH = -3.0
 """In place of a mirror's number: light goes on behind it, and paths follow it"""
 

@@ -17,7 +17,7 @@ from ..paths.features import ABSORPTION, ANISOTROPY, SCALARS
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CLASS
-from ..surfaces.surface_buffer import SEEN_THROUGH, SURFACE_OUTPUTS, SurfaceBuffer
+from ..surfaces.surface_buffer import HOLE, SEEN_THROUGH, SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
 from .media import ABSORBING
@@ -126,7 +126,10 @@ def vertex_pieces(features: frozenset[str]) -> tuple[Piece, ...]:
     samplers = named("FLOAT_2D", "vertex_position", "vertex_normal", "vertex_color", "lighting_ggx", *scalars)
     return (
         TABLE,
-        Piece(samplers=samplers, defines={**flags(*sorted(features)), **GGX_DEFINES, "SEEN_THROUGH": SEEN_THROUGH}),
+        Piece(
+            samplers=samplers,
+            defines={**flags(*sorted(features)), **GGX_DEFINES, "SEEN_THROUGH": SEEN_THROUGH, "HOLE": HOLE},
+        ),
         *((OBJECT_FRAMES,) if ANISOTROPY in features else ()),
     )
 
