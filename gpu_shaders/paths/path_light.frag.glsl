@@ -3,7 +3,7 @@
 // Light that a path finds, times what is left of it on the way. One define says at which pixels: LIGHTS_MISSES (it met
 // nothing), LIGHTS_STOPS (a surface where it ends), LIGHTS_GOES_ON (a surface from which it goes on: what that shows
 // besides). With ON_PATH what a step has met (step.frag.glsl), else what the eye sees.
-#ifdef LIGHTS_STOPS
+#if defined(LIGHTS_STOPS) && defined(LIGHTING_WORLD)
 #define QUADS
 #endif
 #include "lighting/quad.glsl"
@@ -60,6 +60,7 @@ void main()
   vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
 #ifdef LIGHTS_STOPS
   Surface surface = surface_of(position, normal, base);
+#ifdef QUADS
   // (Of other pixels a quad may have what an older step has met.)
   float met_now = texelFetch(classes_before, pixel, 0).x;
   vec3 towards = dot(normal.xyz, direction) > 0.0 ? -normal.xyz : normal.xyz;
@@ -71,6 +72,7 @@ void main()
   mixed = (mixed ^ (mixed >> 16u)) * 2146121005u;
   mixed = (mixed ^ (mixed >> 15u)) * 2221713035u;
   world_turn = int(mixed >> 24u);
+#endif
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
 #else

@@ -64,7 +64,7 @@ class PathLight:
             if before is not None:
                 assert isinstance(vertices, PathVertices)
                 shader.uniform_sampler("before_position", before.position)
-                if kind is PathClass.STOPS:
+                if kind is PathClass.STOPS and "LIGHTING_WORLD" in self.lighting.features:
                     shader.uniform_sampler("classes_before", classes_before)
                     shader.uniform_int("turn", sub_frame)
                 shader.uniform_sampler("path_way", vertices.way)

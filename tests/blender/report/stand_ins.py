@@ -39,7 +39,7 @@ class CyclesFrame:
         ids = {instance.object_name: instance.object_id for instance in scene.instances}
         self._geometry = render_geometry(blender_scene, view_layer, WIDTH, HEIGHT, ids, scene.reflectors)
         self._color = render_reference(blender_scene, view_layer, WIDTH, HEIGHT, SAMPLES).pixels
-        self.choice = None
+        self.choice = self.convergence = None
         self.times_ms = {"bake": 7.0, "solve": 1.0, "draw": frame_ms - 1.0, "frame": frame_ms}
 
     def color(self) -> np.ndarray:

@@ -151,7 +151,7 @@ def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
     reflection = renderer.reflect(VIEW)
     renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True)
     # One sub-frame has no jitter: it is the view's own.
-    sub_frame = renderer._draw_surfaces(VIEW, reflection)
+    sub_frame = renderer._draw_surfaces(reflection)
     ((kind, members),) = reflection.groups
     shown = kind.draw(members, sub_frame, of_positions=True)
     assert shown is not None

@@ -69,7 +69,10 @@ def room(surface: RadialSurface) -> SceneArrays:
             placed(4, 2, (1.0, 1.0, 1.0), (0.2, -front - 0.4 - CONTACT, 0.0)),
             placed(5, 1, (2.0, 0.2, 1.0), (3.0, -6.0, 1.0)),
         ),
-        (MaterialArrays("chrome", metallic=1.0, roughness=0.0), MaterialArrays("paint", uses_vertex_color=True)),
+        (
+            MaterialArrays("chrome", metallic=1.0, roughness=0.0),
+            MaterialArrays("paint", roughness=0.0, uses_vertex_color=True),
+        ),
         (), (), WorldArrays((0.5, 0.5, 0.5)), (1,),
     )  # fmt: skip
 
