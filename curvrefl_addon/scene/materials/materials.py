@@ -210,6 +210,8 @@ class MaterialReader:
                 "Tangents {of} are drawn about the Z axis: they are on another UV map than its color."
             )
             return found, replace(arrays, tangent_by_uv=False)
+        # (Paths have no axes of a UV map yet.)
+        notes.on_paths.append("Tangents {of} are drawn about the Z axis.")
         return replace(found, uv_maps=uv_maps), arrays
 
     def _with_relief(

@@ -80,7 +80,7 @@ def test_what_is_seen_through_is_shown_in_full() -> None:
     [
         ({"direction_type": "RADIAL", "axis": "Z"}, False, False),
         ({"direction_type": "RADIAL", "axis": "X"}, False, True),
-        ({"direction_type": "UV_MAP", "uv_map": "UVMap"}, True, False),
+        ({"direction_type": "UV_MAP", "uv_map": "UVMap"}, True, True),
     ],
 )
 def test_tangents(properties: dict[str, str], by_uv: bool, said: bool) -> None:
