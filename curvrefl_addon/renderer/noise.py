@@ -19,6 +19,7 @@ import numpy as np
 
 from ..scene.arrays import Float64Array
 from ..scene.camera.sampling import is_progressive
+from ..scene.camera.srgb import linear_to_srgb
 from .device.batches import full_screen_triangle
 from .device.context import gpu_cache
 from .device.shaders import FULL_SCREEN, Piece, build_shader
@@ -150,9 +151,9 @@ class NoiseMeter:
 
 
 def _as_shown(linear: Float64Array) -> Float64Array:
-    """sRGB's curve, 0..1."""
-    value = np.clip(np.nan_to_num(linear), 0.0, 1.0)
-    return np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1.0 / 2.4) - 0.055)
+    """By sRGB's curve, 0..1."""
+    shown: Float64Array = linear_to_srgb(np.clip(np.nan_to_num(linear), 0.0, 1.0))
+    return shown
 
 
 @gpu_cache

@@ -25,8 +25,8 @@ from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .noise import Convergence
-from .paths.features import path_features, same_for_paths
-from .paths.left_out import left_out_by, reasons_for_rays
+from .paths.features import same_for_paths
+from .paths.left_out import PathNeeds
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .rays.ray_scene import RayScene
@@ -79,19 +79,22 @@ class Renderer:
         self._materials = Materials(self.scene)
         self._lighting = Lighting(self.scene, self.geometry, self.settings.samples)
         self._shade = ShadePass(self.scene, self._lighting, self._materials)
-        self._tracer = self._new_tracer()
+        self._tracer: PathTracer | None = None
+        self._follow_paths()
+
+    def _follow_paths(self) -> None:
+        """Of what the scene is made has changed, beside places."""
+        self._needs = PathNeeds(self.scene, self._numbers)
+        features = self._needs.features
+        if self._tracer is not None and self._tracer.features == features:
+            self._tracer.follow(self.scene)
+        else:
+            self._tracer = self._new_tracer()
 
     def _new_tracer(self) -> PathTracer | None:
         """Where the scene needs one."""
-        features = path_features(self.scene)
+        features = self._needs.features
         return PathTracer(self.scene, features, self._lighting, self._materials) if features else None
-
-    def _follow_paths(self, scene: SceneArrays) -> None:
-        features = path_features(scene)
-        if self._tracer is not None and self._tracer.features == features:
-            self._tracer.follow(scene)
-        else:
-            self._tracer = self._new_tracer()
 
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
@@ -117,8 +120,10 @@ class Renderer:
             self._materials.follow(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
-        if not same_for_paths(before, scene):
-            self._follow_paths(scene)
+        if difference.structure or not same_for_paths(before, scene):
+            self._follow_paths()
+        elif difference.moved and self._tracer is not None:
+            self._tracer.move(scene)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
 
@@ -184,7 +189,7 @@ class Renderer:
                 found += mirror.shape(self.settings.map_resolution).warnings
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        found += left_out_by(self.settings.entry, self.scene, self._numbers)
+        found += self._needs.left_out_by(self.settings.entry)
         found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
         if self._tracer is not None:
             found += self._tracer.warnings
@@ -251,11 +256,12 @@ class Renderer:
         origin = self._placement.origin
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
-        reasons = reasons_for_rays(self.scene, self._numbers)
         if last is not None and not np.array_equal(last.origin, origin):
             # (Its points are elsewhere.)
             last = None
-        found = self._preparation.reflect(self._stage, view, self.settings, reasons, last, is_still, at_rest)
+        found = self._preparation.reflect(
+            self._stage, view, self.settings, self._needs.reasons, last, is_still, at_rest
+        )
         return replace(found, warnings=(*self.warnings, *found.warnings), origin=origin)
 
     def add_sub_frame(

@@ -8,8 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..scene.arrays import Float32Array
-
-_LINEAR_END = 0.0031308
+from ..scene.camera.srgb import linear_to_srgb, srgb_to_linear
 
 
 def display_transform(linear: Float32Array) -> Float32Array:
@@ -18,12 +17,9 @@ def display_transform(linear: Float32Array) -> Float32Array:
     `linear`: any shape, color only (no alpha). Not-a-number becomes 0, as a screen would show it.
     """
     clipped = np.clip(np.nan_to_num(linear, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0)
-    curve = 1.055 * np.power(np.maximum(clipped, _LINEAR_END), 1.0 / 2.4) - 0.055
-    return np.where(clipped <= _LINEAR_END, 12.92 * clipped, curve).astype(np.float32)
+    return linear_to_srgb(clipped).astype(np.float32)
 
 
 def inverse_display_transform(encoded: Float32Array) -> Float32Array:
     """Scene-linear colors that the display transform shows as `encoded` (in 0..1)."""
-    linear_end = 12.92 * _LINEAR_END
-    curve = np.power((np.maximum(encoded, linear_end) + 0.055) / 1.055, 2.4)
-    return np.where(encoded <= linear_end, encoded / 12.92, curve).astype(np.float32)
+    return srgb_to_linear(encoded).astype(np.float32)

@@ -8,7 +8,9 @@
 // normal across D. In pixels the square is J^-1 S J'^-1; its root needs no axes, so that it changes smoothly.
 // `reach`: xx, xy and yy of the root, 0 where no mirror is rough; and one over how far behind the mirror the image of
 // what it shows stands, which is 1 / t + 2 c on a mirror of curvature c (as on axis).
+#from optics.scattering.microfacet import SHARP_ALPHA
 #include "surfaces/material_records.glsl"
+#include "surfaces/material_number.glsl"
 
 vec3 reflected_at(ivec2 pixel, vec3 position)
 {
@@ -53,9 +55,9 @@ void main()
   }
   vec4 place = texelFetch(seen_position, pixel, 0);
   vec4 facing = texelFetch(seen_normal, pixel, 0);
-  float roughness = fetch_record(materials, MATERIAL_RECORDS * int(floor(facing.w + 0.5))).y;
+  float roughness = fetch_record(materials, MATERIAL_RECORDS * material_number(facing.w)).y;
   float alpha = roughness * roughness;
-  if (alpha < SHARPEST_LOBE) {
+  if (alpha < SHARP_ALPHA) {
     return;
   }
   vec3 direction = reflected_at(pixel, place.xyz);

@@ -5,7 +5,7 @@
 // lobe scaled by its missing energy as Turquin, "Practical multiple scattering compensation" (2019).
 
 // Below this squared roughness squared a lobe is a mirror, which no lamp sample can hit.
-#define GGX_SINGULAR_ALPHA 7e-4
+#from optics.scattering.microfacet import SHARP_ALPHA as GGX_SINGULAR_ALPHA
 
 const float LIGHTING_PI = 3.14159265358979;
 

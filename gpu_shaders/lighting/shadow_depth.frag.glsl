@@ -5,16 +5,8 @@
 // in the window's x and y on a plane, in perspective too, so this is exact. The move is at most bias.y + bias.z (1 -
 // depth).
 #ifdef HASHED
+#include "common/hash.glsl"
 #include "rays/light_through.glsl"
-
-uint mixed(uint bits)
-{
-  // Multiplications and shifts by which each bit of the input flips each of the output about half of the time
-  // (constants: Wellons, "Hash Function Prospector", 2018).
-  bits = (bits ^ (bits >> 16)) * 2146121005u;
-  bits = (bits ^ (bits >> 15)) * 2221713035u;
-  return bits ^ (bits >> 16);
-}
 
 // 0..1, of this texel of this surface. `turn`: which of how many maps; the numbers of up to TOGETHER of them in a row
 // are one in each of as many equal parts, in an order of the texel's own, so that surfaces one behind the other are
@@ -24,14 +16,14 @@ uint mixed(uint bits)
 float chance()
 {
   int count = min(turn.y, TOGETHER);
-  uint seed = mixed(uint(gl_FragCoord.x) | (uint(gl_FragCoord.y) << 16));
-  seed = mixed(seed ^ uint(surface.x));
-  seed = mixed(seed + uint(surface.y));
-  seed = mixed(seed + uint(turn.x / count));
-  uint own = mixed(seed + uint(turn.x % count));
+  uint seed = hashed(uint(gl_FragCoord.x) | (uint(gl_FragCoord.y) << 16));
+  seed = hashed(seed ^ uint(surface.x));
+  seed = hashed(seed + uint(surface.y));
+  seed = hashed(seed + uint(turn.x / count));
+  uint own = hashed(seed + uint(turn.x % count));
   int rank = 0;
   for (int other = 0; other < count; other++) {
-    rank += mixed(seed + uint(other)) < own ? 1 : 0;
+    rank += hashed(seed + uint(other)) < own ? 1 : 0;
   }
   return (float(rank) + float(seed >> 8) / 16777216.0) / float(count);
 }

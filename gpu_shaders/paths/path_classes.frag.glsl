@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What there is to do at each pixel of a path's vertex, as a depth (renderer/paths/path_classes.py): with ON_PATH of
+// What there is to do at each pixel of a path's vertex, as a depth (renderer/tracing/path_classes.py): with ON_PATH of
 // what the step before has met where paths went on, else of what the eye sees.
 #include "surfaces/chosen_mirrors.glsl"
 #ifdef ON_PATH

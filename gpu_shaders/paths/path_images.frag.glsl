@@ -4,7 +4,7 @@
 // colors, to be multiplied with them, or with OF_SCALARS of roughness, metallic, transmission and alpha. Of the images
 // `first_image` .. `first_image` + IMAGES - 1 here, as samplers cannot be indexed by what differs from pixel to pixel.
 #include "surfaces/material_records.glsl"
-#include "paths/material_number.glsl"
+#include "surfaces/material_number.glsl"
 #define CASE(number, image) if (index == number) { texel = textureLod(image, place, 0.0); }
 #ifdef OF_SCALARS
 #define TRANSFORM 11

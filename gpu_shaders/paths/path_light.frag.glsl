@@ -6,6 +6,7 @@
 #if defined(LIGHTS_STOPS) && defined(LIGHTING_WORLD)
 #define QUADS
 #endif
+#include "common/hash.glsl"
 #include "lighting/quad.glsl"
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
@@ -68,10 +69,8 @@ void main()
   world_is_parted = density > 0.0;
   // (By a hash, as the directions' order has a pattern.)
   ivec2 quad = pixel >> 1;
-  uint mixed = uint(quad.x) * 73856093u ^ uint(quad.y) * 19349663u ^ uint(turn) * 83492791u;
-  mixed = (mixed ^ (mixed >> 16u)) * 2146121005u;
-  mixed = (mixed ^ (mixed >> 15u)) * 2221713035u;
-  world_turn = int(mixed >> 24u);
+  uint place = uint(quad.x) * 73856093u ^ uint(quad.y) * 19349663u ^ uint(turn) * 83492791u;
+  world_turn = int(hashed(place) >> 24u);
 #endif
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);

@@ -3,11 +3,6 @@
 // What a surface does to a path that meets it, out of the sampler `materials` (renderer/surfaces/materials.py).
 #include "surfaces/material_records.glsl"
 
-// Of `glass` (scene/arrays.py, Glass).
-#define GLASS_PRINCIPLED 0
-#define GLASS_BOTH 1
-#define GLASS_REFRACTION 2
-
 struct PathMaterial {
   vec3 base_color;
   float metallic;
@@ -18,7 +13,7 @@ struct PathMaterial {
   bool glossy_only;
   vec3 emission;
   float transmission;
-  int glass;
+  int glass;               // scene/arrays.py, Glass: GLASS_PRINCIPLED, GLASS_GLASS, GLASS_REFRACTION
   bool thin_wall;
   float alpha;             // after its threshold
   vec3 transparent_tint;

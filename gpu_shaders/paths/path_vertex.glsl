@@ -4,7 +4,7 @@
 // the samplers `vertex_position`, `vertex_normal`, `vertex_color`, with PATHS_SCALARS `vertex_scalars`, and with
 // PATHS_ANISOTROPY `object_frames` (renderer/paths/object_frames.py).
 #include "paths/path_material.glsl"
-#include "paths/material_number.glsl"
+#include "surfaces/material_number.glsl"
 #include "paths/scatter.glsl"
 
 struct PathVertex {

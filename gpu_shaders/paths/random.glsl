@@ -5,15 +5,7 @@
 // "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error" (2020). Needs the push constant `path_point`
 // (IVEC4), which path_point() makes for each sub-frame and bounce.
 
-uint hashed(uint x)
-{
-  x ^= x >> 16u;
-  x *= 0x7feb352du;
-  x ^= x >> 15u;
-  x *= 2221713035u;
-  x ^= x >> 16u;
-  return x;
-}
+#include "common/hash.glsl"
 
 // A bit turns those below it.
 uint scrambled(uint bits, uint seed)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Base color images at the places that exact.frag.glsl has left in `path_uv`: (uv, image), of the images
 // `first_image` .. `first_image` + IMAGES - 1. Multiplies the base color. IMAGE_CASES is a CASE of each of the IMAGES
-// samplers (renderer/rays/paths.py), as samplers cannot be indexed by what differs from pixel to pixel.
+// samplers (renderer/surfaces/image_groups.py), as samplers cannot be indexed by what differs from pixel to pixel.
 #define CASE(number, image) if (index == number) { texel = textureLod(image, place.xy, 0.0); }
 
 void main()

@@ -43,3 +43,20 @@ bool still_reflects(vec4 eye, vec3 vertex, vec3 u)
   vec3 step = newton_step(derivative, path_gradient(eye, vertex, u, at), first, second);
   return length(in_pixels(eye, solver.focal_pixels, at.position, at.radius * step)) < MOST_AT_REST * solver.tolerance;
 }
+
+// Whether there is a point of the last frame to start from (`before`, `convex`: see last_point; `seemed`: where the
+// vertex was shown). `stays`: the vertex goes on to show `shown`.
+bool starts_warm(vec4 before, vec4 seemed, vec3 vertex, bool convex, out vec3 world_point, out vec3 u, out bool stays,
+                 out Solved shown)
+{
+  stays = false;
+  bool warm = last_point(before, convex, world_point, u);
+  // To the last bit: what a vertex that has not moved showed in the same view stays as it is.
+  if (warm && solver.is_same_view != 0 && seemed.w == length_to(vertex, world_point) &&
+      still_reflects(solver.eye, vertex, u)) {
+    int code = int(before.w + 0.5);
+    stays = true;
+    shown = Solved(code % 4, code / 4, before.xyz, seemed.xyz, seemed.w);
+  }
+  return warm;
+}

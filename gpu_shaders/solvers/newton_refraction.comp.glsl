@@ -11,14 +11,12 @@ Solved solve(int index, vec3 vertex)
   vec3 u;
   bool warm = false;
   if (solver.has_last_frame != 0) {
-    vec4 before = fetch_record(previous_points, index);
-    warm = last_point(before, false, world_point, u);
-    vec4 seemed = fetch_record(previous_virtual, index);
-    // To the last bit: what a vertex that has not moved showed in the same view stays as it is.
-    if (warm && solver.is_same_view != 0 && seemed.w == length_to(vertex, world_point) &&
-        still_reflects(solver.eye, vertex, u)) {
-      int code = int(before.w + 0.5);
-      return Solved(code % 4, code / 4, before.xyz, seemed.xyz, seemed.w);
+    bool stays;
+    Solved shown;
+    vec4 before = fetch_record(previous_points, index), seemed = fetch_record(previous_virtual, index);
+    warm = starts_warm(before, seemed, vertex, false, world_point, u, stays, shown);
+    if (stays) {
+      return shown;
     }
   }
   if (!warm) {

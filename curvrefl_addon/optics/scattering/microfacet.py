@@ -32,7 +32,7 @@ __all__ = [
 type Array = NDArray[np.float64]
 
 SHARP_ALPHA = 7e-4
-"""Widths up to this are followed as single directions: GGX_SINGULAR_ALPHA of the shaders"""
+"""Widths (squared roughness) up to this are followed as single directions, which no sample of a lamp can meet"""
 
 
 def surface_frame(normal: Array, tangent: Array) -> Array:

@@ -93,6 +93,13 @@ def flags(*names: str) -> dict[str, str]:
     return dict.fromkeys(names, "")
 
 
+def set_matrix(shader: Any, name: str, matrix: np.ndarray) -> None:
+    """Set a constant MAT4 of a bound shader to an array (4, 4)."""
+    from mathutils import Matrix
+
+    shader.uniform_float(name, Matrix(matrix.tolist()))
+
+
 def build_shader(label: str, *pieces: Piece) -> Any:
     """Compile the shader of these pieces, whose GLSL follows in their order. `label`: a name for error messages.
 

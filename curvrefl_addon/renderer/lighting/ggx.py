@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ...optics.scattering.film import FILM_STEPS, LONGEST_PATH, film_sensitivity
+from ...optics.scattering.fresnel import fresnel_dielectric
 from ...scene.arrays import Float32Array, Float64Array
 
 TABLE_SIZE = 32
@@ -121,15 +122,6 @@ def integrate_lobe(strata: int) -> Float32Array:
     own_lobes = _own_lobe_lengths(roughness)
     table[:, -1, :, 1::2] = np.interp(-table[:, -1, :, 1::2], -own_lobes, roughness)
     return table.reshape(TABLE_SIZE, -1, 4).astype(np.float32)
-
-
-def fresnel_dielectric(cosine: Float64Array, ior: float) -> Float64Array:
-    """Unpolarized reflectance of a smooth dielectric."""
-    square = ior * ior - 1.0 + cosine * cosine
-    g = np.sqrt(np.maximum(square, 1e-12))
-    a = (g - cosine) / (g + cosine)
-    b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0)
-    return np.where(square > 0.0, 0.5 * a * a * (1.0 + b * b), 1.0)
 
 
 def _iors(count: int, last: float) -> list[float]:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
+from ...scene.camera.srgb import linear_to_srgb
 from ...scene.names import listed
 
 SHINY = 0.02
@@ -77,9 +78,8 @@ def _shine(material: MaterialArrays) -> float:
 
 
 def _shown(radiance: float) -> float:
-    """sRGB."""
-    linear = min(max(radiance, 0.0), 1.0)
-    return 12.92 * linear if linear < 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
+    """By sRGB's curve."""
+    return float(linear_to_srgb(min(max(radiance, 0.0), 1.0)))
 
 
 def _made_of(

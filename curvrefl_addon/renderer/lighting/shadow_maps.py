@@ -16,7 +16,7 @@ import numpy as np
 from ...scene.arrays import Float64Array
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
-from ..device.shaders import Piece, build_shader, flags
+from ..device.shaders import Piece, build_shader, flags, set_matrix
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
 from ..geometry.chunk import CHUNK, Chunk, Pieces
@@ -46,7 +46,7 @@ class ShadowCasters:
         """All that casts in a view."""
         shader = _shadow_depth_shader()
         shader.bind()
-        shader.uniform_float("world_to_clip", _matrix(view))
+        set_matrix(shader, "world_to_clip", view.world_to_clip)
         shader.uniform_float("bias", bias)
         for chunk, idle in self._in_view(view):
             batch = chunk.casters(idle, self._alpha.materials)
@@ -57,7 +57,7 @@ class ShadowCasters:
             return
         shader = _hashed_depth_shader()
         shader.bind()
-        shader.uniform_float("world_to_clip", _matrix(view))
+        set_matrix(shader, "world_to_clip", view.world_to_clip)
         shader.uniform_float("bias", bias)
         shader.uniform_int("turn", view.turn)
         self._alpha.bind(shader)
@@ -156,12 +156,6 @@ def _slope_limit(view: ShadowView) -> tuple[float, float]:
     """Greatest bias in window depth: the first plus the second times (1 - depth)."""
     limit = SLOPE_LIMIT_TEXELS * view.texel_slope
     return (limit * (view.depth_terms[0] - 1.0), limit) if view.is_perspective else (limit, 0.0)
-
-
-def _matrix(view: ShadowView) -> Any:
-    from mathutils import Matrix
-
-    return Matrix(view.world_to_clip.tolist())
 
 
 def window_rows(view: ShadowView, resolution: int) -> Float64Array:

@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...optics.scattering.microfacet import SHARP_ALPHA
 from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
 SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
 TINT = "PATHS_TINT"
 """Defines of the shaders of paths"""
-SHARPEST_LOBE = 7e-4
-"""Lobes with a smaller square of the roughness are drawn sharp"""
 
 
 def path_features(scene: SceneArrays) -> frozenset[str]:
@@ -21,7 +20,7 @@ def path_features(scene: SceneArrays) -> frozenset[str]:
 
     Chosen mirrors count and what is seen through, as far as rays see them.
     """
-    of = [features_of(material) for material in scene.materials]
+    of = {is_mirror: [features_of(item, is_mirror) for item in scene.materials] for is_mirror in (False, True)}
     found: set[str] = set()
     asked: set[tuple[bool, int, tuple[int, ...]]] = set()
     for instance in scene.instances:
@@ -34,16 +33,16 @@ def path_features(scene: SceneArrays) -> frozenset[str]:
         wanted = {
             index
             for index in instance.materials
-            if goes_on(scene.materials[index], is_mirror) and not of[index] <= found
+            if goes_on(scene.materials[index], is_mirror) and not of[is_mirror][index] <= found
         }
         for index in in_use(scene, instance, wanted):
-            found |= of[index]
+            found |= of[is_mirror][index]
     return frozenset(found)
 
 
 def same_for_paths(before: SceneArrays, scene: SceneArrays) -> bool:
-    """Whether nothing has changed that paths' features or limits are made of."""
-    objects = ("materials", "instances", "images", "meshes")
+    """Whether nothing beside the instances has changed that paths' features or limits are made of."""
+    objects = ("materials", "images")
     values = ("reflectors", "most_bounces", "mirror_bounces", "transmission_bounces", "transparent_bounces")
     return all(getattr(scene, name) is getattr(before, name) for name in objects) and all(
         getattr(scene, name) == getattr(before, name) for name in values
@@ -60,27 +59,29 @@ def lets_straight_on(material: MaterialArrays) -> bool:
     return material.alpha < 1.0
 
 
-def features_of(material: MaterialArrays) -> frozenset[str]:
-    """Defines that a path needs which goes on from the material."""
+def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
+    """Defines that a path needs which goes on from the material. `is_mirror`: of a chosen mirror."""
+    # (Lobes of what only lets light straight on are not followed.)
+    is_followed = is_mirror or material.transmission > 0.0
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
     is_dielectric = material.specular_level > 0.0 and material.ior != 1.0
     reflects = material.metallic > 0.0 or material.glossy_only or is_dielectric
     has_scalars = material.scalars is not None
-    is_rough = (reflects or material.transmission > 0.0) and material.roughness**2 >= SHARPEST_LOBE
-    is_coat_rough = material.coat_weight > 0.0 and material.coat_roughness**2 >= SHARPEST_LOBE
-    found = {
+    is_rough = (reflects or material.transmission > 0.0) and material.roughness**2 >= SHARP_ALPHA
+    is_coat_rough = material.coat_weight > 0.0 and material.coat_roughness**2 >= SHARP_ALPHA
+    of_lobes = {
         ROUGH: is_rough or is_coat_rough or has_scalars,
         COAT: material.coat_weight > 0.0,
         GLASS: material.transmission > 0.0,
-        ALPHA: lets_straight_on(material),
-        SCALARS: has_scalars,
         ANISOTROPY: material.anisotropy != 0.0 and (is_rough or has_scalars),
         FILM: material.film_thickness > 0.0,
         # (Nothing but paths knows it; they always do.)
         TINT: material.specular_tint != (1.0, 1.0, 1.0) and reflects and not material.glossy_only,
         ABSORPTION: material.transmission > 0.0 and max(material.absorption) > 0.0,
     }
-    return frozenset(name for name, is_needed in found.items() if is_needed)
+    found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}
+    needed = found | of_lobes if is_followed else found
+    return frozenset(name for name, is_needed in needed.items() if is_needed)
 
 
 def in_use(scene: SceneArrays, instance: InstanceArrays, wanted: set[int]) -> set[int]:

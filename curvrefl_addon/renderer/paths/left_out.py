@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from ...optics.catalog import Method
 from ...scene.arrays import InstanceArrays, SceneArrays
 from ...scene.remarks import Remark, sentences
-from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, TINT, features_of, in_use
+from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, TINT, features_of, in_use, path_features
 
 BUMPS = "BUMPS"
 """Beside the features of paths"""
@@ -26,6 +26,25 @@ KINDS = {
 }
 """What is left out, and why `auto` follows rays: the first that there is"""
 SCENERY = "The transparency {of} is left out in mirrors"
+
+
+class PathNeeds:
+    """What a scene needs of paths, wherever its objects are: looked up when it is made of something else, not in each
+    view."""
+
+    def __init__(self, scene: SceneArrays, mirrors: Iterable[int]) -> None:
+        """`mirrors`: indices of their instances."""
+        self._scene, self._mirrors = scene, tuple(mirrors)
+        self._left_out: dict[str, tuple[str, ...]] = {}
+        self.features = path_features(scene)
+        self.reasons = reasons_for_rays(scene, self._mirrors)
+        """See `reasons_for_rays`"""
+
+    def left_out_by(self, method: Method) -> tuple[str, ...]:
+        """See the function."""
+        if method.label not in self._left_out:
+            self._left_out[method.label] = left_out_by(method, self._scene, self._mirrors)
+        return self._left_out[method.label]
 
 
 def left_out_by(method: Method, scene: SceneArrays, mirrors: Iterable[int]) -> tuple[str, ...]:
@@ -61,7 +80,7 @@ def reasons_for_rays(scene: SceneArrays, mirrors: Iterable[int]) -> dict[str, st
 def kinds_of(scene: SceneArrays, mirror: InstanceArrays) -> Iterator[str]:
     """Keys of `KINDS`, in their order."""
     found = {BUMPS} if any(scene.materials[index].relief is not None for index in mirror.materials) else set[str]()
-    of = {index: features_of(scene.materials[index]) for index in mirror.materials}
+    of = {index: features_of(scene.materials[index], True) for index in mirror.materials}
     for index in in_use(scene, mirror, {index for index, features in of.items() if features}):
         found |= of[index]
     yield from (kind for kind in KINDS if kind in found)

@@ -17,6 +17,7 @@ from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import empty_texture
+from ..surfaces.image_groups import IMAGE_GROUP, draw_groups
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CHOSEN_MIRRORS
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
@@ -26,8 +27,6 @@ from .ray_scene import RAYS, RayScene
 
 PATH_DEPTH = 0.5
 """Of pixels whose rays are followed; exact in any depth buffer"""
-IMAGES_AT_ONCE = 8
-"""Base color images that one pass looks up"""
 
 type Enclosing = tuple[float, float]
 """Number of a closed mirror that holds the eye, and how far in from its surface rays start, meters"""
@@ -121,17 +120,14 @@ class PathBuffer(SurfaceBuffer):
 
     def _look_up_images(self, images: list[Any], window: Window) -> None:
         """Multiply the base colors by their images."""
-        for first in range(0, len(images), IMAGES_AT_ONCE):
-            shader = _images_shader()
-            with drawing_state("EQUAL", blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
-                set_viewport(0, 0, self.width, self.height)
-                shader.bind()
-                shader.uniform_int("first_image", first)
-                shader.uniform_sampler("path_uv", self._uv)
-                group = images[first : first + IMAGES_AT_ONCE]
-                for slot in range(IMAGES_AT_ONCE):
-                    shader.uniform_sampler(f"image_{slot}", group[min(slot, len(group) - 1)])
-                full_screen_triangle().draw(shader)
+        if not images:
+            return
+        shader = _images_shader()
+        with drawing_state("EQUAL", blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
+            set_viewport(0, 0, self.width, self.height)
+            shader.bind()
+            shader.uniform_sampler("path_uv", self._uv)
+            draw_groups(shader, images)
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,16 +194,9 @@ def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts
 
 @gpu_cache
 def _images_shader() -> Any:
-    names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
-    cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))
     return build_shader(
         "exact images",
         ON_PATHS,
-        Piece(
-            samplers=named("FLOAT_2D", "path_uv", *names),
-            constants={"first_image": "INT"},
-            defines={"IMAGES": IMAGES_AT_ONCE, "IMAGE_CASES": cases},
-            outputs={"color": "VEC4"},
-            fragment="rays/exact_images.frag.glsl",
-        ),
+        IMAGE_GROUP,
+        Piece(samplers={"path_uv": "FLOAT_2D"}, fragment="rays/exact_images.frag.glsl"),
     )

@@ -15,10 +15,9 @@ from ...scene.camera.view import View
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, named, set_matrix
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import empty_texture
-from ..paths.features import SHARPEST_LOBE
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
@@ -153,7 +152,7 @@ class CalmMirrors:
             set_viewport(0, 0, seen.width, seen.height)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
-            shader.uniform_float("last_to_clip", _matrix(view if history.view is None else history.view))
+            set_matrix(shader, "last_to_clip", (history.view or view).world_to_clip)
             for name, texture in (
                 ("seen_position", seen.position),
                 ("seen_color", seen.color),
@@ -165,12 +164,6 @@ class CalmMirrors:
             full_screen_triangle().draw(shader)
         history.view = view
         return shown
-
-
-def _matrix(view: View) -> Any:
-    from mathutils import Matrix
-
-    return Matrix(view.world_to_clip.tolist())
 
 
 def _bind(shader: Any, seen: SurfaceBuffer, materials: Materials, view_uniforms: Any) -> None:
@@ -191,7 +184,6 @@ def _reach_shader() -> Any:
         Piece(
             samplers={"path_position": "FLOAT_2D"},
             defines={
-                "SHARPEST_LOBE": SHARPEST_LOBE,
                 "WIDTH": WIDTH,
                 "WIDER": WIDER,
                 "LARGEST_REACH": LARGEST_REACH,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, ImageArrays, MaterialArrays, SceneArrays
+from ...scene.arrays import Float32Array, Glass, ImageArrays, MaterialArrays, SceneArrays
 from ...scene.materials.pixels import averaged
 from ...scene.remarks import Remark, sentences
 from ..device.records import record_texture
@@ -19,7 +19,10 @@ from .surface_buffer import SEEN_THROUGH
 
 RECORDS = 13
 """Per material"""
-TABLE = Piece(samplers={"materials": "FLOAT_2D"}, defines={"MATERIAL_RECORDS": RECORDS})
+TABLE = Piece(
+    samplers={"materials": "FLOAT_2D"},
+    defines={"MATERIAL_RECORDS": RECORDS, **{f"GLASS_{kind.name}": int(kind) for kind in Glass}},
+)
 """What `material_records.glsl` needs: `Materials.table`"""
 PLAIN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"}, defines=flags("PLAIN"))
 """What `surface_color.glsl` needs for materials without an image, UV and vertex color to interpolate"""

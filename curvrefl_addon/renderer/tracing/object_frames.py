@@ -28,13 +28,13 @@ def object_frames(scene: SceneArrays) -> Any:
 def frame_records(scene: SceneArrays) -> Float32Array:
     """(objects + 1, FRAME_RECORDS, 4): rows that give x and y from the middle over the box's widths; world axes x, y.
 
-    Of an object with several instances the first counts.
+    Of those that are anisotropic; of an object with several instances the first counts.
     """
     count = 1 + max((instance.object_id for instance in scene.instances), default=0)
     records = np.zeros((count, FRAME_RECORDS, 4))
     done: set[int] = set()
     for instance in scene.instances:
-        if instance.object_id in done:
+        if instance.object_id in done or not any(scene.materials[index].anisotropy for index in instance.materials):
             continue
         done.add(instance.object_id)
         positions = scene.meshes[instance.mesh].positions

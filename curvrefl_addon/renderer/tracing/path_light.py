@@ -12,6 +12,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting
+from ..paths.features import ALPHA, ROUGH
 from ..shading.shade import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
 from ..surfaces.canvas import Canvas
 from ..surfaces.pixel_classes import CLASS
@@ -64,7 +65,7 @@ class PathLight:
             if before is not None:
                 assert isinstance(vertices, PathVertices)
                 shader.uniform_sampler("before_position", before.position)
-                if kind is PathClass.STOPS and "LIGHTING_WORLD" in self.lighting.features:
+                if _shares_in_quads(kind, self.lighting.features):
                     shader.uniform_sampler("classes_before", classes_before)
                     shader.uniform_int("turn", sub_frame)
                 shader.uniform_sampler("path_way", vertices.way)
@@ -75,7 +76,7 @@ class PathLight:
     @property
     def lights_samples(self) -> bool:
         """Lobes are lit by samples of lamps as well as by what rays meet."""
-        return "PATHS_ROUGH" in self.around.features and bool(self.lighting.features & LAMPS)
+        return ROUGH in self.around.features and bool(self.lighting.features & LAMPS)
 
     @property
     def has_bodies(self) -> bool:
@@ -87,10 +88,10 @@ class PathLight:
         features = self.lighting.features
         needs_shadows = kind is PathClass.STOPS
         names: set[str] = set()
-        if "PATHS_ROUGH" in self.around.features:
+        if ROUGH in self.around.features:
             names.add("PATH_LIGHT")
         if kind is PathClass.GOES_ON:
-            needs_shadows = self.has_base or self.lights_samples or "PATHS_ALPHA" in self.around.features
+            needs_shadows = self.has_base or self.lights_samples or ALPHA in self.around.features
             if self.has_base:
                 names.add("PATHS_BASE")
             if self.lights_samples:
@@ -104,6 +105,14 @@ class PathLight:
         )
 
 
+_OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "INT"})
+
+
+def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
+    """Whether pixels share the sky's shadows: where there are any, of surfaces that are lit as a whole."""
+    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features
+
+
 @gpu_cache
 def _light_shader(
     kind: PathClass, features: Features, lighting_features: Features, on_path: bool, names: Features
@@ -115,11 +124,7 @@ def _light_shader(
         VIEW,
         *vertex_pieces(features),
         *((way,) if on_path else ()),
-        *(
-            (Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "INT"}),)
-            if kind is PathClass.STOPS
-            else ()
-        ),
+        *((_OF_QUADS,) if _shares_in_quads(kind, lighting_features) else ()),
         *lighting_pieces(lighting_features),
         Piece(
             constants={"weight": "FLOAT"},

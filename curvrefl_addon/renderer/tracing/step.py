@@ -15,6 +15,7 @@ from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.ggx import GGX_DEFINES
 from ..paths.features import ABSORPTION, ANISOTROPY, SCALARS
 from ..rays.ray_scene import RAYS, RayScene
+from ..surfaces.image_groups import IMAGE_GROUP, draw_groups
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CLASS
 from ..surfaces.surface_buffer import HOLE, SEEN_THROUGH, SURFACE_OUTPUTS, SurfaceBuffer
@@ -25,8 +26,6 @@ from .object_frames import OBJECT_FRAMES
 from .path_classes import PathClass
 from .path_vertices import PathVertices
 
-IMAGES_AT_ONCE = 8
-"""That one pass looks up"""
 SAMPLER = Piece(constants={"path_point": "IVEC4"})
 """What `random.glsl` needs"""
 
@@ -108,7 +107,7 @@ def follow(
 
 
 def bind_vertices(shader: Any, around: Surroundings, vertices: SurfaceBuffer | PathVertices, scalars: Any) -> None:
-    """Set what `vertex_piece` names."""
+    """Set what `vertex_pieces` names."""
     shader.uniform_sampler("materials", around.materials.table)
     shader.uniform_sampler("lighting_ggx", around.ggx)
     shader.uniform_sampler("vertex_position", vertices.position)
@@ -136,22 +135,15 @@ def vertex_pieces(features: frozenset[str]) -> tuple[Piece, ...]:
 
 def _look_up(around: Surroundings, met: PathVertices, target: Any, of_scalars: bool) -> None:
     """Images at the surfaces that were met."""
-    images = around.materials.images
-    for first in range(0, len(images), IMAGES_AT_ONCE):
-        shader = _images_shader(of_scalars)
-        blend = "NONE" if of_scalars else "MULTIPLY"
-        with drawing_state("EQUAL", blend=blend), target.bind(), scissored(around.window):
-            set_viewport(0, 0, met.width, met.height)
-            shader.bind()
-            shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
-            shader.uniform_int("first_image", first)
-            shader.uniform_sampler("materials", around.materials.table)
-            shader.uniform_sampler("path_uv", met.uv)
-            shader.uniform_sampler("vertex_normal", met.normal)
-            group = images[first : first + IMAGES_AT_ONCE]
-            for slot in range(IMAGES_AT_ONCE):
-                shader.uniform_sampler(f"image_{slot}", group[min(slot, len(group) - 1)])
-            full_screen_triangle().draw(shader)
+    shader = _images_shader(of_scalars)
+    with drawing_state("EQUAL", blend="NONE" if of_scalars else "MULTIPLY"), target.bind(), scissored(around.window):
+        set_viewport(0, 0, met.width, met.height)
+        shader.bind()
+        shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
+        shader.uniform_sampler("materials", around.materials.table)
+        shader.uniform_sampler("path_uv", met.uv)
+        shader.uniform_sampler("vertex_normal", met.normal)
+        draw_groups(shader, around.materials.images)
 
 
 @gpu_cache
@@ -174,21 +166,14 @@ def _step_shader(features: frozenset[str], on_path: bool, with_images: bool) -> 
 
 @gpu_cache
 def _images_shader(of_scalars: bool) -> Any:
-    names = [f"image_{number}" for number in range(IMAGES_AT_ONCE)]
-    cases = " ".join(f"CASE({number}, {name})" for number, name in enumerate(names))
     return build_shader(
         "path images",
         CLASS,
         TABLE,
+        IMAGE_GROUP,
         Piece(
-            samplers=named("FLOAT_2D", "path_uv", "vertex_normal", *names),
-            constants={"first_image": "INT"},
-            defines={
-                "IMAGES": IMAGES_AT_ONCE,
-                "IMAGE_CASES": cases,
-                **(flags("OF_SCALARS") if of_scalars else {}),
-            },
-            outputs={"color": "VEC4"},
+            samplers=named("FLOAT_2D", "path_uv", "vertex_normal"),
+            defines=flags("OF_SCALARS") if of_scalars else {},
             fragment="paths/path_images.frag.glsl",
         ),
     )

@@ -41,9 +41,8 @@ class PathTracer:
 
     def follow(self, scene: SceneArrays) -> None:
         """Know another state of the scene, which needs the same features."""
-        features = self.features
-        self._absorbing: Any = absorbing(scene) if ABSORPTION in features else None
-        self._frames: Any = object_frames(scene) if ANISOTROPY in features else None
+        self._absorbing: Any = absorbing(scene) if ABSORPTION in self.features else None
+        self.move(scene)
         used = {
             index
             for instance in scene.instances
@@ -52,10 +51,15 @@ class PathTracer:
         }
         self._has_base = any(_has_base(scene.materials[index]) for index in used)
         self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
-        self._sees_through = any(scene.materials[index].is_seen_through for index in used)
+        self.sees_through = any(scene.materials[index].is_seen_through for index in used)
+        """Paths begin at other surfaces than mirrors, too"""
         if self._has_images != bool(scene.images):
             self._has_images = bool(scene.images)
             self._targets.clear()
+
+    def move(self, scene: SceneArrays) -> None:
+        """Know a state of the scene that differs in its objects' places alone."""
+        self._frames: Any = object_frames(scene) if ANISOTROPY in self.features else None
 
     @property
     def has_scalars(self) -> bool:
@@ -67,11 +71,6 @@ class PathTracer:
         """Sharp rays, blurred, stand for the paths while the view moves (`shading/calm.py`): these are of rough mirrors
         that let nothing through."""
         return ROUGH in self.features and self.features.isdisjoint({GLASS, ALPHA})
-
-    @property
-    def sees_through(self) -> bool:
-        """Paths begin at other surfaces than mirrors, too."""
-        return self._sees_through
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -86,8 +85,8 @@ class PathTracer:
         """`bounces`: mirrors that are followed at most."""
         most, reflections, interfaces, transparent = self._limits
         reflections = min(reflections, bounces)
-        interfaces = min(interfaces, MOST_EVENTS) if "PATHS_GLASS" in self.features else 0
-        transparent = min(transparent, MOST_EVENTS) if "PATHS_ALPHA" in self.features else 0
+        interfaces = min(interfaces, MOST_EVENTS) if GLASS in self.features else 0
+        transparent = min(transparent, MOST_EVENTS) if ALPHA in self.features else 0
         return Limits(reflections, interfaces, transparent, min(most, reflections + interfaces))
 
     def add(
@@ -129,11 +128,11 @@ class PathTracer:
         light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base)
         scalars = seen.with_scalars()[0] if self.has_scalars else None
         limits = self.limits(bounces)
-        classes.sort_seen(seen, window, chosen, sees_through and self._sees_through)
+        classes.sort_seen(seen, window, chosen, sees_through and self.sees_through)
         light.add(canvas, weight, PathClass.GOES_ON, seen, scalars, classes.depth(0))
         before: SurfaceBuffer | PathVertices = seen
         # (Without anything that goes on behind the first surface one step is all.)
-        last = limits.most_steps if meets_mirrors or self._sees_through else 1
+        last = limits.most_steps if meets_mirrors or self.sees_through else 1
         sample = (sub_frame, self._lighting.sub_frames)
         for step in range(1, last + 1):
             met = vertices[place_of(step)]

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...memory import exceeds_memory
 from ..arrays import Float32Array
+from ..camera.srgb import linear_to_srgb, srgb_to_linear
 from ..finite import usable_pixels
 from ..remarks import Remark
 from .color_spaces import rec709_to_scene
@@ -178,20 +179,6 @@ def _use_alpha(pixels: Float32Array, image: bpy.types.Image, is_float: bool, spl
         np.divide(pixels[..., :3], alpha, out=pixels[..., :3], where=alpha > 0.0)
         if not is_float:
             np.minimum(pixels, 1.0, out=pixels)
-
-
-def srgb_to_linear(values: Float32Array) -> Float32Array:
-    """IEC 61966-2-1, any shape."""
-    return np.where(values <= 0.04045, values / 12.92, ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4).astype(
-        np.float32
-    )
-
-
-def linear_to_srgb(values: Float32Array) -> Float32Array:
-    """The inverse of `srgb_to_linear`."""
-    return np.where(values <= 0.0031308, values * 12.92, 1.055 * np.maximum(values, 0.0) ** (1.0 / 2.4) - 0.055).astype(
-        np.float32
-    )
 
 
 def magnified(image: bpy.types.Image, pixels: Float32Array, wraps: bool) -> Float32Array:

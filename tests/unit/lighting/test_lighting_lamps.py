@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.optics.scattering.fresnel import fresnel_dielectric
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import mesh_pieces
-from curvrefl.curvrefl_addon.renderer.lighting.ggx import IOR_SLICES, TABLE_SIZE, fresnel_dielectric, ggx_table
+from curvrefl.curvrefl_addon.renderer.lighting.ggx import IOR_SLICES, TABLE_SIZE, ggx_table
 from curvrefl.curvrefl_addon.renderer.lighting.lamp_views import plan_lamps
 from curvrefl.curvrefl_addon.renderer.lighting.lamps import lamp_points, lamp_records
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
