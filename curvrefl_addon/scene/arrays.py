@@ -16,6 +16,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from .programs.program import Attribute, Program
+
 type Float32Array = NDArray[np.float32]
 type Float64Array = NDArray[np.float64]
 type Int32Array = NDArray[np.int32]
@@ -49,6 +51,10 @@ class MeshArrays:
     """(triangles, 3) index into corners"""
     triangle_slot: Int32Array
     """(triangles,) material slot"""
+    attributes: tuple[Attribute, ...] = ()
+    """What programs of its materials read of it"""
+    corner_attributes: Float32Array | None = None
+    """(corners, attributes, 4); None where there are none"""
     signature: int = 0
     """Changes when any array above changes"""
 
@@ -159,6 +165,25 @@ class MaterialArrays:
     alpha_inverted: bool = False
     """The other way round: what is above the threshold is not there"""
     scalars: ScalarsArrays | None = None
+    sheen_weight: float = 0.0
+    sheen_roughness: float = 0.5
+    sheen_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    diffuse_roughness: float = 0.0
+    subsurface: float = 0.0
+    """Share of the diffuse part that goes below the surface"""
+    translucency: float = 0.0
+    """Share of the diffuse part that comes out on the other side"""
+    program: Program | None = None
+    """What differs from place to place: it sets channels in place of the constants here"""
+    ranges: tuple[tuple[str, float, float], ...] = ()
+    """(channel, lowest, highest) of what the program sets, as far as they are known"""
+
+    def range_of(self, channel: str) -> tuple[float, float]:
+        """Lowest and highest value of a channel that is one number; endless where a program's is not known."""
+        if self.program is None or channel not in self.program.shape.channels:
+            value = float(getattr(self, channel))
+            return value, value
+        return next(((low, high) for name, low, high in self.ranges if name == channel), (-math.inf, math.inf))
 
     @property
     def is_seen_through(self) -> bool:
@@ -243,6 +268,17 @@ class InstanceArrays:
     visible_shadow: bool = True
     visible_transmission: bool = True
     holdout: bool = False
+    color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    """Of the object, for its materials' programs as all that follows"""
+    random: float = 0.0
+    """Its own number from 0 to 1"""
+    pass_index: int = 0
+    generated: tuple[tuple[float, float, float], tuple[float, float, float]] = ((0.5, 0.5, 0.5), (0.5, 0.5, 0.5))
+    """Scale and offset from object space to generated coordinates"""
+    instancer_generated: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    instancer_uv: tuple[float, float] = (0.0, 0.0)
+    values: tuple[tuple[str, tuple[float, float, float, float]], ...] = ()
+    """By name, what programs ask of instances and objects"""
 
 
 @dataclass(frozen=True, slots=True)
