@@ -14,7 +14,7 @@ from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
-from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture
+from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
 from curvrefl.curvrefl_addon.scene.materials.node_links import source_of
 from curvrefl.curvrefl_addon.scene.programs.builder import Builder
 from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute, Program, Shape
@@ -58,7 +58,7 @@ vec4 at_weights(int quantity, int triangle, vec3 w)
 void main()
 {
   float step = 2.0 / SIDE;
-  vec2 place = gl_FragCoord.xy * step - 1.0;
+  vec2 place = texelFetch(places, ivec2(gl_FragCoord.xy), 0).xy;
   vec3 w = corner_weights(0, place);
   int triangle = min(w.x, min(w.y, w.z)) < 0.0 ? 1 : 0;
   w = corner_weights(triangle, place);
@@ -112,13 +112,15 @@ def compiled(material: bpy.types.Material) -> tuple[Program, list[str]]:
     return builder.finished({"emission": value}), notes
 
 
-def evaluated(program: Program, tile: bpy.types.Object) -> np.ndarray:
-    """(SIDE, SIDE, 3) of what a program gives on a tile, rows from below."""
+def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
+    """(SIDE, SIDE, 3) of what a program gives on a tile at places (SIDE, SIDE, 2) of it, rows from below."""
+    where = np.concatenate([places, np.zeros_like(places)], axis=2)
     head = [(float(k), 0.0, 0.0, 0.0) for k in reversed(range(len(program.instance_attributes)))]
     head += [(float(k), 0.0, 0.0, 0.0) for k in reversed(range(len(program.attributes)))]
     records = np.array([*head, *program.records.tolist()], np.float32).reshape(-1, 4)
     textures = {
         "program_records": record_texture(records),
+        "places": texture_2d(where),
         "corners": record_texture(_corner_records(program, tile)),
         "instance_table": record_texture(_instance_records(program, tile)),
     }
@@ -140,7 +142,7 @@ def _shader(shape: Shape, instance_values: int) -> Any:
         "program of a test",
         FULL_SCREEN,
         Piece(
-            samplers=named("FLOAT_2D", "program_records", "corners", "instance_table"),
+            samplers=named("FLOAT_2D", "program_records", "places", "corners", "instance_table"),
             outputs={"color": "VEC4"},
             defines={
                 "ATTRIBUTES": shape.attributes,

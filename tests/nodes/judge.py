@@ -12,7 +12,7 @@ import numpy as np
 from curvrefl.curvrefl_addon.renderer.device.shaders import ShaderError
 
 from .evaluation import compiled, evaluated
-from .stage import MOST, MakeTree, make_board, render_board
+from .stage import MOST, MakeTree, columns_for, make_board, render_board, sampled_places
 
 TOLERANCE = 1.0 / 255.0
 MOST_JUMPS = 0.02
@@ -61,14 +61,15 @@ def judge_all(trees: Mapping[str, MakeTree], tolerance: float = TOLERANCE) -> di
 
 
 def _judged(trees: Sequence[MakeTree], tolerance: float) -> list[Verdict]:
+    places = sampled_places(columns_for(len(trees)))
     tiles = make_board(trees)
     pictures = render_board(len(tiles))
     verdicts = []
-    for tile, cycles in zip(tiles, pictures, strict=True):
+    for tile, cycles, where in zip(tiles, pictures, places, strict=False):
         notes: list[str] = []
         try:
             program, notes = compiled(tile.material_slots[0].material)
-            ours = evaluated(program, tile)
+            ours = evaluated(program, tile, where)
         except ShaderError as error:
             ours = np.full_like(cycles, np.nan)
             notes = []

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -102,8 +103,8 @@ def judged_input(material: bpy.types.Material) -> Any:
 
 
 def tile_mesh() -> bpy.types.Mesh:
-    """With the UV maps "UVMap" (which renders use) and "Other", the colors "Paint" (floats) and "Bytes", and the
-    attributes "damp" (numbers), "wind" (vectors) and "tier" (whole numbers of faces)."""
+    """With the UV maps "UVMap" (which renders use) and "Other", the colors "Paint", "Glow" (floats) and "Bytes", and
+    the attributes "damp", "across", "up" (numbers), "wind", "place" (vectors) and "tier" (whole numbers of faces)."""
     to_own = _OWN.inverted()
     mesh = bpy.data.meshes.new("tile")
     mesh.from_pydata([to_own @ (Vector((*corner, 0.0)) - _SHIFT) for corner in CORNERS], [], [(0, 1, 2, 3)])
@@ -118,6 +119,12 @@ def tile_mesh() -> bpy.types.Mesh:
     rows = np.column_stack([shades, 0.6 + 0.3 * places[:, 0]]).astype(np.float32).ravel()
     mesh.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER").data.foreach_set("color", rows)
     mesh.color_attributes.new("Bytes", "BYTE_COLOR", "CORNER").data.foreach_set("color", rows)
+    glow = np.column_stack([0.5 - 0.6 * places[:, 1], 0.8 + 0.7 * places[:, 0], 0.4 - 0.2 * places.sum(1), np.ones(4)])
+    mesh.color_attributes.new("Glow", "FLOAT_COLOR", "POINT").data.foreach_set("color", glow.ravel().tolist())
+    where = np.column_stack([places, np.zeros(4)]).ravel()
+    mesh.attributes.new("place", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", where.tolist())
+    mesh.attributes.new("across", "FLOAT", "POINT").data.foreach_set("value", (2.0 * places[:, 0]).tolist())
+    mesh.attributes.new("up", "FLOAT", "POINT").data.foreach_set("value", (2.0 * places[:, 1]).tolist())
     mesh.attributes.new("damp", "FLOAT", "POINT").data.foreach_set("value", (0.3 + 0.5 * places[:, 1]).tolist())
     wind = np.column_stack([places, 0.5 * places[:, 0] - places[:, 1]]).ravel()
     mesh.attributes.new("wind", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", wind.tolist())
@@ -128,6 +135,20 @@ def tile_mesh() -> bpy.types.Mesh:
     leaning = [_OWN.transposed() @ Vector((0.5 * x + 0.2, 0.3 * y - 0.2 * x, 1.0)) for x, y in CORNERS]
     mesh.normals_split_custom_set([normal.normalized() for normal in leaning])
     return mesh
+
+
+@cache
+def sampled_places(columns: int) -> np.ndarray:
+    """(columns**2, SIDE, SIDE, 2): where on its tile, from -1 to 1, Cycles looks at each pixel. (Samples are a little
+    off the pixels' middles, alike in all pictures of one size.)"""
+
+    def place(tree: Any) -> Any:
+        node = tree.nodes.new("ShaderNodeAttribute")
+        node.attribute_name = "place"
+        return node.outputs["Vector"]
+
+    make_board([place] * columns**2)
+    return render_board(columns**2)[..., :2]
 
 
 def render_board(count: int) -> np.ndarray:
