@@ -142,10 +142,14 @@ class Builder:
 
     def made(self, kind: Kind, text: str, low: float = -np.inf, high: float = np.inf) -> Expression:
         """A value by any GLSL, which is computed once."""
+        return Expression(self.made_as(glsl_type(kind), text), kind, None, float(low), float(high))
+
+    def made_as(self, glsl: str, text: str) -> str:
+        """The same of any type of GLSL, a struct's or vec2: its name."""
         name = f"v{self._names}"
         self._names += 1
-        self._lines.append(f"  {glsl_type(kind)} {name} = {text};")
-        return Expression(name, kind, None, float(low), float(high))
+        self._lines.append(f"  {glsl} {name} = {text};")
+        return name
 
     def shared(self, key: Any, make: Callable[[], Expression]) -> Expression:
         """Made once for all outputs of a node: `key` has the node's name for what is made, and the source's groups."""

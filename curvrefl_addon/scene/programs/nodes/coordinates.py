@@ -86,3 +86,16 @@ def mapping_matrix(mapping: Any) -> NDArray[np.float64]:
         if axis != "NONE":
             chosen[row, _AXES.index(axis)] = 1.0
     return np.column_stack([linear @ chosen, place])
+
+
+def node_key(source: Source, what: str) -> tuple[object, ...]:
+    """For `Builder.shared`: something that several outputs of the source's node need."""
+    return (what, source.socket.node.as_pointer(), *(group.as_pointer() for group in source.groups))
+
+
+def place(b: Builder, source: Source, dimensions: int, vector: str, scale: str = "1.0") -> Expression:
+    """Where a texture of 1 to 4 dimensions is looked up, W being the only or the last of them: four numbers, those not
+    in use 0. `vector`, `scale`: GLSL."""
+    w = b.input(source, "W", "float").text if dimensions in (1, 4) else "0.0"
+    numbers = {1: f"{w}, 0.0, 0.0, 0.0", 2: f"{vector}.xy, 0.0, 0.0"}.get(dimensions, f"{vector}, {w}")
+    return b.made("vec4", f"vec4({numbers}) * {scale}")
