@@ -7,5 +7,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
+from .nodes import noise, patterns, voronoi
 
-HANDLERS: Mapping[str, Handler] = {}
+HANDLERS: Mapping[str, Handler] = {
+    **noise.NODES,
+    **patterns.NODES,
+    **voronoi.NODES,
+}
