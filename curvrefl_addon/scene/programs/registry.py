@@ -8,9 +8,18 @@ from collections.abc import Mapping
 
 from .builder import Handler
 from .nodes import noise, patterns, voronoi
+from .nodes.values import bumps, colors, numbers, places, plain, ramps, surface, vectors
 
 HANDLERS: Mapping[str, Handler] = {
     **noise.NODES,
     **patterns.NODES,
     **voronoi.NODES,
+    **numbers.NODES,
+    **vectors.NODES,
+    **colors.NODES,
+    **ramps.NODES,
+    **places.NODES,
+    **surface.NODES,
+    **bumps.NODES,
+    **plain.NODES,
 }
