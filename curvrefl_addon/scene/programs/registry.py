@@ -7,13 +7,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
-from .nodes import noise, patterns, voronoi
+from .nodes import noise, patterns, skies, voronoi
 from .nodes.values import bumps, colors, numbers, places, plain, ramps, surface, vectors
 
 HANDLERS: Mapping[str, Handler] = {
     **noise.NODES,
     **patterns.NODES,
     **voronoi.NODES,
+    **skies.NODES,
     **numbers.NODES,
     **vectors.NODES,
     **colors.NODES,
