@@ -38,12 +38,15 @@ class Builder:
         images: Images,
         notes: list[str],
         luminance: Sequence[float] = (0.2126, 0.7152, 0.0722),
+        is_world: bool = False,
     ) -> None:
-        """`handlers`: by the type of node. `notes` gets causes of remarks. `luminance`: weights of the working space."""
+        """`handlers`: by the type of node. `notes` gets causes of remarks. `luminance`: weights of the working space.
+        `is_world`: the program is a world's, whose positions are directions."""
         self._handlers = handlers
         self._images = images
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
+        self.is_world = is_world
         self._functions: list[str] = []
         self._lines: list[str] = []
         self._known: dict[Any, Expression] = {}
