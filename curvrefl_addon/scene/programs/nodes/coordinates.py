@@ -86,7 +86,6 @@ def mapping_matrix(mapping: Any) -> NDArray[np.float64]:
         if axis != "NONE":
             chosen[row, _AXES.index(axis)] = 1.0
     return np.column_stack([linear @ chosen, place])
-<<<<<<< HEAD
 
 
 def node_key(source: Source, what: str) -> tuple[object, ...]:
@@ -100,5 +99,3 @@ def place(b: Builder, source: Source, dimensions: int, vector: str, scale: str =
     w = b.input(source, "W", "float").text if dimensions in (1, 4) else "0.0"
     numbers = {1: f"{w}, 0.0, 0.0, 0.0", 2: f"{vector}.xy, 0.0, 0.0"}.get(dimensions, f"{vector}, {w}")
     return b.made("vec4", f"vec4({numbers}) * {scale}")
-=======
->>>>>>> p-light
