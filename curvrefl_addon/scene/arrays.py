@@ -282,6 +282,8 @@ class InstanceArrays:
     visible_shadow: bool = True
     visible_transmission: bool = True
     holdout: bool = False
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Object space of its object less that of `matrix`: not 0 where the mesh has been moved to its middle"""
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     """Of the object, for its materials' programs as all that follows"""
     random: float = 0.0

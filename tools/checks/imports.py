@@ -20,7 +20,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("diagnostic_colors",),
     ("options",),
     ("renderer.device",),
-    ("renderer.geometry",),
+    ("renderer.geometry", "renderer.programs"),
     ("renderer.surfaces",),
     ("renderer.mirrors",),
     ("renderer.paths",),
