@@ -7,5 +7,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
+from .nodes import images
 
-HANDLERS: Mapping[str, Handler] = {}
+HANDLERS: Mapping[str, Handler] = {**images.NODES}
