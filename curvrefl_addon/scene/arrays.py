@@ -10,6 +10,7 @@ Everything is right-handed Blender world space in meters unless a field says "ob
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import IntEnum
 
@@ -70,6 +71,24 @@ class ImageArrays:
     """Beyond the border: 'REPEAT', 'EXTEND' (its texels go on), 'MIRROR' (repeated, every other one the other way
     round) or 'CLIP' (black)"""
     nearest: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ImageSource:
+    """An image that programs look up. Its pixels are made when they are asked for, and kept by nobody else."""
+
+    name: str
+    width: int
+    """0: the image is missing"""
+    height: int
+    is_bytes: bool
+    is_srgb: bool
+    """Pixels are encoded: they are interpolated first, then made linear, as Cycles does"""
+    is_opaque: bool
+    """Alpha is 1 everywhere"""
+    read: Callable[[], NDArray[np.uint8] | NDArray[np.float16] | Float32Array]
+    """(height, width, 4), row 0 at the bottom (v = 0), colors multiplied with alpha where Cycles keeps them so. Raises
+    OSError where they are no longer to be had."""
 
 
 @dataclass(frozen=True, slots=True)

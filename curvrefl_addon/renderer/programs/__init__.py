@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What material programs read, on the GPU."""
+"""Material programs on the GPU: their parameters, what they read and the buffers that they fill."""

@@ -24,9 +24,12 @@ _KINDS: Mapping[str, Kind] = {"VALUE": "float", "INT": "float", "BOOLEAN": "floa
 class Images(Protocol):
     """Finds the images that nodes show."""
 
-    def index_of(self, node: Any, note: Callable[[str], None], splits_alpha: bool) -> int | None:
-        """Place in `SceneArrays.images` of an image node's image; None where it has none. `splits_alpha`: the node's
-        alpha is looked at by itself."""
+    def index_of(self, node: Any, note: Callable[[str], None], tile: int = 0) -> int | None:
+        """Place in `SceneArrays.images` of an image node's image, or of this one of its tiles; None where it has no
+        image."""
+
+    def is_opaque(self, index: int) -> bool:
+        """Whether alpha is known to be 1 everywhere."""
 
 
 class Builder:
@@ -171,9 +174,10 @@ class Builder:
         number = self._instance_attributes.setdefault(name, len(self._instance_attributes))
         return Expression(f"instance_attribute(s, {number})", "vec4")
 
-    def image(self, source: Source, splits_alpha: bool) -> int | None:
-        """The first of the IMAGE_RECORDS parameters of the image of the source's node; None where it has none."""
-        index = self._images.index_of(source.node, self.note, splits_alpha)
+    def image(self, source: Source, tile: int = 0) -> int | None:
+        """The first of the IMAGE_RECORDS parameters of the image of the source's node, or of a tile of it; None where
+        it has none."""
+        index = self._images.index_of(source.node, self.note, tile)
         if index is None:
             return None
         first = self.record()
@@ -181,6 +185,11 @@ class Builder:
             self.record()
         self._uses.append(ImageUse(first, index))
         return first
+
+    def is_opaque_image(self, source: Source) -> bool:
+        """Whether alpha of the image of the source's node is known to be 1 everywhere."""
+        index = self._images.index_of(source.node, self.note)
+        return index is not None and self._images.is_opaque(index)
 
     def need(self, name: str) -> None:
         """A define that the program's ShadingPoint needs (`programs/shading_point.glsl`)."""
