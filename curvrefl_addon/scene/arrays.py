@@ -197,17 +197,23 @@ class MaterialArrays:
     ranges: tuple[tuple[str, float, float], ...] = ()
     """(channel, lowest, highest) of what the program sets, as far as they are known"""
 
+    @property
+    def kind(self) -> float:
+        """The channel "kind" of what is the same everywhere: bits of `programs/material.glsl`."""
+        glass = {Glass.PRINCIPLED: 0, Glass.GLASS: 4, Glass.REFRACTION: 8}[self.glass]
+        return float(self.glossy_only + 2 * self.thin_wall + glass)
+
     def range_of(self, channel: str) -> tuple[float, float]:
-        """Lowest and highest value of a channel that is one number; endless where a program's is not known."""
+        """Lowest and highest value of a channel, of any part of a color; endless where a program's is not known."""
         if self.program is None or channel not in self.program.shape.channels:
-            value = float(getattr(self, channel))
-            return value, value
+            values = np.atleast_1d(getattr(self, channel))
+            return float(values.min()), float(values.max())
         return next(((low, high) for name, low, high in self.ranges if name == channel), (-math.inf, math.inf))
 
     @property
     def is_seen_through(self) -> bool:
         """Light goes on behind it, at least at some places."""
-        return self.transmission > 0.0 or self.alpha < 1.0
+        return self.range_of("transmission")[1] > 0.0 or self.range_of("alpha")[0] < 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,6 +62,9 @@ class Builder:
         self._needs: set[str] = set()
         self._depends: set[str] = set()
         self._open: set[Any] = set()
+        self.is_bent = False
+        self.path_notes: list[str] = []
+        """Causes of remarks that count where paths go on: on mirrors and on what is seen through"""
 
     # Inputs of nodes
 
@@ -196,7 +199,7 @@ class Builder:
         self._needs.add(name)
 
     def depend(self, what: str) -> None:
-        """What values differ with, beside the texture coordinates on the mesh: "position", "ray", "instance"."""
+        """What values differ with, beside the mesh's own coordinates: "position", "ray", "instance", "random"."""
         self._depends.add(what)
 
     def function(self, source: Source, kind: Kind) -> str:
@@ -216,6 +219,16 @@ class Builder:
         """Something is not drawn as it is: the cause of a remark ("Wireframe nodes {of} are not drawn.")."""
         if cause not in self._notes:
             self._notes.append(cause)
+
+    def note_on_paths(self, cause: str) -> None:
+        """The same of what only those see who look closely: on mirrors and through glass."""
+        if cause not in self.path_notes:
+            self.path_notes.append(cause)
+
+    def bend(self, normal: Expression) -> None:
+        """From here on the surface's own normal is another one (unit)."""
+        self.is_bent = True
+        self._lines.append(f"  s.normal = {normal.text};")
 
     # The end
 
