@@ -15,18 +15,22 @@ from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.surfaces.view_block import VIEW, view_block
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.scene.materials.node_links import source_of
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.programs.builder import Builder
 from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute, Program, Shape
 from curvrefl.curvrefl_addon.scene.programs.registry import HANDLERS
 from curvrefl.gpu_shaders.loader import Snippet
 
-from .stage import CAMERA_DISTANCE, CORNERS, FRAME, SIDE, judged_input
+from .stage import CAMERA_DISTANCE, CLIP_START, CORNERS, FRAME, SIDE, judged_input
 
+NEEDS_VIEW = "PROGRAM_CAMERA"
 INSTANCE_RECORDS = 12
 """Before those of values by name"""
 PLACE, POSITION, NORMAL, INCOMING, FIRST_ATTRIBUTE = range(5)
-"""Quantities of corners; INCOMING has the distance of the camera too"""
+"""Quantities of corners; INCOMING has the ray's length too"""
 LIBRARY = """
 #include "programs/shading_point.glsl"
 #include "programs/instances.glsl"
@@ -112,7 +116,14 @@ def compiled(material: bpy.types.Material) -> tuple[Program, list[str]]:
     return builder.finished({"emission": value}), notes
 
 
-def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
+def board_view() -> View:
+    """What the scene's camera sees."""
+    scene = bpy.context.scene
+    width, height = scene.render.resolution_x, scene.render.resolution_y
+    return view_of_camera(scene, scene.camera, width, height, bpy.context.evaluated_depsgraph_get())
+
+
+def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray, view: View) -> np.ndarray:
     """(SIDE, SIDE, 3) of what a program gives on a tile at places (SIDE, SIDE, 2) of it, rows from below."""
     where = np.concatenate([places, np.zeros_like(places)], axis=2)
     head = [(float(k), 0.0, 0.0, 0.0) for k in reversed(range(len(program.instance_attributes)))]
@@ -125,10 +136,12 @@ def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> n
         "instance_table": record_texture(_instance_records(program, tile)),
     }
     shader = _shader(program.shape, len(program.instance_attributes))
-    target = empty_texture(SIDE, SIDE)
+    target, block = empty_texture(SIDE, SIDE), view_block(view)
     with drawing_state(), frame_buffer(target).bind():
         set_viewport(0, 0, SIDE, SIDE)
         shader.bind()
+        if NEEDS_VIEW in program.shape.needs:
+            shader.uniform_block("view", block)
         for name, texture in textures.items():
             shader.uniform_sampler(name, texture)
         full_screen_triangle().draw(shader)
@@ -141,6 +154,7 @@ def _shader(shape: Shape, instance_values: int) -> Any:
     return build_shader(
         "program of a test",
         FULL_SCREEN,
+        *([VIEW] if NEEDS_VIEW in shape.needs else ()),
         Piece(
             samplers=named("FLOAT_2D", "program_records", "places", "corners", "instance_table"),
             outputs={"color": "VEC4"},
@@ -173,7 +187,7 @@ def _corner_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
         np.array(CORNERS),
         np.array([matrix @ vertex.co for vertex in mesh.vertices]),
         np.array([(to_normals @ normal.vector).normalized() for normal in mesh.corner_normals]),
-        np.tile((*FRAME.col[2], CAMERA_DISTANCE), (4, 1)),
+        np.tile((*FRAME.col[2], CAMERA_DISTANCE - CLIP_START), (4, 1)),
         *(_of_corners(mesh, attribute, to_normals) for attribute in program.attributes),
     ]
     # (The corners of its one face are its vertices, in order.)
@@ -189,8 +203,8 @@ def _of_corners(mesh: bpy.types.Mesh, attribute: Attribute, to_normals: Any) -> 
     result = np.zeros((4, 4))
     result[:, 3] = 1.0
     if attribute.kind == UV or (attribute.kind == "GEOMETRY" and attribute.name in mesh.uv_layers):
-        layer = mesh.uv_layers[attribute.name or 0]
-        result[:, :2] = [corner.uv for corner in layer.data]
+        if attribute.name in ("", *mesh.uv_layers.keys()):
+            result[:, :2] = [corner.uv for corner in mesh.uv_layers[attribute.name or 0].data]
     elif attribute.kind == "TANGENT":
         mesh.calc_tangents(uvmap=attribute.name or mesh.uv_layers[0].name)
         result[:] = [(*loop.tangent, loop.bitangent_sign) for loop in mesh.loops]
@@ -212,7 +226,12 @@ def _instance_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
     offset = 0.5 - np.array(tile.data.texspace_location) * scale
     values = []
     for name in program.instance_attributes:
-        value = tile.get(name, 0.0)
+        kind, _, own = name.partition(":")
+        # (Of what is no instance the instancer's are its own.)
+        value = None if kind == "VIEW_LAYER" else tile.get(own)
+        if value is None:
+            values.append((0.0,) * 4)
+            continue
         row = [value] * 3 if isinstance(value, int | float) else [*value, 0.0, 0.0]
         values.append((*row[:3], 1.0))
     return np.array(

@@ -28,8 +28,10 @@ SIZE = 2.0
 """Meters along a tile"""
 MOST = 64
 """Tiles in one picture"""
-CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-CAMERA_DISTANCE = 10.0
+CORNERS = ((-1.03, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+"""Of a tile, in halves of its size; the line between its triangles goes through no pixel's middle"""
+CAMERA_DISTANCE, CLIP_START = 10.0, 0.1
+"""(Rays of the camera begin where it begins to see.)"""
 PASS_INDEX, MATERIAL_INDEX = 3, 5
 OBJECT_COLOR = (0.9, 0.35, 0.15, 0.7)
 PROPERTIES: dict[str, Any] = {"warmth": 0.625, "shade": (0.2, 0.5, 0.8)}
@@ -61,7 +63,7 @@ def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
     columns = columns_for(len(trees))
     _set_up_cycles(scene, columns * SIDE)
     camera = bpy.data.cameras.new("camera")
-    camera.type, camera.ortho_scale = "ORTHO", columns * SIZE
+    camera.type, camera.ortho_scale, camera.clip_start = "ORTHO", columns * SIZE, CLIP_START
     scene.camera = bpy.data.objects.new("camera", camera)
     scene.collection.objects.link(scene.camera)
     scene.camera.matrix_world = Matrix.LocRotScale(ORIGIN + FRAME @ Vector((0.0, 0.0, CAMERA_DISTANCE)), FRAME, None)
