@@ -51,7 +51,7 @@ def source_of(socket: Any, groups: Groups = ()) -> Source:
     # The input last gone through, and where: its own value counts if the chain leads nowhere.
     last, last_groups = socket, groups
     while not socket.is_output:
-        links = [link for link in socket.links if not link.is_muted and link.is_valid]
+        links = _links_of(socket)
         last, last_groups = socket, groups
         if not links:
             break
@@ -63,7 +63,8 @@ def source_of(socket: Any, groups: Groups = ()) -> Source:
                 return Source(last, last_groups)
         elif node.mute:
             passed = next((link.from_socket for link in node.internal_links if link.to_socket == socket), None)
-            if passed is None:
+            # (Where nothing is plugged in that could pass, it is as if the muted node were not there.)
+            if passed is None or not _links_of(passed):
                 return Source(last, last_groups)
             socket = passed
         elif node.type == "GROUP":
@@ -74,6 +75,11 @@ def source_of(socket: Any, groups: Groups = ()) -> Source:
         elif node.type == "GROUP_INPUT" and groups:
             socket, groups = find_input(groups[-1], socket.identifier), groups[:-1]
     return Source(socket, groups)
+
+
+def _links_of(socket: Any) -> list[Any]:
+    """Those of an input that count."""
+    return [link for link in socket.links if not link.is_muted and link.is_valid]
 
 
 def output_source(tree: bpy.types.NodeTree | None, name: str) -> Source | None:
