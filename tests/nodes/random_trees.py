@@ -3,8 +3,8 @@
 """Random node trees, each made by its seed alone.
 
 Rounding differs between Cycles and the GPU in the last bits, and a chain of nodes may make anything of these. So trees
-are tame: of what is large goes on the sine, what has poles is cut off, a node gets no input that is steeper than `STEEPEST`
-allows, and steps are not made of what is flat (all of which could lie on an edge).
+are tame: of what is large the sine goes on, what has poles is cut off, a node gets no input that is steeper than
+`STEEPEST` allows, and steps are not made of what is flat (all of which could lie on an edge).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .recipes import LEAVES, RECIPES, Recipe
+from .recipes import LEAVES, RECIPES, ROUGHLY_KNOWN, Recipe
 from .stage import MakeTree
 
 MOST_NODES = 20
@@ -80,7 +80,7 @@ class Grower:
 
     def leaf(self, name: str) -> Grown:
         make, bound = LEAVES[name]
-        return Grown(make(self.tree), bound, 1.0)
+        return Grown(make(self.tree), bound, ROUGHLY_KNOWN.get(name, 1.0))
 
     def grown(self) -> Grown:
         """By one more node."""

@@ -56,6 +56,12 @@ def tile_center(number: int, columns: int) -> Vector:
     return ORIGIN + FRAME @ Vector(((column - middle) * SIZE, (row - middle) * SIZE, 0.0))
 
 
+def place_on_tile(tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
+    """(n, 2) from -1 to 1, of places (n, 3) in world space."""
+    center = tile.matrix_world.translation - FRAME @ _SHIFT
+    return ((places - np.array(center)) @ np.array(FRAME))[:, :2] / (SIZE / 2.0)
+
+
 def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
     """A scene of nothing else; the tiles. The sockets judged are plugged into `Emission`."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -133,6 +139,7 @@ def tile_mesh() -> bpy.types.Mesh:
     mesh.attributes.new("tier", "INT", "FACE").data.foreach_set("value", [2])
     mesh.materials.append(None)
     mesh.update()
+    mesh.polygons[0].use_smooth = True
     # (Normals of a mesh go with the inverse transposed.)
     leaning = [_OWN.transposed() @ Vector((0.5 * x + 0.2, 0.3 * y - 0.2 * x, 1.0)) for x, y in CORNERS]
     mesh.normals_split_custom_set([normal.normalized() for normal in leaning])
