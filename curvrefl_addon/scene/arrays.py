@@ -258,10 +258,9 @@ class LightArrays:
 
 @dataclass(frozen=True, slots=True)
 class SunDisc:
-    """Where the world's program draws a sun, which is small and bright."""
+    """Where (unit direction) the world's program draws a sun, which is small and bright."""
 
     direction: tuple[float, float, float]
-    """Unit, towards its middle"""
     angle: float
     """Its diameter, radians"""
 
@@ -286,6 +285,8 @@ class WorldArrays:
     """Sets the channel "emission" by the direction (`ShadingPoint.position`), in place of an image"""
     discs: tuple[SunDisc, ...] = ()
     """Of the program"""
+    program_images: tuple[ImageSource, ...] = ()
+    """That the program looks up: its own list"""
 
 
 @dataclass(frozen=True, slots=True)

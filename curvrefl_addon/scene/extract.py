@@ -24,6 +24,7 @@ from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
+from .programs.images import ProgramImages
 from .reads import (
     Bounces,
     PlainObject,
@@ -77,6 +78,7 @@ class SceneReader:
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
         self._world_warnings: list[Remark] = []
+        self._world_images = ProgramImages()
         self._unseen: list[Remark | str] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
@@ -91,7 +93,7 @@ class SceneReader:
     @property
     def sequences(self) -> set[int]:
         """Images (session_uid) that another frame may change."""
-        return self._images.sequences
+        return self._images.sequences | self._world_images.sequences
 
     @property
     def reads(self) -> dict[str, int]:
@@ -317,9 +319,8 @@ class SceneReader:
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
-        self._world_uid = uid_of_block(world)
-        self._world_warnings = []
-        self._world = read_world(world, self._images, self._world_warnings)
+        self._world_uid, self._world_warnings, self._world_images = uid_of_block(world), [], ProgramImages()
+        self._world = read_world(world, self._images, self._world_warnings, self._world_images)
 
     def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}

@@ -18,14 +18,14 @@ from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
-from .programs.textures import seen_texture, world_texture
+from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
@@ -58,8 +58,6 @@ FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
-SEEN = "LIGHTING_SEEN"
-"""The camera sees another world than mirrors do"""
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 
@@ -69,10 +67,9 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
     return Piece(
         samplers={
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
-            "lighting_world_maps": "FLOAT_2D_ARRAY",
-            **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
+            "lighting_ggx": "FLOAT_2D",
+            **world_samplers(features),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
-            **({"lighting_world_seen": "FLOAT_2D"} if SEEN in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
@@ -201,9 +198,7 @@ class Lighting:
             found.add("LIGHTING_WORLD")
         if self._alpha.materials:
             found.add(ALPHA)
-        if self._world_seen is not None:
-            found.add(SEEN)
-        return frozenset(found)
+        return frozenset(found) | self._world_textures.features
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
@@ -237,16 +232,13 @@ class Lighting:
         shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
         if ALPHA in self.features:
             self._alpha.bind(shader)
-        shader.uniform_sampler("lighting_world_maps", self._world_textures)
-        shader.uniform_sampler("lighting_world_image", self._world_image)
-        if SEEN in self.features:
-            shader.uniform_sampler("lighting_world_seen", self._world_seen)
+        self._world_textures.bind(shader)
         shader.uniform_sampler("lighting_ggx", self.ggx)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_world_seen", "ggx"):
+        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "ggx"):
             self.__dict__.pop(name, None)
 
     @property
@@ -296,10 +288,8 @@ class Lighting:
             self._world_visits = -(-at_once * self.sub_frames // count)
         light = world_light(self._sky.world, max(count, 1), even.world)
         self._world_light, self._world_is_lit = light, lit
-        self._world_textures = texture_layers(light.maps)
-        self._world_image, warnings = world_texture(world)
-        self.world_warnings = baked.warnings + warnings
-        self._world_seen = None if baked.seen is world else seen_texture(baked.seen)
+        self._world_textures = WorldTextures(baked, light.maps)
+        self.world_warnings = self._world_textures.warnings
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""
