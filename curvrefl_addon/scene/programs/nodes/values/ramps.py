@@ -107,7 +107,7 @@ def _curves(b: Builder, source: Source) -> Expression:
 
 
 def _wavelength(b: Builder, source: Source) -> Expression:
-    rows = xyz_to_scene(SPECTRUM) * SPECTRUM_SCALE
+    rows = SPECTRUM @ xyz_to_scene().T * SPECTRUM_SCALE
     length = b.input(source, "Wavelength", "float")
 
     def formula(nanometers: Any) -> Any:
