@@ -19,7 +19,7 @@ type Formula = Callable[..., Any]
 
 def folded(b: Builder, kind: Kind, formula: Formula | None, *inputs: Expression) -> Expression | None:
     """The value of a node whose inputs are all known; None where one is not, or where the formula gives no number.
-    (A float is a number for `formula`, anything else (3,).)"""
+    (A float is a number for `formula`, anything else (3,), in single precision: steps are where Blender has them.)"""
     if formula is None or not all(value.is_constant for value in inputs):
         return None
     with np.errstate(all="ignore"):
@@ -34,7 +34,7 @@ def folded(b: Builder, kind: Kind, formula: Formula | None, *inputs: Expression)
 
 def _array(value: Expression) -> Any:
     numbers = value.constant or ()
-    return np.float64(numbers[0]) if value.kind == "float" else np.array(numbers, np.float64)
+    return np.float32(numbers[0]) if value.kind == "float" else np.array(numbers, np.float32)
 
 
 def divided(a: Values, b: Values) -> Values:
