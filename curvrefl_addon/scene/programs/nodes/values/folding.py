@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...builder import Builder
 from ...expression import Expression, Kind
 
-type Values = NDArray[Any]
+type Values = Any
+"""A number or an array"""
 type Formula = Callable[..., Any]
 
 

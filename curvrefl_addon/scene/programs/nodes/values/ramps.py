@@ -79,7 +79,7 @@ def _curves(b: Builder, source: Source) -> Expression:
         return min(max(found, mapping.clip_min_y), mapping.clip_max_y) if clips else found
 
     def formula(v: Any, f: Any) -> Any:
-        values = np.atleast_1d(v).tolist()
+        values = np.ravel(v).tolist()
         if kind == "color":
             values = [bent(curves[3], part) for part in values]
         found = np.array([bent(curve, part) for curve, part in zip(curves, values, strict=False)])
