@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ....materials.node_links import Source
 from ...builder import Builder
 from ...expression import Expression, Kind
 
@@ -30,6 +31,11 @@ def folded(b: Builder, kind: Kind, formula: Formula | None, *inputs: Expression)
         return None
     made = b.parameter(*numbers)
     return Expression(made.text, kind, made.constant, made.low, made.high)
+
+
+def node_key(source: Source, name: str) -> tuple[Any, ...]:
+    """For `Builder.shared`: what all outputs of a node share."""
+    return (name, source.node.as_pointer(), tuple(group.as_pointer() for group in source.groups))
 
 
 def _array(value: Expression) -> Any:

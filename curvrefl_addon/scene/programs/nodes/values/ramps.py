@@ -14,16 +14,11 @@ from ....materials.color_spaces import xyz_to_scene
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
-from .folding import folded
+from .folding import folded, node_key
 from .tables import RAMP_ROWS, SPECTRUM, SPECTRUM_SCALE, SPECTRUM_START, SPECTRUM_STEP
 
 _FILE = "values/ramps.glsl"
 type _Rows = NDArray[np.float64]
-
-
-def node_key(source: Source, name: str) -> tuple[Any, ...]:
-    """For `Builder.shared`: what all outputs of a node share."""
-    return (name, source.node.as_pointer(), tuple(group.as_pointer() for group in source.groups))
 
 
 def _ramp(b: Builder, source: Source) -> Expression:
