@@ -8,10 +8,12 @@ from collections.abc import Mapping
 
 from ...materials.node_links import Source
 from ..builder import Builder, Handler
-from ..expression import Expression
+from ..expression import Expression, Kind
 from .coordinates import node_key, place, texture_vector
 
 _FILE = "nodes/voronoi.glsl"
+_KINDS: Mapping[str, Kind] = {"Color": "color", "Position": "vector"}
+"""Of outputs; others are numbers"""
 
 
 def _voronoi(b: Builder, source: Source) -> Expression:
@@ -27,8 +29,7 @@ def _voronoi(b: Builder, source: Source) -> Expression:
         # What the node does not give with these settings is 0.
         return b.as_kind(Expression("0.0", "float", (0.0,), 0.0, 0.0), "vector" if output == "Position" else "float")
     point = b.shared(node_key(source, "point"), lambda: _point(b, source, dimensions)).text
-    kind = {"Color": "color", "Position": "vector"}.get(output, "float")
-    return Expression(text.format(point), kind)
+    return Expression(text.format(point), _KINDS.get(output, "float"))
 
 
 def _output(dimensions: int, output: str) -> str:
