@@ -94,11 +94,12 @@ ivec4 voronoi_neighbor(int number, int side, int dimensions)
   return (place - side / 2) * axes;
 }
 
-// The point of a neighbor, as seen from the cell's corner. (Never from the place: one point has to be the same number
-// from everywhere, as it may be hashed.)
+// The point of a neighbor, as seen from the cell's corner. (One point is the same number from everywhere, and Cycles'
+// to the last bit, as it may be hashed: compilers may not round it in their own way, here and where it is scaled.)
 vec4 voronoi_point(ivec4 cell, ivec4 neighbor, int dimensions, float randomness)
 {
-  return vec4(neighbor) + voronoi_random(cell + neighbor, dimensions) * randomness;
+  precise vec4 point = vec4(neighbor) + voronoi_random(cell + neighbor, dimensions) * randomness;
+  return point;
 }
 
 // Features of one octave
@@ -249,7 +250,8 @@ VoronoiPoint voronoi_feature(vec4 p, int feature, int dimensions, int metric, fl
   return voronoi_f1(p, dimensions, metric, exponent, randomness);
 }
 
-VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bool normalized, float scale,
+// `per_scale`: from p to the texture's coordinates.
+VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bool normalized, float per_scale,
                              float detail, float roughness, float lacunarity, float smoothness, float exponent,
                              float randomness)
 {
@@ -279,8 +281,8 @@ VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bo
     sum.distance /= weights * most;
     sum.color /= weights;
   }
-  // (Times the reciprocal, as Cycles does: nodes may hash it to the last bit.)
-  sum.position = scale != 0.0 ? sum.position * (1.0 / scale) : vec4(0.0);
+  precise vec4 position = sum.position * per_scale;
+  sum.position = position;
   return sum;
 }
 
