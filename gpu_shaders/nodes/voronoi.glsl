@@ -3,7 +3,7 @@
 // SPDX-FileCopyrightText: 2011-2026 Blender Foundation and contributors (Apache-2.0)
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Voronoi Texture, after Cycles (svm/voronoi.h). Places have four numbers, of which the first `dimensions` count and
-// the rest are 0: dimensions and metric are constants in every call, so that compilers leave out what is not asked for.
+// the rest are 0. Dimensions, feature, metric are constants in every call: compilers leave out what is not asked for.
 #include "nodes/texture_hash.glsl"
 
 #define VORONOI_EUCLIDEAN 0
