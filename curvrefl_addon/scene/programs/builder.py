@@ -104,7 +104,7 @@ class Builder:
             else:
                 # (As Cycles adds, to the last bit: the mean may be hashed.)
                 text = f"(({value.text}.x + {value.text}.y + {value.text}.z) * {_number(weights[0])})"
-            known = None
+            known: tuple[float, ...] | None = None
             if value.constant is not None:
                 known = (float(np.dot(value.constant, weights)),)
             return Expression(text, "float", known, value.low, value.high)
