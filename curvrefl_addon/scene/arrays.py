@@ -210,10 +210,18 @@ class MaterialArrays:
             return float(values.min()), float(values.max())
         return next(((low, high) for name, low, high in self.ranges if name == channel), (-math.inf, math.inf))
 
+    def may_be(self, channel: str) -> bool:
+        """Whether a channel is above 0 anywhere, as far as that is known."""
+        return self.range_of(channel)[1] > 0.0
+
+    def varies(self, *channels: str) -> bool:
+        """Whether any of these differs from place to place."""
+        return self.program is not None and not set(channels).isdisjoint(self.program.shape.channels)
+
     @property
     def is_seen_through(self) -> bool:
         """Light goes on behind it, at least at some places."""
-        return self.range_of("transmission")[1] > 0.0 or self.range_of("alpha")[0] < 1.0
+        return self.may_be("transmission") or self.range_of("alpha")[0] < 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -331,7 +339,8 @@ class SceneArrays:
     instances: tuple[InstanceArrays, ...]
     materials: tuple[MaterialArrays, ...]
     """Index 0 is the default material for empty slots"""
-    images: tuple[ImageArrays, ...]
+    images: tuple[ImageSource, ...]
+    """What programs look up"""
     lights: tuple[LightArrays, ...]
     world: WorldArrays
     reflectors: tuple[int, ...] = ()

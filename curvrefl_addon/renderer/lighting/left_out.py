@@ -33,7 +33,7 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
         for index, material in enumerate(scene.materials)
         if not material.is_seen_through and _shine(material) > SHINY
     }
-    strong = {index for index, material in enumerate(scene.materials) if max(material.emission) > STRONG}
+    strong = {index for index, material in enumerate(scene.materials) if material.range_of("emission")[1] > STRONG}
     found = []
     if shiny and len(scene.instances) > 1:
         others = [item for item in scene.instances if item.object_id not in scene.reflectors]
@@ -62,18 +62,23 @@ def is_lit_indirectly(scene: SceneArrays) -> bool:
     """Whether the file's own renders follow light on from surfaces that scatter it."""
     used = {index for instance in scene.instances for index in instance.materials}
     return scene.diffuse_bounces > 0 and any(
-        scene.materials[index].metallic < 1.0 and not scene.materials[index].glossy_only for index in used
+        scene.materials[index].range_of("metallic")[0] < 1.0 and not scene.materials[index].glossy_only
+        for index in used
     )
 
 
 def _shine(material: MaterialArrays) -> float:
-    """See `SHINY`. A texture counts as white."""
-    color = max(material.base_color)
-    root = (material.ior - 1.0) / (material.ior + 1.0)
+    """See `SHINY`. What varies counts as the shiniest that it may be."""
+    high = {name: material.range_of(name)[1] for name in ("base_color", "metallic", "ior", "specular_level")}
+    color = min(high["base_color"], max(1.0, *material.base_color))
+    root = 1.0 if np.isinf(high["ior"]) else (high["ior"] - 1.0) / (high["ior"] + 1.0)
+    roughness, emission = material.range_of("roughness")[0], material.range_of("emission")[0]
+    if not material.varies("emission"):
+        emission = max(material.emission)
     # (What very rough dielectrics reflect of all around them hardly differs from place to place.)
-    dielectric = min(2.0 * material.specular_level * root * root, 0.99) * (1.0 - material.roughness**3)
-    metal = 1.0 if material.glossy_only else material.metallic
-    below = ORDINARY_LIGHT * (1.0 - metal) * color + max(material.emission)
+    dielectric = min(2.0 * high["specular_level"] * root * root, 0.99) * (1.0 - roughness**3)
+    metal = 1.0 if material.glossy_only else high["metallic"]
+    below = ORDINARY_LIGHT * (1.0 - metal) * color + max(emission, 0.0)
     return _shown(below + ORDINARY_CONTRAST * (metal * color + (1.0 - metal) * dielectric)) - _shown(below)
 
 

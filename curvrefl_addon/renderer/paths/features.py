@@ -56,28 +56,29 @@ def goes_on(material: MaterialArrays, is_mirror: bool) -> bool:
 
 def lets_straight_on(material: MaterialArrays) -> bool:
     """Whether light goes through as if nothing was there, at some places or in part: not so through glass."""
-    return material.alpha < 1.0
+    return material.range_of("alpha")[0] < 1.0
 
 
 def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
     """Defines that a path needs which goes on from the material. `is_mirror`: of a chosen mirror."""
     # (Lobes of what only lets light straight on are not followed.)
-    is_followed = is_mirror or material.transmission > 0.0
+    is_followed = is_mirror or material.may_be("transmission")
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
-    is_dielectric = material.specular_level > 0.0 and material.ior != 1.0
-    reflects = material.metallic > 0.0 or material.glossy_only or is_dielectric
-    has_scalars = material.scalars is not None
-    is_rough = (reflects or material.transmission > 0.0) and material.roughness**2 >= SHARP_ALPHA
-    is_coat_rough = material.coat_weight > 0.0 and material.coat_roughness**2 >= SHARP_ALPHA
+    is_dielectric = material.may_be("specular_level") and material.range_of("ior") != (1.0, 1.0)
+    reflects = material.may_be("metallic") or material.glossy_only or is_dielectric
+    has_scalars = material.varies("roughness", "metallic", "transmission", "alpha")
+    is_rough = (reflects or material.may_be("transmission")) and material.range_of("roughness")[1] ** 2 >= SHARP_ALPHA
+    has_coat = material.may_be("coat_weight")
+    is_coat_rough = has_coat and material.range_of("coat_roughness")[1] ** 2 >= SHARP_ALPHA
     of_lobes = {
-        ROUGH: is_rough or is_coat_rough or has_scalars,
-        COAT: material.coat_weight > 0.0,
-        GLASS: material.transmission > 0.0,
-        ANISOTROPY: material.anisotropy != 0.0 and (is_rough or has_scalars),
-        FILM: material.film_thickness > 0.0,
+        ROUGH: is_rough or is_coat_rough,
+        COAT: has_coat,
+        GLASS: material.may_be("transmission"),
+        ANISOTROPY: material.range_of("anisotropy") != (0.0, 0.0) and is_rough,
+        FILM: material.may_be("film_thickness"),
         # (Nothing but paths knows it; they always do.)
-        TINT: material.specular_tint != (1.0, 1.0, 1.0) and reflects and not material.glossy_only,
-        ABSORPTION: material.transmission > 0.0 and max(material.absorption) > 0.0,
+        TINT: material.range_of("specular_tint") != (1.0, 1.0) and reflects and not material.glossy_only,
+        ABSORPTION: material.may_be("transmission") and max(material.absorption) > 0.0,
     }
     found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}
     needed = found | of_lobes if is_followed else found

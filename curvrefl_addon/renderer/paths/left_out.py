@@ -79,7 +79,7 @@ def reasons_for_rays(scene: SceneArrays, mirrors: Iterable[int]) -> dict[str, st
 
 def kinds_of(scene: SceneArrays, mirror: InstanceArrays) -> Iterator[str]:
     """Keys of `KINDS`, in their order."""
-    found = {BUMPS} if any(scene.materials[index].relief is not None for index in mirror.materials) else set[str]()
+    found = {BUMPS} if any(scene.materials[index].varies("normal") for index in mirror.materials) else set[str]()
     of = {index: features_of(scene.materials[index], True) for index in mirror.materials}
     for index in in_use(scene, mirror, {index for index, features in of.items() if features}):
         found |= of[index]
