@@ -15,9 +15,11 @@ from curvrefl.curvrefl_addon.renderer.device.records import record_texture
 from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.programs.image_pages import ImagePages
 from curvrefl.curvrefl_addon.scene.materials.node_links import source_of
 from curvrefl.curvrefl_addon.scene.programs.builder import Builder
-from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute, Program, Shape
+from curvrefl.curvrefl_addon.scene.programs.images import ProgramImages
+from curvrefl.curvrefl_addon.scene.programs.program import IMAGE_RECORDS, UV, Attribute, Program, Shape
 from curvrefl.curvrefl_addon.scene.programs.registry import HANDLERS
 from curvrefl.gpu_shaders.loader import Snippet
 
@@ -97,19 +99,27 @@ void main()
 """
 
 
-class NoImages:
-    """Stands for the images of a scene that has none."""
-
-    def index_of(self, node: Any, note: Any, splits_alpha: bool) -> int | None:
-        return None
+@cache
+def image_pages() -> ImagePages:
+    """The images of all programs of tests, on the GPU."""
+    return ImagePages()
 
 
 def compiled(material: bpy.types.Material) -> tuple[Program, list[str]]:
-    """The program of what a tile's material sends out, and the notes of what is left out."""
+    """The program of what a tile's material sends out, with its images in `image_pages`, and the notes of what is left
+    out."""
     notes: list[str] = []
-    builder = Builder(HANDLERS, NoImages(), notes)
-    value = builder.value(source_of(judged_input(material)), "color")
-    return builder.finished({"emission": value}), notes
+    images = ProgramImages()
+    builder = Builder(HANDLERS, images, notes)
+    # (Frames of sequences are those of evaluated nodes.)
+    evaluated_material = material.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    value = builder.value(source_of(judged_input(evaluated_material)), "color")
+    program = builder.finished({"emission": value})
+    image_pages().follow(images.sources)
+    image_pages().fill()
+    for use in program.images:
+        program.records[use.record : use.record + IMAGE_RECORDS] = image_pages().records(use.image)
+    return program, notes + [remark.cause for remark in images.remarks]
 
 
 def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
@@ -124,23 +134,25 @@ def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> n
         "corners": record_texture(_corner_records(program, tile)),
         "instance_table": record_texture(_instance_records(program, tile)),
     }
-    shader = _shader(program.shape, len(program.instance_attributes))
+    shader = _shader(program.shape, len(program.instance_attributes), tuple(image_pages().piece.samplers))
     target = empty_texture(SIDE, SIDE)
     with drawing_state(), frame_buffer(target).bind():
         set_viewport(0, 0, SIDE, SIDE)
         shader.bind()
         for name, texture in textures.items():
             shader.uniform_sampler(name, texture)
+        image_pages().bind(shader)
         full_screen_triangle().draw(shader)
     return read_texture(target)[..., :3]
 
 
 @cache
-def _shader(shape: Shape, instance_values: int) -> Any:
+def _shader(shape: Shape, instance_values: int, _images: tuple[str, ...]) -> Any:
     includes = LIBRARY + "".join(f'#include "{file}"\n' for file in shape.files)
     return build_shader(
         "program of a test",
         FULL_SCREEN,
+        image_pages().piece,
         Piece(
             samplers=named("FLOAT_2D", "program_records", "places", "corners", "instance_table"),
             outputs={"color": "VEC4"},

@@ -246,7 +246,16 @@ class Lighting:
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_world_seen", "ggx"):
+        for name in (
+            "_bound",
+            "_casters",
+            "_lamp_maps",
+            "_world_maps",
+            "_world_textures",
+            "_world_image",
+            "_world_seen",
+            "ggx",
+        ):
             self.__dict__.pop(name, None)
 
     @property

@@ -133,7 +133,7 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
     if image.source == "FILE" and image.packed_file is None and not image.is_dirty and image.type == "IMAGE":
         return bpy.path.abspath(image.filepath_from_user(), library=image.library), -1
     if image.source == "MOVIE":
-        note("Movies {of} are not shown: they are drawn magenta.")
+        note("Movies {of} stand still: one frame of them is shown.")
     return "", -1
 
 
@@ -155,8 +155,6 @@ class _Reading:
         image = self._image
         if self._file:
             return self._of_file()
-        if image.source == "MOVIE":
-            return _missing(image.name)
         if image.type != "IMAGE" and image.type != "UV_TEST":
             self._remark("Renders and layers {of} are not read: drawn magenta.")
             return _missing(image.name)
