@@ -11,7 +11,7 @@ from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
 SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
-TINT = "PATHS_TINT"
+TINT, SHEEN = "PATHS_TINT", "PATHS_SHEEN"
 """Defines of the shaders of paths"""
 
 
@@ -77,6 +77,7 @@ def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
         FILM: material.film_thickness > 0.0,
         # (Nothing but paths knows it; they always do.)
         TINT: material.specular_tint != (1.0, 1.0, 1.0) and reflects and not material.glossy_only,
+        SHEEN: material.range_of("sheen_weight")[1] > 0.0 and not material.glossy_only,
         ABSORPTION: material.transmission > 0.0 and max(material.absorption) > 0.0,
     }
     found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}
