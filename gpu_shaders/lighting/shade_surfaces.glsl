@@ -19,6 +19,28 @@ Surface surface_of(vec4 position, vec4 normal, vec3 color)
   s.specular_level = first.w;
   s.emission = second.xyz;
   s.glossy_only = second.w > 0.5;
+#ifdef SURFACE_TINT
+  s.specular_tint = fetch_record(materials, record + 7).rgb;
+#endif
+#ifdef SURFACE_SHEEN
+  vec4 sheen = fetch_record(materials, record + 13);
+  s.sheen = sheen.rgb;
+  s.sheen_roughness = sheen.w;
+#endif
+#ifdef SURFACE_COAT
+  vec4 coat = fetch_record(materials, record + 5);
+  s.coat_weight = coat.x;
+  s.coat_roughness = coat.y;
+  s.coat_ior = coat.z;
+  s.coat_tint = fetch_record(materials, record + 6).rgb;
+#endif
+#ifdef SURFACE_DIFFUSE_ROUGHNESS
+  s.diffuse_roughness = fetch_record(materials, record + 14).x;
+  s.subsurface = fetch_record(materials, record + 14).y;
+#endif
+#ifdef SURFACE_TRANSLUCENT
+  s.translucency = fetch_record(materials, record + 14).z;
+#endif
   return s;
 }
 

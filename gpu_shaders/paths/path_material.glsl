@@ -27,6 +27,10 @@ struct PathMaterial {
   float anisotropic_rotation;
   bool tangent_by_uv;
   vec3 absorption;         // per meter, inside
+#ifdef PATHS_SHEEN
+  vec3 sheen;              // weight times tint
+  float sheen_roughness;
+#endif
 };
 
 // `scalars`: roughness, metallic, transmission and alpha of this place where the material has an image of them.
@@ -66,6 +70,11 @@ PathMaterial path_material(int index, vec3 base_color, vec4 scalars)
   m.anisotropic_rotation = rest.z;
   m.tangent_by_uv = (flags & 2) != 0;
   m.absorption = inside.rgb;
+#ifdef PATHS_SHEEN
+  vec4 sheen = fetch_record(materials, record + 13);
+  m.sheen = sheen.rgb;
+  m.sheen_roughness = sheen.w;
+#endif
 #ifdef PATHS_SCALARS
   if (fetch_record(materials, record + 12).x > -0.5) {
     m.roughness = scalars.x;

@@ -20,6 +20,7 @@ from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
+from ..paths.surface_features import surface_features
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
@@ -52,8 +53,8 @@ DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 type Features = frozenset[str]
-"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only,
-whether the world shines and whether it is an image"""
+"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only, what
+the world is; what surfaces have (`surface_features`)"""
 FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
@@ -104,6 +105,7 @@ class Lighting:
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
         self._alpha = ShadowAlpha(scene)
+        self._of_surfaces = surface_features(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -118,6 +120,7 @@ class Lighting:
             self._oddly_seen = oddly_seen(scene)
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
+            self._of_surfaces = surface_features(scene)
         moved = difference.moved
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
@@ -181,9 +184,8 @@ class Lighting:
 
     def _found_features(self) -> Features:
         kinds = {light.kind for light in self._lights}
-        shadows = {
-            len(layers) for planned in self._lamp_places for _, layers in planned if max(layers, default=-1) >= 0
-        }
+        places = (layers for planned in self._lamp_places for _, layers in planned)
+        shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
         found = {f"LIGHTING_{kind}" for kind in kinds}
         found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
         world = self._world
@@ -192,13 +194,11 @@ class Lighting:
         found |= {"LIGHTING_PARTS" for light in self._lights if not (light.lights_diffuse and light.lights_glossy)}
         if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
             found.add("LIGHTING_PARTS")
-        if world.image is not None:
-            found.add("LIGHTING_IMAGE")
-        if self._world_is_lit:
-            found.add("LIGHTING_WORLD")
+        flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
+        found |= {name for name, is_so in flagged.items() if is_so}
         if self._alpha.materials:
             found.add(ALPHA)
-        return frozenset(found) | self._world_textures.features
+        return frozenset(found) | self._world_textures.features | self._of_surfaces
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""

@@ -11,7 +11,7 @@ from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
 SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
-TINT = "PATHS_TINT"
+TINT, SHEEN = "PATHS_TINT", "PATHS_SHEEN"
 """Defines of the shaders of paths"""
 
 
@@ -78,6 +78,7 @@ def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
         FILM: material.may_be("film_thickness"),
         # (Nothing but paths knows it; they always do.)
         TINT: material.range_of("specular_tint") != (1.0, 1.0) and reflects and not material.glossy_only,
+        SHEEN: material.may_be("sheen_weight") and not material.glossy_only,
         ABSORPTION: material.may_be("transmission") and max(material.absorption) > 0.0,
     }
     found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}

@@ -9,7 +9,20 @@ from collections.abc import Iterable, Iterator
 from ...optics.catalog import Method
 from ...scene.arrays import InstanceArrays, SceneArrays
 from ...scene.remarks import Remark, sentences
-from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, TINT, features_of, in_use, path_features
+from .features import (
+    ALPHA,
+    ANISOTROPY,
+    COAT,
+    FILM,
+    GLASS,
+    ROUGH,
+    SCALARS,
+    SHEEN,
+    TINT,
+    features_of,
+    in_use,
+    path_features,
+)
 
 BUMPS = "BUMPS"
 """Beside the features of paths"""
@@ -18,6 +31,7 @@ KINDS = {
     GLASS: ("The glass {of} is drawn as a plain mirror", "is glass"),
     ALPHA: ("The transparency {of} is left out", "is transparent in part"),
     COAT: ("The coat {of} is left out", "has a coat"),
+    SHEEN: ("The sheen {of} is left out", "has sheen"),
     FILM: ("The thin film {of} is left out", "has a thin film"),
     SCALARS: ("Textures of roughness, metallic and alpha {of} are their means", "has a texture of its gloss"),
     ROUGH: ("Roughness {of} is left out", "is rough"),

@@ -17,7 +17,7 @@ from ..device.textures import largest_texture, texture_2d
 from ..geometry.chunk import HOLDOUT
 from .surface_buffer import SEEN_THROUGH
 
-RECORDS = 13
+RECORDS = 15
 """Per material"""
 TABLE = Piece(
     samplers={"materials": "FLOAT_2D"},
@@ -158,6 +158,8 @@ def _fill_path_records(record: Float32Array, material: MaterialArrays) -> None:
     record[4] = (*material.transparent_tint, material.alpha)
     record[5] = (material.alpha_threshold, material.anisotropy, material.anisotropic_rotation, float(flags))
     record[7] = (-1.0, 0.0, 0.0, float(material.is_seen_through))
+    record[8] = (*(material.sheen_weight * part for part in material.sheen_tint), material.sheen_roughness)
+    record[9, :3] = (material.diffuse_roughness, material.subsurface, material.translucency)
     if (scalars := material.scalars) is not None:
         record[6] = (*scalars.uv_scale, *scalars.uv_offset)
         record[7, :3] = (scalars.image, *scalars.uv_turn)

@@ -166,5 +166,6 @@ MOST_EVENTS = 63
 def _has_base(material: MaterialArrays) -> bool:
     """Whether a surface shows something besides what its lobes do."""
     shines = max(material.emission) > 0.0
+    has_sheen = material.range_of("sheen_weight")[1] > 0.0
     is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
-    return shines or not is_lobe_alone or material.scalars is not None
+    return shines or has_sheen or not is_lobe_alone or material.scalars is not None
