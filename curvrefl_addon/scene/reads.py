@@ -149,8 +149,8 @@ def layer_flags(layer: bpy.types.LayerCollection) -> Iterable[tuple[bool, ...]]:
 
 def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -> list[bpy.types.Material | None]:
     """What each slot shows; one empty slot where there are none."""
-    assert isinstance(obj.data, bpy.types.Mesh)
-    materials = list(obj.data.materials)
+    data: Any = obj.data
+    materials = list(data.materials)
     for index, slot in enumerate(obj.material_slots):
         if index >= len(materials):
             materials.append(slot.material)
@@ -174,9 +174,9 @@ def needs_of(
     warnings: list[Remark | str],
 ) -> MeshNeeds:
     """What the first slots that need a UV map or colors say, a mesh has one of each here; all that `programs` do."""
-    mesh = obj.data
-    assert isinstance(mesh, bpy.types.Mesh)
-    default = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
+    # (Hair and points have none.)
+    layers = obj.data.uv_layers if isinstance(obj.data, bpy.types.Mesh) else ()
+    default = next((layer.name for layer in layers if layer.active_render), "")
     uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
     colors = [slot.colors for slot in slots if slot.colors is not None]
     if len({uv_map or default for uv_map in uv_maps}) > 1:
