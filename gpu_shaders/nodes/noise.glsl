@@ -226,12 +226,12 @@ float noise_ridged_multifractal(vec4 p, int dimensions, float detail, float roug
 // The node's other parts
 
 // Seeds stand for places far off, 100 + 100 * hash(seed, axis).
-const vec4 NOISE_SEED_0 = vec4(186.03128, 114.955956, 154.44751, 142.50491);
-const vec4 NOISE_SEED_1 = vec4(199.84, 162.2926, 154.04823, 142.26761);
-const vec4 NOISE_SEED_2 = vec4(111.63384, 157.36938, 199.0881, 178.43613);
-const vec4 NOISE_SEED_3 = vec4(165.44528, 162.76822, 193.40842, 145.25551);
-const vec4 NOISE_SEED_4 = vec4(155.58092, 177.15463, 138.14003, 180.18573);
-const vec4 NOISE_SEED_5 = vec4(188.85379, 132.67769, 162.05215, 185.26816);
+const vec4 NOISE_SEEDS[6] = vec4[](vec4(186.03128, 114.955956, 154.44751, 142.50491),
+                                   vec4(199.84, 162.2926, 154.04823, 142.26761),
+                                   vec4(111.63384, 157.36938, 199.0881, 178.43613),
+                                   vec4(165.44528, 162.76822, 193.40842, 145.25551),
+                                   vec4(155.58092, 177.15463, 138.14003, 180.18573),
+                                   vec4(188.85379, 132.67769, 162.05215, 185.26816));
 // In one dimension 100 + 100 * hash(seed).
 const vec4 NOISE_LINE_SEEDS = vec4(158.24258, 114.83605, 188.48869, 0.0);
 
@@ -240,12 +240,10 @@ vec4 noise_distorted(vec4 p, int dimensions, float distortion)
   if (dimensions == 1) {
     return p + vec4(noise_signed(p + NOISE_LINE_SEEDS.x, 1) * distortion, 0.0, 0.0, 0.0);
   }
-  vec4 shift = vec4(noise_signed(p + NOISE_SEED_0, dimensions), noise_signed(p + NOISE_SEED_1, dimensions), 0.0, 0.0);
-  if (dimensions > 2) {
-    shift.z = noise_signed(p + NOISE_SEED_2, dimensions);
-  }
-  if (dimensions > 3) {
-    shift.w = noise_signed(p + NOISE_SEED_3, dimensions);
+  vec4 shift = vec4(0.0);
+  // (A loop, as compilers take long for many copies of the noise.)
+  for (int axis = 0; axis < dimensions; axis++) {
+    shift[axis] = noise_signed(p + NOISE_SEEDS[axis], dimensions);
   }
   return p + shift * distortion;
 }

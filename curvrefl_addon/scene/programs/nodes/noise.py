@@ -22,9 +22,9 @@ _KINDS_WITH = {
 """Inputs that not all kinds of noise have"""
 _COLOR_SEEDS = {
     1: ("NOISE_LINE_SEEDS.y", "NOISE_LINE_SEEDS.z"),
-    2: ("NOISE_SEED_2", "NOISE_SEED_3"),
-    3: ("NOISE_SEED_3", "NOISE_SEED_4"),
-    4: ("NOISE_SEED_4", "NOISE_SEED_5"),
+    2: ("NOISE_SEEDS[2]", "NOISE_SEEDS[3]"),
+    3: ("NOISE_SEEDS[3]", "NOISE_SEEDS[4]"),
+    4: ("NOISE_SEEDS[4]", "NOISE_SEEDS[5]"),
 }
 """Of green and blue, by dimensions"""
 
