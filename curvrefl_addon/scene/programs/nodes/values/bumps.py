@@ -30,6 +30,9 @@ def _normal_map(b: Builder, source: Source) -> Expression:
     if b.is_world:
         return Expression("(-s.position)", "vector")
     if node.space == "TANGENT":
+        if b.is_tilted:
+            # In Cycles they stand on the mesh's own normals.
+            b.note("Normal maps {of} lean with the bumps of its displacement.")
         found = tangent_of(b, node.uv_map)
         return b.call("vector", "normal_map_tangent", "s", color, strength, found, file=NORMALS_FILE)
     needs_instance(b)
@@ -58,6 +61,9 @@ def _tilted(
     """Tilted by heights; `height`: GLSL with `{}` for the point. `numbers`: scale, strength, the filter's width."""
     b.need("PROGRAM_BUMP")
     b.include(_BUMP_FILE)
+    if b.is_at_neighbors:
+        b.note("Bumps {of} of heights by other bumps are drawn as if both were slight.")
+    b.shared(("bump", "aligned"), lambda: b.made("float", "bump_aligned(s)"))
     scale, strength, width = numbers
     points = ("s", f"bump_across(s, {width.text})", f"bump_up(s, {width.text})")
     heights = b.made("vector", f"vec3({', '.join(height.format(point) for point in points)})")
@@ -99,6 +105,7 @@ def displacement_as_bump(b: Builder, source: Source) -> Expression | None:
     function = b.function(source, "vector")
     numbers = (b.parameter(1.0), b.parameter(1.0), b.parameter(_FILTER_WIDTH))
     tilted = _tilted(b, Expression("s.normal", "vector"), f"dot({function}({{}}), s.normal)", numbers)
+    b.is_tilted = True
     return b.made("vector", f"s.normal = {tilted.text}", -1.0, 1.0)
 
 

@@ -63,6 +63,10 @@ def _coordinates(b: Builder, source: Source) -> Expression | None:
     if output == "Object":
         return _object_coordinates(b, node.object)
     b.depend("position")
+    if output in ("Normal", "Window") and b.is_at_neighbors:
+        b.note(
+            f"Bumps {{of}} of heights by the {output.lower()} of Texture Coordinate nodes are drawn flat or elsewhere."
+        )
     if output == "Normal":
         if b.is_world:
             return b.made("vector", "-s.position")

@@ -57,6 +57,8 @@ def _geometry(b: Builder, source: Source) -> Expression | None:
     if output == "Tangent" and not b.is_world:
         return _radial(b, "Z")
     if output == "Parametric" and not b.is_world:
+        if b.is_at_neighbors:
+            b.note("Bumps {of} of heights by the parametric coordinates of Geometry nodes are drawn flat.")
         return b.made("vector", "vec3(1.0 - s.parametric.x - s.parametric.y, s.parametric.x, 0.0)", 0.0, 1.0)
     if output == "Backfacing":
         b.depend("ray")
