@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Float32Array, Int32Array
 from ..finite import LARGEST_LIGHT, is_usable
-from ..programs.program import FACTOR, GEOMETRY, TANGENT, UV, Attribute
+from ..programs.program import FACTOR, GEOMETRY, NORMAL, TANGENT, UV, Attribute
 from .attributes import PARTS, at_corners, values_of
 from .tangents import corner_tangents
 
@@ -98,6 +98,8 @@ def generated_of(mesh: bpy.types.Mesh) -> tuple[Float32Array, Float32Array]:
 
 
 def _read(mesh: bpy.types.Mesh, attribute: Attribute, corners: Corners) -> Float32Array | None:
+    if attribute.kind == NORMAL:
+        return corners.at_corners(corners.normals)
     if attribute.kind == TANGENT:
         uv = uv_of_map(mesh, attribute.name)
         if uv is None or len(corners.triangles) == 0:

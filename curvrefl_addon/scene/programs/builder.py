@@ -50,8 +50,6 @@ class Builder:
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
         self.is_world = is_world
-        self.is_tilted = False
-        """Whether displacement has tilted `s.normal`"""
         self._depth = 0
         self._functions: list[str] = []
         self._lines: list[str] = []

@@ -10,6 +10,7 @@ from typing import Any
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
+from ...program import NORMAL
 from .places import NORMALS_FILE, needs_instance, tangent_of
 from .surface import normal_input
 
@@ -30,11 +31,8 @@ def _normal_map(b: Builder, source: Source) -> Expression:
     if b.is_world:
         return Expression("(-s.position)", "vector")
     if node.space == "TANGENT":
-        if b.is_tilted:
-            # In Cycles they stand on the mesh's own normals.
-            b.note("Normal maps {of} lean with the bumps of its displacement.")
-        found = tangent_of(b, node.uv_map)
-        return b.call("vector", "normal_map_tangent", "s", color, strength, found, file=NORMALS_FILE)
+        found, normal = tangent_of(b, node.uv_map), b.attribute(NORMAL, "")
+        return b.call("vector", "normal_map_tangent", "s", color, strength, found, normal, file=NORMALS_FILE)
     needs_instance(b)
     function = "normal_map_object" if "OBJECT" in node.space else "normal_map_world"
     return b.call("vector", function, "s", color, strength, file=NORMALS_FILE)
@@ -105,7 +103,6 @@ def displacement_as_bump(b: Builder, source: Source) -> Expression | None:
     function = b.function(source, "vector")
     numbers = (b.parameter(1.0), b.parameter(1.0), b.parameter(_FILTER_WIDTH))
     tilted = _tilted(b, Expression("s.normal", "vector"), f"dot({function}({{}}), s.normal)", numbers)
-    b.is_tilted = True
     return b.made("vector", f"s.normal = {tilted.text}", -1.0, 1.0)
 
 
