@@ -40,10 +40,16 @@ float math_inverse_root(float a)
   return a > 0.0 ? 1.0 / sqrt(a) : 0.0;
 }
 
-// Truncated, as C's fmod.
+// C's fmod: of the sizes, with the first one's sign. (Where the quotient was rounded to the next whole number, what is
+// left is just under the divisor.)
 float math_modulo(float a, float b)
 {
-  return b != 0.0 ? a - b * trunc(a / b) : 0.0;
+  if (b == 0.0) {
+    return 0.0;
+  }
+  float left = abs(a) - abs(b) * floor(abs(a) / abs(b));
+  left = left < 0.0 ? left + abs(b) : (left >= abs(b) ? left - abs(b) : left);
+  return a < 0.0 ? -left : left;
 }
 
 vec3 math_modulo(vec3 a, vec3 b)

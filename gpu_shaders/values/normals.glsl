@@ -31,13 +31,14 @@ vec3 normal_map_or(vec3 found, vec3 normal)
   return dot(found, found) > 0.0 ? found : normal;
 }
 
-// `tangent`: in object space, the sign of the bitangent in w.
-vec3 normal_map_tangent(ShadingPoint s, vec3 color, float strength, vec4 tangent)
+// In object space, as interpolated: `tangent`, with the sign of the bitangent in w, and the mesh's own `mesh_normal`,
+// which stands whatever bumps there are.
+vec3 normal_map_tangent(ShadingPoint s, vec3 color, float strength, vec4 tangent, vec4 mesh_normal)
 {
   vec3 part = normal_map_decoded(color);
   part = vec3(part.xy * strength, mix(1.0, part.z, clamp(strength, 0.0, 1.0)));
   float side = s.is_back ? -1.0 : 1.0;
-  vec3 normal = tangent_object_normal(s, side * s.normal);
+  vec3 normal = math_normalize(mesh_normal.xyz);
   vec3 bitangent = tangent.w * cross(normal, tangent.xyz);
   vec3 found = part.x * tangent.xyz + part.y * bitangent + part.z * normal;
   return normal_map_or(side * tangent_unit_normal(s, found), s.normal);

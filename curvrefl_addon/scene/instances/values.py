@@ -15,8 +15,8 @@ from ..meshes.attributes import PARTS, values_of
 from ..meshes.program_attributes import generated_of
 from ..programs.program import Program
 
-OBJECT, INSTANCER, VIEW_LAYER = "OBJECT:", "INSTANCER:", "VIEW_LAYER:"
-"""Before the names of values: whose they are, as the Attribute node's types"""
+OBJECT, INSTANCER, VIEW_LAYER, PARTICLE = "OBJECT:", "INSTANCER:", "VIEW_LAYER:", "PARTICLE:"
+"""Before the names of values: whose they are, as the Attribute node's types, or outputs of the node Particle Info"""
 NEED = "PROGRAM_INSTANCE"
 """Of programs that know of instances"""
 NO_ID = 0x7FFFFFFF
@@ -83,6 +83,8 @@ def _hashed(number: int) -> int:
 def _value(instance: Any, name: str, view_layer: Any) -> Four:
     """By a name of a program; zeros where nobody has it."""
     owners: Iterable[Any] = ()
+    if name.startswith(PARTICLE):
+        return _of_particle(instance, name.removeprefix(PARTICLE), view_layer.id_data)
     if name.startswith(VIEW_LAYER):
         plain = name.removeprefix(VIEW_LAYER)
         scene = view_layer.id_data
@@ -103,6 +105,28 @@ def _value(instance: Any, name: str, view_layer: Any) -> Four:
         if owner is not None and (found := _property(owner, plain)) is not None:
             return found
     return (0.0, 0.0, 0.0, 0.0)
+
+
+def _of_particle(instance: Any, name: str, scene: Any) -> Four:
+    """An output of Particle Info; of what is no particle that of number 0 without age, size and place."""
+    system = instance.particle_system if instance.is_instance else None
+    number = instance.persistent_id[0] if system is not None else 0
+    particles = () if system is None else system.particles
+    particle = particles[number] if number < len(particles) else None
+    if name == "Random":
+        return _four(_hashed(number if particle is not None else 0) / 0xFFFFFFFF) or (0.0,) * 4
+    if particle is None:
+        return (0.0, 0.0, 0.0, 0.0)
+    values = {
+        "Index": number,
+        "Age": scene.frame_current_final - particle.birth_time,
+        "Lifetime": particle.lifetime,
+        "Location": particle.location,
+        "Size": particle.size,
+        "Velocity": particle.velocity,
+        "Angular Velocity": particle.angular_velocity,
+    }
+    return _four(values[name]) or (0.0, 0.0, 0.0, 0.0)
 
 
 def _property(owner: Any, name: str) -> Four | None:

@@ -12,8 +12,9 @@ import numpy as np
 
 from ..arrays import Float32Array, Int32Array
 from ..finite import LARGEST_LIGHT, is_usable
-from ..programs.program import FACTOR, GEOMETRY, TANGENT, UV, Attribute
+from ..programs.program import FACTOR, GEOMETRY, NORMAL, TANGENT, UV, Attribute
 from .attributes import PARTS, at_corners, values_of
+from .connectivity import ISLAND, POINTINESS, island_numbers, pointiness
 from .tangents import corner_tangents
 
 
@@ -98,6 +99,8 @@ def generated_of(mesh: bpy.types.Mesh) -> tuple[Float32Array, Float32Array]:
 
 
 def _read(mesh: bpy.types.Mesh, attribute: Attribute, corners: Corners) -> Float32Array | None:
+    if attribute.kind == NORMAL:
+        return corners.at_corners(corners.normals)
     if attribute.kind == TANGENT:
         uv = uv_of_map(mesh, attribute.name)
         if uv is None or len(corners.triangles) == 0:
@@ -121,7 +124,20 @@ def _by_name(mesh: bpy.types.Mesh, name: str, corners: Corners) -> Float32Array 
     if name == "generated":
         scale, offset = generated_of(mesh)
         return (corners.positions * scale + offset)[corners.vertex]
+    if name in (POINTINESS, ISLAND):
+        return _of_edges(mesh, name, corners.positions)[corners.vertex]
     attribute = mesh.attributes.get(name or mesh.attributes.default_color_name)
     if attribute is None or attribute.data_type not in PARTS:
         return None
     return at_corners(mesh, attribute.domain, values_of(attribute), corners.vertex)
+
+
+def _of_edges(mesh: bpy.types.Mesh, name: str, positions: Float32Array) -> Float32Array:
+    """(vertices, 1)"""
+    edges = np.empty((len(mesh.edges), 2), np.int32)
+    mesh.edges.foreach_get("vertices", edges.reshape(-1))
+    if name == ISLAND:
+        return island_numbers(len(positions), edges)[:, None]
+    normals = np.empty((len(positions), 3), np.float32)
+    mesh.vertex_normals.foreach_get("vector", normals.reshape(-1))
+    return pointiness(positions, normals, edges)[:, None]

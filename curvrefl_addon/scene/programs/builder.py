@@ -50,6 +50,7 @@ class Builder:
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
         self.is_world = is_world
+        self._depth = 0
         self._functions: list[str] = []
         self._lines: list[str] = []
         self._known: dict[Any, Expression] = {}
@@ -209,14 +210,21 @@ class Builder:
         """The value at a source as a GLSL function of a ShadingPoint, whose name this is: to be asked at neighbors."""
         lines, known = self._lines, self._known
         self._lines, self._known = [], {}
+        self._depth += 1
         try:
             result = self.value(source, kind)
             body = "\n".join([*self._lines, f"  return {result.text};"])
         finally:
             self._lines, self._known = lines, known
+            self._depth -= 1
         name = f"value_{len(self._functions)}"
         self._functions.append(f"{glsl_type(kind)} {name}(ShadingPoint s)\n{{\n{body}\n}}\n")
         return name
+
+    @property
+    def is_at_neighbors(self) -> bool:
+        """Whether what is compiled is asked at neighbors too, between which only positions and attributes differ."""
+        return self._depth > 0
 
     def note(self, cause: str) -> None:
         """Something is not drawn as it is: the cause of a remark ("Wireframe nodes {of} are not drawn.")."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-UV, GEOMETRY, FACTOR, TANGENT = "UV", "GEOMETRY", "FACTOR", "TANGENT"
+UV, GEOMETRY, FACTOR, TANGENT, NORMAL = "UV", "GEOMETRY", "FACTOR", "TANGENT", "NORMAL"
 """Kinds of attributes: a UV map ("": the one that renders use), any attribute by its name ("": the default color
 attribute), the same as the one number that Cycles makes of it, (tangent, sign) of a UV map as Blender's own,
-mikktspace's
+mikktspace's, the mesh's own normal in object space (between corners shorter than 1)
 
 What a mesh lacks is 0, and (0, 0, 0, 1) where it is asked for by a name."""
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from .builder import Handler
 from .nodes import images, noise, patterns, skies, voronoi
-from .nodes.values import bumps, colors, numbers, places, plain, ramps, surface, vectors
+from .nodes.values import bumps, colors, numbers, parts, places, plain, ramps, surface, vectors
 
 HANDLERS: Mapping[str, Handler] = {
     **images.NODES,
@@ -24,4 +24,5 @@ HANDLERS: Mapping[str, Handler] = {
     **surface.NODES,
     **bumps.NODES,
     **plain.NODES,
+    **parts.NODES,
 }

@@ -10,6 +10,7 @@ from typing import Any
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
+from ...program import NORMAL
 from .places import NORMALS_FILE, needs_instance, tangent_of
 from .surface import normal_input
 
@@ -30,8 +31,8 @@ def _normal_map(b: Builder, source: Source) -> Expression:
     if b.is_world:
         return Expression("(-s.position)", "vector")
     if node.space == "TANGENT":
-        found = tangent_of(b, node.uv_map)
-        return b.call("vector", "normal_map_tangent", "s", color, strength, found, file=NORMALS_FILE)
+        found, normal = tangent_of(b, node.uv_map), b.attribute(NORMAL, "")
+        return b.call("vector", "normal_map_tangent", "s", color, strength, found, normal, file=NORMALS_FILE)
     needs_instance(b)
     function = "normal_map_object" if "OBJECT" in node.space else "normal_map_world"
     return b.call("vector", function, "s", color, strength, file=NORMALS_FILE)
@@ -58,6 +59,9 @@ def _tilted(
     """Tilted by heights; `height`: GLSL with `{}` for the point. `numbers`: scale, strength, the filter's width."""
     b.need("PROGRAM_BUMP")
     b.include(_BUMP_FILE)
+    if b.is_at_neighbors:
+        b.note("Bumps {of} of heights by other bumps are drawn as if both were slight.")
+    b.shared(("bump", "aligned"), lambda: b.made("float", "bump_aligned(s)"))
     scale, strength, width = numbers
     points = ("s", f"bump_across(s, {width.text})", f"bump_up(s, {width.text})")
     heights = b.made("vector", f"vec3({', '.join(height.format(point) for point in points)})")

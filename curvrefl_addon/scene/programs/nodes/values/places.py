@@ -63,6 +63,10 @@ def _coordinates(b: Builder, source: Source) -> Expression | None:
     if output == "Object":
         return _object_coordinates(b, node.object)
     b.depend("position")
+    if output in ("Normal", "Window") and b.is_at_neighbors:
+        b.note(
+            f"Bumps {{of}} of heights by the {output.lower()} of Texture Coordinate nodes are drawn flat or elsewhere."
+        )
     if output == "Normal":
         if b.is_world:
             return b.made("vector", "-s.position")
@@ -117,11 +121,8 @@ def _attribute(b: Builder, source: Source) -> Expression:
     else:
         needs_instance(b)
         found = b.instance_attribute(f"{node.attribute_type}:{name}")
-    if output == "Alpha" and is_of_mesh:
-        return Expression(f"{found.text}.w", "float")
     if output == "Alpha":
-        # (Zeros: no object has it, and what is not there is opaque.)
-        return b.made("float", f"{found.text} == vec4(0.0) ? 1.0 : {found.text}.w")
+        return Expression(f"{found.text}.w", "float")
     if output == "Fac":
         return b.made("float", f"dot({found.text}.xyz, vec3(1.0 / 3.0))")
     return Expression(f"{found.text}.xyz", kind)

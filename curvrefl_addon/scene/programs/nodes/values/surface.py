@@ -12,6 +12,7 @@ import numpy as np
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
+from ...program import GEOMETRY
 from ..coordinates import generated
 from .places import NORMALS_FILE, needs_camera, needs_instance, tangent_of, zero
 
@@ -26,6 +27,8 @@ _FLAGS: Mapping[str, str] = {
     "Is Reflection Ray": "RAY_IS_REFLECTION",
     "Is Transmission Ray": "RAY_IS_TRANSMISSION",
 }
+_OF_EDGES: Mapping[str, str] = {"Pointiness": ".pointiness", "Random Per Island": ".random_per_island"}
+"""Names of attributes (scene/meshes/connectivity.py)"""
 _DEPTHS: Mapping[str, str] = {
     "Ray Length": "s.ray_length",
     "Ray Depth": "s.depths.x",
@@ -57,14 +60,15 @@ def _geometry(b: Builder, source: Source) -> Expression | None:
     if output == "Tangent" and not b.is_world:
         return _radial(b, "Z")
     if output == "Parametric" and not b.is_world:
+        if b.is_at_neighbors:
+            b.note("Bumps {of} of heights by the parametric coordinates of Geometry nodes are drawn flat.")
         return b.made("vector", "vec3(1.0 - s.parametric.x - s.parametric.y, s.parametric.x, 0.0)", 0.0, 1.0)
     if output == "Backfacing":
         b.depend("ray")
         return zero(b, "float") if b.is_world else b.made("float", "float(s.is_back)", 0.0, 1.0)
-    if output in ("Pointiness", "Random Per Island"):
-        b.note(f"{output} of Geometry nodes {{of}} is not drawn.")
-        return b.parameter(0.5 if output == "Pointiness" else 0.0)
-    return zero(b)
+    if output in _OF_EDGES and not b.is_world:
+        return Expression(f"{b.attribute(GEOMETRY, _OF_EDGES[output]).text}.x", "float", None, 0.0, 1.0)
+    return zero(b, "float" if output in ("Backfacing", *_OF_EDGES) else "vector")
 
 
 def _radial(b: Builder, axis: str) -> Expression:

@@ -132,6 +132,9 @@ def _radial_tiling(b: Builder, source: Source) -> Expression:
     if output == "Segment ID":
         return b.call("float", "radial_segment", vector, sides, file=_TILING_FILE)
     roundness = b.input(source, "Roundness", "float")
+    if sides.low <= 2.0 and sides.is_constant and roundness.constant not in ((0.0,), (1.0,)):
+        # There is no such polygon, and Cycles divides by what is left of zero.
+        b.note("Radial Tiling nodes {of} with two rounded sides are not drawn as they are.")
 
     def tiled() -> Expression:
         return b.call("vec4", "radial_tiling", vector, sides, roundness, bool(node.normalize), file=_TILING_FILE)
