@@ -17,6 +17,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from .programs.emitting import Emitter
 from .programs.program import Attribute, Program
 
 type Float32Array = NDArray[np.float32]
@@ -262,15 +263,8 @@ class LightArrays:
     """Diffuse parts of surfaces"""
     lights_glossy: bool = True
     """Highlights of surfaces"""
-
-
-@dataclass(frozen=True, slots=True)
-class SunDisc:
-    """Where (unit direction) the world's program draws a sun, which is small and bright."""
-
-    direction: tuple[float, float, float]
-    angle: float
-    """Its diameter, radians"""
+    emitter: Emitter | None = None
+    """By its nodes: `color` is multiplied with what it says"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,12 +283,8 @@ class WorldArrays:
     """Lights diffuse parts of surfaces"""
     visible_glossy: bool = True
     """Seen in mirrors, and lights glossy parts of surfaces"""
-    program: Program | None = None
-    """Sets the channel "emission" by the direction (`ShadingPoint.position`), in place of an image"""
-    discs: tuple[SunDisc, ...] = ()
-    """Of the program"""
-    program_images: tuple[ImageSource, ...] = ()
-    """That the program looks up: its own list"""
+    emitter: Emitter | None = None
+    """What shines in place of an image"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,9 @@ import numpy as np
 
 from .arrays import Float64Array, LightArrays
 from .finite import LARGEST_PLACE, LARGEST_POWER, is_usable, problem_of_place
-from .materials.node_colors import ColorReader
 from .materials.node_links import source_of
+from .programs.emitters import lamp_emitter
+from .programs.emitting import Emitter
 from .remarks import Remark
 from .visibility import RayVisibility
 
@@ -45,7 +46,8 @@ def read_light(
     color = np.array(light.color, np.float64) * light.energy * 2.0**light.exposure
     if light.use_temperature:
         color *= np.array(light.temperature_color, np.float64)
-    color *= _node_color(light, name, warnings)
+    by_nodes, emitter = _by_nodes(light, name, warnings)
+    color *= by_nodes
     if not is_usable(color, LARGEST_POWER):
         warnings.append(f'Lamp "{name}" is left out: its color or power is not a usable number.')
         return None
@@ -115,6 +117,7 @@ def read_light(
         visible_glossy=rays.glossy and is_seen,
         lights_diffuse=rays.diffuse,
         lights_glossy=rays.glossy,
+        emitter=emitter,
     )
 
 
@@ -133,22 +136,17 @@ def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[Remark | 
         )
 
 
-def _node_color(light: bpy.types.Light, name: str, warnings: list[Remark | str]) -> Float64Array:
-    """(3,) what the lamp's nodes multiply its color with."""
+def _by_nodes(
+    light: bpy.types.Light, name: str, warnings: list[Remark | str]
+) -> tuple[tuple[float, float, float], Emitter | None]:
+    """What the lamp's nodes multiply its color with."""
     tree = light.node_tree
     outputs = [node for node in tree.nodes if node.type == "OUTPUT_LIGHT"] if tree is not None else []
     if not outputs:
-        return np.ones(3)
+        return (1.0, 1.0, 1.0), None
     output = next((node for node in outputs if getattr(node, "is_active_output", False)), outputs[0])
     source = source_of(output.inputs["Surface"])
-    if source.node is None:
-        return np.zeros(3)
-    if source.node.type != "EMISSION" or source.node.mute:
-        warnings.append(f'The nodes of lamp "{name}" are left out: only an Emission node is drawn.')
-        return np.ones(3)
     notes: list[str] = []
-    reader = ColorReader(lambda _: None, notes)
-    strength = reader.number(source.input("Strength"), "strength")
-    color = reader.color(source.input("Color")).mean()
-    warnings += [Remark(cause, "lamp", name) for cause in dict.fromkeys(notes)]
-    return np.array(color, np.float64) * strength
+    color, emitter, remarks = lamp_emitter(source, notes)
+    warnings += [*(Remark(cause, "lamp", name) for cause in dict.fromkeys(notes)), *remarks]
+    return color, emitter

@@ -12,6 +12,7 @@
 //   7..10: one map: rows that give texel x, texel y, depth and w
 //   11: layer of that map; whether it lights diffuse parts of surfaces, and glossy ones; seen by the camera
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
+//   12: layer of its map (renderer/lighting/programs/lamps.py) and of what is seen of it, falloff, smoothness
 // Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py),
 // as many drivers run all branches.
 #if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
@@ -157,6 +158,12 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
     }
 #endif
+#ifdef LIGHTING_LOOKS
+    irradiance *= lamp_look(base, lighting_data[base + 12].x, kind, -to_light, s.position + to_light * range);
+#endif
+#ifdef LIGHTING_FALLOFF
+    irradiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, range);
+#endif
     float cos_light = dot(s.normal, to_light);
     bool is_lit = cos_light > 0.0;
 #ifdef LIT_FROM_BEHIND
@@ -255,6 +262,7 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
     vec3 radiance = lighting_data[base + 6].rgb;
     vec3 shines = lighting_data[base + 3].xyz;
     bool hit = false;
+    float away_from_it = 1.0;
     if (kind == LAMP_SUN) {
       hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
 #ifdef PATH_LIGHT
@@ -274,6 +282,7 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
         bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
                                                        max(abs(across.x), abs(across.y)) <= 1.0;
         hit = facing < 0.0 && t > 0.0 && t < distance && inside;
+        away_from_it = t;
 #ifdef PATH_LIGHT
         float nearest2 = lighting_data[base + 1].w * lighting_data[base + 1].w;
         radiance *= share_of_ray(base, 1.0 / max(t * t, nearest2), -facing);
@@ -288,6 +297,7 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
         vec3 axis = middle / max(away, 1e-30);
         float facing = dot(direction, axis);
         float t = away / max(facing, 1e-30);
+        away_from_it = t;
         vec3 place = t * direction - middle;
         float radius = lighting_data[base + 2].w;
         hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
@@ -313,6 +323,12 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
         }
       }
     }
+#endif
+#ifdef LIGHTING_LOOKS
+    radiance *= lamp_look(base, lighting_data[base + 12].y, kind, -direction, origin + away_from_it * direction);
+#endif
+#ifdef LIGHTING_FALLOFF
+    radiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, away_from_it);
 #endif
     float is_visible = by_camera ? lighting_data[base + 11].w : lighting_data[base + 5].w;
     if (hit && is_visible > 0.5 && radiance != vec3(0.0)) {

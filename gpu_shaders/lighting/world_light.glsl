@@ -63,12 +63,7 @@ vec3 world_met(vec3 direction, bool by_camera, float density)
 
 vec2 octahedral_place(vec3 direction)
 {
-  vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
-  if (d.z < 0.0) {
-    vec2 side = vec2(d.x < 0.0 ? -1.0 : 1.0, d.y < 0.0 ? -1.0 : 1.0);
-    d.xy = (1.0 - abs(d.yx)) * side;
-  }
-  return (d.xy * (0.5 * (WORLD_MAP_SIZE - 1.0)) + 0.5 * WORLD_MAP_SIZE) / WORLD_MAP_SIZE;
+  return (octahedral_of(direction) * (0.5 * (WORLD_MAP_SIZE - 1.0)) + 0.5 * WORLD_MAP_SIZE) / WORLD_MAP_SIZE;
 }
 
 vec4 world_map(vec2 place, int layer)

@@ -11,8 +11,10 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays
 from ...scene.camera.sampling import is_progressive, progressive_points
 
-LAMP_RECORDS = 12
+LAMP_RECORDS = 13
 """vec4 records per lamp"""
+LOOK_RECORD = 12
+"""Which of them is `programs.lamps.LampLooks.record`"""
 MAX_LAMPS = 32
 """Uniform blocks hold 16 KiB everywhere"""
 LEAST_SPREAD = np.radians(1.0)

@@ -24,8 +24,9 @@ from ..paths.surface_features import surface_features
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
-from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
+from .lamps import LAMP_DEFINES, LAMP_RECORDS, LOOK_RECORD, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
+from .programs.lamps import LOOK_DEFINES, LampLooks, look_samplers
 from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
@@ -70,6 +71,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
             "lighting_ggx": "FLOAT_2D",
             **world_samplers(features),
+            **look_samplers(features),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
@@ -78,6 +80,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             "HEADER_RECORDS": HEADER_RECORDS,
             "DIRECTION_RECORDS": DIRECTION_RECORDS,
             **LAMP_DEFINES,
+            **LOOK_DEFINES,
             **WORLD_DEFINES,
             **GGX_DEFINES,
             **SHADOW_ALPHA.defines,
@@ -99,6 +102,7 @@ class Lighting:
         self._blocks: dict[int, tuple[Any, list[int], list[int]]] = {}
         """By sub-frame its uniform block and the views of its lamps' and the world's maps"""
         self._bound: Any = None
+        self._looks = LampLooks()
         self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
@@ -198,7 +202,7 @@ class Lighting:
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._alpha.materials:
             found.add(ALPHA)
-        return frozenset(found) | self._world_textures.features | self._of_surfaces
+        return frozenset(found) | self._world_textures.features | self._looks.features | self._of_surfaces
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
@@ -233,6 +237,7 @@ class Lighting:
         if ALPHA in self.features:
             self._alpha.bind(shader)
         self._world_textures.bind(shader)
+        self._looks.bind(shader)
         shader.uniform_sampler("lighting_ggx", self.ggx)
 
     def free(self) -> None:
@@ -261,7 +266,9 @@ class Lighting:
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
-        self._lights = self._chosen_lights(self._scene.lights + self._suns)
+        lights = self._looks.follow(self._scene.lights)
+        self._lights = self._chosen_lights(lights + self._suns)
+        self._lamp_warnings += self._looks.warnings
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
         points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
@@ -312,6 +319,7 @@ class Lighting:
             place, layers = planned[index % len(planned)]
             start = HEADER_RECORDS + row * LAMP_RECORDS
             block = lamp_records(light, place, len(planned) if is_soft(light) else 1)
+            block[LOOK_RECORD] = self._looks.record(light)
             fill_shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
             lamp_layers += [layer for layer in layers if layer >= 0]

@@ -7,17 +7,16 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..arrays import SunDisc, WorldArrays
+from ..arrays import WorldArrays
 from ..materials.color_spaces import luminance_weights
 from ..materials.node_links import Source
+from ..remarks import Remark
 from .builder import Builder
+from .emitting import CONSTANT, EMISSION, LINEAR, QUADRATIC, Emitter, SunDisc
 from .expression import Expression
 from .images import ProgramImages
 from .nodes.skies import LEAST_SIZE, is_plain, sun_angles
 from .registry import HANDLERS
-
-EMISSION = "emission"
-"""The channel that programs of worlds and lamps set"""
 
 
 def world_program(source: Source, images: ProgramImages, notes: list[str]) -> WorldArrays:
@@ -33,7 +32,7 @@ def world_program(source: Source, images: ProgramImages, notes: list[str]) -> Wo
     if "PROGRAM_CAMERA" in program.shape.needs:
         notes.append("What follows the camera {of} is drawn black.")
         return WorldArrays()
-    return WorldArrays((1.0, 1.0, 1.0), program=program, discs=discs, program_images=images.sources)
+    return WorldArrays((1.0, 1.0, 1.0), emitter=Emitter(program, images.sources, discs))
 
 
 def radiance(b: Builder, source: Source) -> Expression:
@@ -45,11 +44,7 @@ def radiance(b: Builder, source: Source) -> Expression:
         # Cycles takes a color for a background of it.
         return b.value(source, "color")
     if node.type in ("BACKGROUND", "EMISSION"):
-        color, strength = b.input(source, "Color", "color"), b.input(source, "Strength", "float")
-        if color.constant is not None and strength.constant is not None:
-            value = tuple(part * strength.constant[0] for part in color.constant)
-            return Expression(f"({color.text} * {strength.text})", "color", value)
-        return b.made("color", f"{color.text} * {strength.text}")
+        return _scaled(b, b.input(source, "Color", "color"), b.input(source, "Strength", "float"))
     if node.type == "ADD_SHADER":
         first, second = (radiance(b, source.input(name)) for name in ("Shader", "Shader_001"))
         if first.constant is not None and second.constant is not None:
@@ -69,6 +64,13 @@ def radiance(b: Builder, source: Source) -> Expression:
         return b.made("color", text)
     b.note(f"{node.bl_label} {{of}} is drawn black.")
     return Expression("vec3(0.0)", "color", (0.0, 0.0, 0.0), 0.0, 0.0)
+
+
+def _scaled(b: Builder, color: Expression, strength: Expression) -> Expression:
+    if color.constant is not None and strength.constant is not None:
+        value = tuple(part * strength.constant[0] for part in color.constant)
+        return Expression(f"({color.text} * {strength.text})", "color", value)
+    return b.made("color", f"{color.text} * {strength.text}")
 
 
 def _skies(source: Source, seen: set[Any]) -> list[Source]:
@@ -92,3 +94,35 @@ def _disc_of(b: Builder, sky: Source) -> SunDisc | None:
     flat = math.cos(elevation)
     direction = (-flat * math.sin(rotation), flat * math.cos(rotation), math.sin(elevation))
     return SunDisc(direction, max(float(node.sun_size), LEAST_SIZE))
+
+
+def lamp_emitter(source: Source, notes: list[str]) -> tuple[tuple[float, float, float], Emitter | None, list[Remark]]:
+    """What the shader at a lamp's output multiplies its color with: a constant, and the rest as an emitter where it is
+    more. Besides remarks about images."""
+    images = ProgramImages()
+    b = Builder(HANDLERS, images, notes, tuple(luminance_weights().tolist()))
+    falloff, smoothness = QUADRATIC, 0.0
+    node = source.node
+    strength = source.input("Strength") if node is not None and node.type == "EMISSION" else None
+    if strength is not None and strength.node is not None and strength.node.type == "LIGHT_FALLOFF":
+        smooth = b.constant_of(strength, "Smooth")
+        if smooth is not None:
+            falloff = {"Quadratic": QUADRATIC, "Linear": LINEAR, "Constant": CONSTANT}[strength.socket.identifier]
+            smoothness = max(smooth[0], 0.0)
+            value = _scaled(b, b.input(source, "Color", "color"), b.input(strength, "Strength", "float"))
+        else:
+            value = radiance(b, source)
+    else:
+        value = radiance(b, source)
+    if value.constant is not None:
+        red, green, blue = value.constant
+        has_falloff = falloff != QUADRATIC or smoothness > 0.0
+        emitter = Emitter(None, falloff=falloff, smoothness=smoothness) if has_falloff else None
+        return (red, green, blue), emitter, []
+    program = b.finished({EMISSION: value})
+    if "PROGRAM_CAMERA" in program.shape.needs:
+        notes.append("What follows the camera {of} is left out.")
+        return (1.0, 1.0, 1.0), None, []
+    if "facing_falloff(" in program.shape.text:
+        notes.append("Light Falloff {of} that is more than a lamp's strength is drawn as at a meter's distance.")
+    return (1.0, 1.0, 1.0), Emitter(program, images.sources, (), falloff, smoothness), images.remarks

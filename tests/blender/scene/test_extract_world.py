@@ -142,12 +142,13 @@ def test_what_is_no_image_is_a_program(world: bpy.types.World) -> None:
     sky: Any = tree.nodes.new("ShaderNodeTexSky")
     tree.links.new(sky.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     read = extracted()
-    assert not read.warnings and read.world.image is None and read.world.program is not None
-    (disc,) = read.world.discs
+    assert not read.warnings and read.world.image is None and read.world.emitter is not None
+    (disc,) = read.world.emitter.discs
     up = float(sky.sun_elevation)
     np.testing.assert_allclose(disc.direction, (0.0, math.cos(up), math.sin(up)), atol=1e-9)
     sky.sun_disc = False
-    assert extracted().world.discs == ()
+    emitter = extracted().world.emitter
+    assert emitter is not None and emitter.discs == ()
 
 
 def test_mixed_constants_are_a_constant(world: bpy.types.World) -> None:

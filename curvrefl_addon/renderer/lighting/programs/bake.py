@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, ImageSource
-from ....scene.programs.program import IMAGE_RECORDS, Program
-from ....scene.programs.program import Shape as ProgramShape
 from .....gpu_shaders.loader import Snippet
+from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, ImageSource
+from ....scene.programs.program import IMAGE_RECORDS, UV, Program
+from ....scene.programs.program import Shape as ProgramShape
 from ...device.batches import full_screen_triangle
 from ...device.context import gpu_cache
 from ...device.frame_buffers import frame_buffer
@@ -23,11 +23,13 @@ from ...device.textures import empty_texture, read_texture
 from ...programs.image_pages import ImagePages
 from ...programs.instance_table import NEED, PLAIN_VALUES, instance_piece
 
-SKY, DISC, LAMP = 0, 1, 2
-"""Shapes of directions: an equirectangular image, a disc of the sky, all about a lamp (octahedral)"""
+SKY, DISC, LAMP, SPOT, AREA = 0, 1, 2, 3, 4
+"""Shapes of directions: an equirectangular image, a disc of the sky, all about a lamp (octahedral), in a spot's cone;
+and places on an area lamp"""
 CAMERA, GLOSSY, DIFFUSE, TRANSMISSION, LIGHTING = 1, 2 + 16 + 32, 2 + 8, 4, 0
 """Rays, as bits of `shading_point.glsl`; LIGHTING: Cycles tells shaders of light nothing of the rays that ask it"""
-BAKE_RECORDS = 6
+_SHAPES = {"SKY": SKY, "DISC": DISC, "LAMP": LAMP, "SPOT": SPOT, "AREA": AREA}
+BAKE_RECORDS = 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,8 @@ class Directions:
     frame: Float64Array
     """(3, 3) rows: see `programs/bake.frag.glsl`"""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    radius: float = 0.0
+    """Of the lamp's ball"""
 
 
 def sky_directions(width: int) -> Directions:
@@ -56,6 +60,7 @@ class Baker:
         """`images`: those of the program's own list; `instance`: records (PLAIN_VALUES, 4) of the lamp that it is
         on."""
         self._shape = program.shape
+        self._uvs = sum(1 << number for number, item in enumerate(program.attributes) if item.kind == UV)
         self._pages = ImagePages()
         self._pages.follow(images)
         self._pages.fill()
@@ -90,12 +95,13 @@ class Baker:
         return pixels
 
     def _numbers(self, directions: Directions, rays: int) -> Float32Array:
-        """(6, 4) as the shader takes them."""
+        """(BAKE_RECORDS, 4) as the shader takes them."""
         numbers = np.zeros((BAKE_RECORDS, 4), np.float32)
         numbers[:3, :3] = directions.frame
-        numbers[3, :3] = directions.place
+        numbers[3] = *directions.place, directions.radius
         numbers[4] = directions.width, directions.height, directions.shape, self._first
         numbers[5] = *_depths(rays), rays
+        numbers[6, 0] = self._uvs
         return numbers
 
 
@@ -127,9 +133,7 @@ def _shader(
                 **flags(*sorted(shape.needs), *(("PROGRAM_WITHOUT_SUNS",) if without_suns else ())),
                 **dict(image_defines),
                 "ATTRIBUTES": shape.attributes,
-                "SHAPE_SKY": SKY,
-                "SHAPE_DISC": DISC,
-                "SHAPE_LAMP": LAMP,
+                **{f"SHAPE_{name}": number for name, number in _SHAPES.items()},
             },
             fragment=Snippet("emitting program", text),
         ),

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....scene.arrays import Float32Array, Float64Array, LightArrays, SunDisc, WorldArrays
+from ....scene.arrays import Float32Array, Float64Array, LightArrays, WorldArrays
+from ....scene.programs.emitting import SunDisc
 from .bake import CAMERA, DIFFUSE, DISC, GLOSSY, TRANSMISSION, Baker, Directions, sky_directions
 
 WIDTH = 2048
@@ -43,7 +44,7 @@ _last: list[tuple[WorldArrays, BakedWorld]] = []
 
 def baked_world(world: WorldArrays) -> BakedWorld:
     """The images of a world's program; the last two worlds' are kept."""
-    if world.program is None:
+    if world.emitter is None:
         return BakedWorld(world, world, world)
     for known, baked in _last:
         if known is world:
@@ -54,17 +55,18 @@ def baked_world(world: WorldArrays) -> BakedWorld:
 
 
 def _bake(world: WorldArrays) -> BakedWorld:
-    program = world.program
-    assert program is not None
-    baker = Baker(program, world.program_images)
+    emitter = world.emitter
+    assert emitter is not None and emitter.program is not None
+    program = emitter.program
+    baker = Baker(program, emitter.images)
     probe = sky_directions(PROBE_WIDTH)
     is_by_ray = "ray" in program.sampled
     kinds = (GLOSSY, CAMERA, DIFFUSE, TRANSMISSION)
     probed = {kind: baker.bake(probe, kind) for kind in (kinds if is_by_ray else kinds[:1])}
     others = {kind for kind in probed if not _is_same(probed[kind], probed[GLOSSY])}
     differs = [kind for kind in (CAMERA, DIFFUSE) if kind in others]
-    plain = replace(world, program=None, discs=(), program_images=())
-    width = max([WIDTH, *(min(2 * (image.width // 2), MOST_WIDTH) for image in world.program_images)])
+    plain = replace(world, emitter=None)
+    width = max([WIDTH, *(min(2 * (image.width // 2), MOST_WIDTH) for image in emitter.images)])
     if "position" not in program.sampled and not program.images:
         width = 2
     images = {kind: _image(baker, width, kind) for kind in (GLOSSY, *differs)}
@@ -77,7 +79,7 @@ def _bake(world: WorldArrays) -> BakedWorld:
         else:
             size = (EVEN_WIDTH // 2, EVEN_WIDTH, 3)
             worlds[kind] = replace(plain, image=np.broadcast_to(image, size).copy() if len(image) == 1 else image)
-    suns = [sun for disc in world.discs for sun in _suns(world, baker, disc, (GLOSSY, *differs))]
+    suns = [sun for disc in emitter.discs for sun in _suns(world, baker, disc, (GLOSSY, *differs))]
     warnings = baker.warnings
     if TRANSMISSION in others:
         warnings += ("Through glass the world is drawn as mirrors show it.",)
