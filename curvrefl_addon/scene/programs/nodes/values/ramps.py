@@ -98,7 +98,7 @@ def _curves(b: Builder, source: Source) -> Expression:
 
 
 def _wavelength(b: Builder, source: Source) -> Expression:
-    rows = SPECTRUM @ xyz_to_scene().T * SPECTRUM_SCALE
+    rows = xyz_to_scene(SPECTRUM) * SPECTRUM_SCALE
     length = b.input(source, "Wavelength", "float")
 
     def formula(nanometers: Any) -> Any:
