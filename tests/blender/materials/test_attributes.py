@@ -106,7 +106,7 @@ def test_domains_are_those_of_cycles() -> None:
 
 
 def test_values_beyond_1_are_those_of_cycles() -> None:
-    show(attribute_square("bright", "FLOAT", "POINT", [0.5, 1.5, 0.5, 3.5]), 0, "Color")
+    show(attribute_square("bright", "FLOAT", "POINT", [1.2, 1.8, 1.8, 1.2]), 0, "Color")
     scene = extracted()
     assert not scene.warnings
     np.testing.assert_allclose(middle(scene, "bright"), shown_by_cycles(1)[0], atol=0.03)

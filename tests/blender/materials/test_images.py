@@ -109,11 +109,8 @@ def test_alpha_does_to_colors_what_it_does_in_cycles(tmp_path: Path) -> None:
     scene = extracted()
     assert not scene.warnings
     cycles = shown_by_cycles(len(cases))
-    # (Packed colors over alpha are brighter than bytes hold.)
-    bright = {"PNG PREMUL True True"}
     for name, color in zip(cases, cycles, strict=True):
-        expected = np.minimum(color, 0.95) if name in bright else color
-        np.testing.assert_allclose(color_of(scene, name), expected, atol=0.012, err_msg=name)
+        np.testing.assert_allclose(color_of(scene, name), color, atol=0.012, err_msg=name)
 
 
 def test_a_sequence_shows_its_frame(tmp_path: Path) -> None:
