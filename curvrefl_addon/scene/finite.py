@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import Float32Array, Float64Array, ImageArrays, MaterialArrays, WorldArrays
+from .arrays import Float32Array, Float64Array, MaterialArrays, WorldArrays
 
 LARGEST_LIGHT = 1e15
 """Of colors, strengths and powers: light has a few of them and the inverse square of a distance as factors, and its sum
@@ -67,22 +67,7 @@ def usable_material(material: MaterialArrays, notes: list[str]) -> MaterialArray
         changes[item.name] = (0.0, 0.0, 0.0) if is_color else getattr(plain, item.name)
         what = item.name.replace("_", " ")
         notes.append(f"The {what} {{of}} is not a usable number: {'black' if is_color else 'the default'} is drawn.")
-    relief = material.relief
-    if relief is not None and not is_usable(
-        (relief.strength, relief.distance, *relief.uv_scale, *relief.uv_offset), LARGEST_PLACE
-    ):
-        changes["relief"] = None
-        notes.append("Bumps {of} are left out: their strength is not a usable number.")
     return replace(material, **changes) if changes else material
-
-
-def usable_image(image: ImageArrays, notes: list[str]) -> ImageArrays:
-    """The image with black for pixels that are not usable."""
-    pixels, count = usable_pixels(image.pixels)
-    if count == 0:
-        return image
-    notes.append(f"Pixels of a texture {{of}} that are not usable numbers ({count}) are drawn black.")
-    return replace(image, pixels=pixels)
 
 
 def usable_world(world: WorldArrays, notes: list[str]) -> WorldArrays:

@@ -10,9 +10,9 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from channels import channel_on
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.arrays import Float32Array, MaterialArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.materials.pixels import bilinear
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, material_of, new_material
 from scene.color_nodes import COLOR, OTHER, Tree, node
 
@@ -21,6 +21,9 @@ SIZE = 96
 
 type Build = Callable[[Tree], Any]
 """Makes nodes; returns the output with the shader, or with an alpha"""
+
+
+pytestmark = pytest.mark.usefixtures("gpu")
 
 
 @pytest.fixture(autouse=True)
@@ -78,9 +81,9 @@ CONSTANT: dict[str, Build] = {
 }
 
 
-def seen(material: MaterialArrays, alpha: Any = None) -> Any:
-    """(..., 3) what a surface that shines shows above the floor; `alpha`: (..., 1) in place of its own."""
-    share = material.alpha if alpha is None else alpha
+def seen(material: MaterialArrays) -> Any:
+    """(3,) what a surface of constants that shines shows above the floor."""
+    share = material.alpha
     return share * np.array(material.emission) + (1.0 - share) * np.array(material.transparent_tint) * BEHIND
 
 
@@ -126,15 +129,10 @@ def test_diffuse_surfaces_are_mixed_by_images() -> None:
     tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
     scene = extracted()
     material = material_of(scene, "square")
-    assert material.base_color == (1.0, 1.0, 1.0) and material.specular_level == 0.0 and not scene.warnings
+    assert material.specular_level == 0.0 and not scene.warnings
     share = pixels_of(bpy.data.images["leaf"])[..., 3:]
     expected = (1.0 - share) * np.array(COLOR[:3]) + share * np.array(OTHER[:3])
-    height, width = expected.shape[:2]
-    found = scene.images[material.image].pixels[..., :3]
-    factor = found.shape[0] // height
-    middles = slice(factor // 2, None, factor)
-    assert width * factor == found.shape[1]
-    np.testing.assert_allclose(found[middles, middles], expected, atol=5e-3)
+    np.testing.assert_allclose(on_square(scene, "base_color", 16), expected, atol=5e-3)
 
 
 def pixels_of(image: bpy.types.Image) -> Float32Array:
@@ -142,6 +140,12 @@ def pixels_of(image: bpy.types.Image) -> Float32Array:
     values = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(values)
     return values.reshape(image.size[1], image.size[0], 4)
+
+
+def on_square(scene: SceneArrays, of: str, size: int = SIZE) -> Float32Array:
+    """(size, size, 3) a channel in the middles of pixels, of a square that fills the picture."""
+    y, x = (np.mgrid[0:size, 0:size] + 0.5) / size - 0.5
+    return channel_on(scene, "square", of, np.column_stack([x.ravel(), y.ravel()])).reshape(size, size, 3)
 
 
 def leaf_image(float_buffer: bool = False) -> bpy.types.Image:
@@ -165,37 +169,21 @@ def alpha_of(tree: Tree, **properties: Any) -> Any:
     return leaf(tree, **properties).outputs["Alpha"]
 
 
-CLIPPED: dict[str, tuple[Build, bool]] = {
-    "greater": (lambda tree: math(tree, "GREATER_THAN", alpha_of(tree), 0.4), False),
-    "less": (lambda tree: math(tree, "LESS_THAN", alpha_of(tree), 0.4), True),
-    "round": (lambda tree: math(tree, "ROUND", alpha_of(tree)), False),
-    "as of glTF": (
-        lambda tree: math(
-            tree, "SUBTRACT", 1.0, math(tree, "LESS_THAN", math(tree, "MULTIPLY", alpha_of(tree), 0.75), 0.4)
-        ),
-        False,
+CLIPPED: dict[str, Build] = {
+    "greater": lambda tree: math(tree, "GREATER_THAN", alpha_of(tree), 0.4),
+    "less": lambda tree: math(tree, "LESS_THAN", alpha_of(tree), 0.4),
+    "round": lambda tree: math(tree, "ROUND", alpha_of(tree)),
+    "as of glTF": lambda tree: math(
+        tree, "SUBTRACT", 1.0, math(tree, "LESS_THAN", math(tree, "MULTIPLY", alpha_of(tree), 0.75), 0.4)
     ),
-    "the other way round": (lambda tree: math(tree, "LESS_THAN", 0.4, alpha_of(tree)), False),
+    "the other way round": lambda tree: math(tree, "LESS_THAN", 0.4, alpha_of(tree)),
 }
 
 
-def scalars_at(scene: SceneArrays, material: MaterialArrays, u: Any, v: Any) -> Float32Array:
-    """(..., 4) as looked up between pixels."""
-    assert material.scalars is not None
-    image, scalars = scene.images[material.scalars.image], material.scalars
-    s = scalars.uv_scale[0] * u + scalars.uv_turn[0] * v + scalars.uv_offset[0]
-    t = scalars.uv_scale[1] * v + scalars.uv_turn[1] * u + scalars.uv_offset[1]
-    height, width = image.pixels.shape[:2]
-    return bilinear(image.pixels, s * width - 0.5, t * height - 0.5, wraps=image.extension == "REPEAT")
-
-
-def covered(scene: SceneArrays, material: MaterialArrays) -> Float32Array:
-    """(SIZE, SIZE, 1) alpha at the middles of pixels, of a square that fills the picture."""
-    v, u = (np.mgrid[0:SIZE, 0:SIZE] + 0.5) / SIZE
-    alpha = scalars_at(scene, material, u, v)[..., 3:]
-    if material.alpha_threshold < 0.0:
-        return alpha
-    return ((alpha > material.alpha_threshold) != material.alpha_inverted).astype(np.float32)
+def shown(scene: SceneArrays) -> Any:
+    """(SIZE, SIZE, 3) what a square that shines shows above the floor."""
+    alpha, emission, tint = (on_square(scene, of) for of in ("alpha", "emission", "transparent_tint"))
+    return alpha * emission + (1.0 - alpha) * tint * BEHIND
 
 
 def in_middles_of_pixels() -> Float32Array:
@@ -217,15 +205,12 @@ def square_of(build: Build) -> Tree:
 
 @pytest.mark.parametrize("name", CLIPPED)
 def test_thresholds_come_after_interpolation(name: str) -> None:
-    build, inverted = CLIPPED[name]
-    square_of(build)
+    square_of(CLIPPED[name])
     scene = extracted()
-    material = material_of(scene, "square")
-    assert material.alpha_threshold > 0.0 and material.alpha_inverted == inverted and not scene.warnings
-    assert 0.0 < material.alpha < 1.0
-    there = covered(scene, material)
-    assert 0.2 < there.mean() < 0.8
-    wrong = np.abs(seen(material, there) - in_middles_of_pixels()).max(axis=-1) > 0.01
+    assert material_of(scene, "square").is_seen_through and not scene.warnings
+    there = on_square(scene, "alpha")
+    assert set(np.unique(there)) == {0.0, 1.0} and 0.2 < there.mean() < 0.8
+    wrong = np.abs(shown(scene) - in_middles_of_pixels()).max(axis=-1) > 0.01
     # (Cycles' images have positions in steps of 1/256 of a pixel.)
     assert wrong.mean() < 3e-3
 
@@ -238,17 +223,14 @@ def test_alpha_of_an_image_beside_its_color() -> None:
     tree.links.new(texture.outputs["Color"], shader.inputs["Base Color"])
     scene = extracted()
     material = material_of(scene, "square")
-    assert material.image >= 0 and material.image != getattr(material.scalars, "image", -1)
-    assert material.alpha_threshold < 0.0 and not scene.warnings
-    _, alpha = scene.images[material.image].pixels[..., 0], covered(scene, material)
+    assert material.varies("alpha") and material.varies("base_color") and not scene.warnings
     bpy.context.scene.cycles.filter_width = 0.01
     still = render_reference(bpy.context.scene, bpy.context.view_layer, SIZE, SIZE, 256, "full")
     cycles = np.asarray(still.pixels)[..., :3]
     blocks = (SIZE // 8, 8, SIZE // 8, 8, 3)
-    ours = np.broadcast_to(seen(material, alpha), cycles.shape)
     # (The mean of blocks: whether a ray goes on is up to chance in Cycles.)
     np.testing.assert_allclose(
-        ours.reshape(blocks).mean(axis=(1, 3)), cycles.reshape(blocks).mean(axis=(1, 3)), atol=0.02
+        shown(scene).reshape(blocks).mean(axis=(1, 3)), cycles.reshape(blocks).mean(axis=(1, 3)), atol=0.02
     )
 
 
@@ -259,33 +241,34 @@ def test_images_as_mix_factors() -> None:
     tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
     look_down(1.0)
     scene = extracted()
-    material = material_of(scene, "square")
-    assert material.alpha_inverted and not scene.warnings
-    wrong = np.abs(seen(material, covered(scene, material)) - in_middles_of_pixels()).max(axis=-1) > 0.01
+    assert not scene.warnings
+    wrong = np.abs(shown(scene) - in_middles_of_pixels()).max(axis=-1) > 0.01
     assert wrong.mean() < 3e-3
 
 
-def test_products_of_images_of_alpha() -> None:
-    """A threshold within a product counts for each pixel of the image."""
+def test_products_of_alpha() -> None:
     tree, _ = new_material(add_square("square", 1.0), "ShaderNodeEmission")
     inner = principled(tree, math(tree, "GREATER_THAN", alpha_of(tree), 0.4))
     shader = mixed(tree, 0.5, clear(tree), inner)
     tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
     scene = extracted()
-    material = material_of(scene, "square")
-    assert material.alpha_threshold < 0.0 and not scene.warnings
-    assert set(np.unique(scene.images[material.scalars.image].pixels[..., 3])) == {0.0, 0.5}
+    assert not scene.warnings
+    assert set(np.unique(on_square(scene, "alpha"))) == {0.0, 0.5}
 
 
-def test_tints_that_no_constant_tells_apart_are_said() -> None:
+def test_tints_of_both_sides_of_a_mix() -> None:
     tree, _ = new_material(add_square("square", 1.0), "ShaderNodeEmission")
     shader = mixed(tree, alpha_of(tree), clear(tree, OTHER), principled(tree, 0.5))
     tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
-    assert extracted().warnings == ('The tints of transparency of material "square" are drawn as one.',)
+    scene = extracted()
+    assert not scene.warnings
+    share = pixels_of(bpy.data.images["leaf"])[..., 3:]
+    expected = 0.5 * share * np.array(COLOR[:3]) + ((1.0 - share) * np.array(OTHER[:3]) + 0.5 * share) * BEHIND
+    alpha, emission, tint = (on_square(scene, of, 16) for of in ("alpha", "emission", "transparent_tint"))
+    np.testing.assert_allclose(alpha * emission + (1.0 - alpha) * tint * BEHIND, expected, atol=6e-3)
 
 
-def test_images_that_are_the_same_everywhere_cost_nothing() -> None:
-    """Alpha of an image that has none, or above its threshold everywhere."""
+def test_images_without_holes_make_nothing_transparent() -> None:
     image = bpy.data.images.new("solid", 8, 8)
     for build in (
         lambda tree: node(tree, "ShaderNodeTexImage", image=image).outputs["Alpha"],
@@ -295,10 +278,8 @@ def test_images_that_are_the_same_everywhere_cost_nothing() -> None:
     ):
         square_of(build)
     scene = extracted()
-    for instance in scene.instances:
-        for index in instance.materials:
-            assert not scene.materials[index].is_seen_through and scene.materials[index].scalars is None
-    assert not scene.images and not scene.warnings
+    found = [scene.materials[index] for instance in scene.instances for index in instance.materials]
+    assert not any(material.is_seen_through or material.program for material in found) and not scene.warnings
 
 
 def test_an_image_that_ends_is_not_there_beyond_it() -> None:
@@ -313,37 +294,7 @@ def test_an_image_that_ends_is_not_there_beyond_it() -> None:
 
     square_of(inverted)
     scene = extracted()
-    material = material_of(scene, "square")
-    assert scene.images[material.scalars.image].extension == "EXTEND"
-    there = covered(scene, material)
+    there = on_square(scene, "alpha")
     assert there[: SIZE // 2, SIZE // 2 + 2 :].all() and not there.all()
-    wrong = np.abs(seen(material, there) - in_middles_of_pixels()).max(axis=-1) > 0.01
+    wrong = np.abs(shown(scene) - in_middles_of_pixels()).max(axis=-1) > 0.01
     assert wrong.mean() < 5e-3
-
-
-def test_what_changes_with_the_angle_is_its_mean() -> None:
-    """Over all directions, as Cycles' own nodes have it on a ball seen from far away: its disk is that mean."""
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
-    ball = bpy.context.object
-    bpy.ops.object.shade_smooth()
-    look_down(4.0)
-    for kind, output, inputs in (
-        ("ShaderNodeFresnel", "Fac", {"IOR": 1.75}),
-        ("ShaderNodeLayerWeight", "Fresnel", {"Blend": 0.25}),
-        ("ShaderNodeLayerWeight", "Facing", {"Blend": 0.75}),
-    ):
-        ball.data.materials.clear()
-        tree, (shown,) = new_material(ball, "ShaderNodeEmission")
-        factor = node(tree, kind, inputs).outputs[output]
-        tree.links.new(factor, shown.inputs["Strength"])
-        shown.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-        y, x = (np.mgrid[0:SIZE, 0:SIZE] + 0.5) / SIZE * 4.0 - 2.0
-        disk = x**2 + y**2 < 0.97
-        mean = cycles_picture(SIZE, SIZE, 16)[disk, 0].mean()
-        shader = mixed(tree, factor, clear(tree), shine(tree))
-        tree.links.new(shader, tree.nodes["Material Output"].inputs["Surface"])
-        scene = extracted()
-        share = material_of(scene, ball.name).alpha
-        # (The rim, which the mean over the disk leaves out, is the brightest.)
-        assert mean < share < mean + 0.03, output
-        assert [warning.partition(" of material")[0] for warning in scene.warnings] == ["Mixed shaders"]

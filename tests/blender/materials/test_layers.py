@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.arrays import Glass, MaterialArrays, SceneArrays
-from curvrefl.curvrefl_addon.scene.materials.shaders.conductors import f82_reflectances, reflectances
+from curvrefl.curvrefl_addon.scene.programs.shaders.conductors import f82_reflectances, reflectances
 from extraction import add, add_square, cycles_picture, empty_scene, extracted, look_down, material_of, new_material
 from scene.color_nodes import COLOR, OTHER, node
 

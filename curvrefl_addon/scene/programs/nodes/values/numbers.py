@@ -97,6 +97,10 @@ def bounds(operation: str, inputs: Sequence[Expression]) -> tuple[float, float]:
         return max(a.low, b.low), max(a.high, b.high)
     if operation == "POWER" and a.low >= 0.0:
         return 0.0, 1.0 if a.high <= 1.0 and b.low >= 0.0 else math.inf
+    if operation in ("GREATER_THAN", "LESS_THAN"):
+        # (Alpha that is compared with what none is below leaves no holes.)
+        less, more = (b, a) if operation == "GREATER_THAN" else (a, b)
+        return float(less.high < more.low), float(less.low < more.high)
     return _ALWAYS.get(operation, (-math.inf, math.inf))
 
 

@@ -133,7 +133,8 @@ def _color_attribute(b: Builder, source: Source) -> Expression:
     is_alpha = source.socket.identifier == "Alpha"
     if b.is_world:
         return zero(b, "float" if is_alpha else "color")
-    found = b.attribute(GEOMETRY, node.layer_name)
+    # (What a mesh lacks has no alpha here, unlike with Attribute nodes: as of a UV map, which any attribute may be.)
+    found = b.attribute(UV if node.layer_name else GEOMETRY, node.layer_name)
     if is_alpha:
         return Expression(f"{found.text}.w", "float", None, 0.0, 1.0)
     return Expression(f"{found.text}.xyz", "color")
