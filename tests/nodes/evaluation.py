@@ -121,7 +121,11 @@ class Board:
         """The program of what a tile's material sends out, and the notes of what is left out."""
         notes: list[str] = []
         builder = Builder(HANDLERS, self.images, notes)
-        value = builder.value(source_of(judged_input(material)), "color")
+        known = len(self.images.remarks)
+        # (Frames of sequences are those of evaluated nodes.)
+        seen = material.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        value = builder.value(source_of(judged_input(seen)), "color")
+        notes += [remark.cause for remark in self.images.remarks[known:]]
         return builder.finished({"emission": value}), notes
 
     def load_images(self) -> None:

@@ -16,15 +16,21 @@ from typing import Any
 from ...scene.arrays import ImageSource
 from ...scene.names import listed
 from ...scene.programs.program import IMAGE_RECORDS
+from ..device.context import gpu_cache
 from ..device.shaders import Piece, named
+from ..device.textures import empty_layers
 from .image_filling import Filling
-from .image_rows import PAGE_BITS, ImageArray, Place, bins, within
+from .image_rows import MOST_ARRAYS, PAGE_BITS, ImageArray, Place, bins, within
 
 DEFAULT_CAP = 1 << 30
 """Bytes"""
-MOST_ARRAYS = 3
-"""Of bytes, and as many of floats: each takes a sampler"""
 _BYTES, _HALVES = "image_bytes_", "image_halves_"
+
+
+@gpu_cache
+def nothing() -> Any:
+    """Stands for an array that is not made yet."""
+    return empty_layers(1, 1, 1, "RGBA8")
 
 
 class ImagePages:
@@ -78,7 +84,7 @@ class ImagePages:
     def bind(self, shader: Any) -> None:
         """Set the piece's samplers of a shader that is bound."""
         for array, name in zip(self._ordered(), self.piece.samplers, strict=True):
-            shader.uniform_sampler(name, array.texture)
+            shader.uniform_sampler(name, array.texture if array.is_made else nothing())
 
     def records(self, image: int) -> list[tuple[float, float, float, float]]:
         """The IMAGE_RECORDS of the image at this index, all fields of which are set here: how an image is used
@@ -142,12 +148,12 @@ class ImagePages:
         arrays = [array for array in self._arrays if array.is_bytes is is_bytes]
         of_kind = [place for place in self._places.values() if place.source.is_bytes is is_bytes and place.rows]
         left = [place for place in of_kind if place.array is None and not any(map(place.enter, arrays))]
-        sizes = bins(left)
+        sizes = bins(left, self._cap)
         if arrays and len(arrays) + len(sizes) > MOST_ARRAYS:
             for place in of_kind:
                 place.leave()
             self._arrays = [array for array in self._arrays if array not in arrays]
-            left, sizes = of_kind, bins(of_kind)
+            left, sizes = of_kind, bins(of_kind, self._cap)
         made = [ImageArray(rows, is_bytes) for rows in sizes]
         self._arrays += made
         for place in sorted(left, key=lambda place: -place.rows):
@@ -156,9 +162,11 @@ class ImagePages:
                 raise AssertionError("an image has no place")
 
     def _step(self) -> None:
-        """Read one image, or copy some rows of the one that was read."""
-        if self._work is None:
-            place = self._pending[0]
+        """Read one image, or copy some rows of the one that was read, or make a texture for it."""
+        place = self._pending[0]
+        if place.array is not None and not place.array.is_made:
+            _ = place.array.texture
+        elif self._work is None:
             try:
                 self._work = Filling(place)
             except OSError:

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
+from heapq import heapify, heapreplace
 from typing import Any
 
 from ...scene.arrays import ImageSource
@@ -13,13 +15,17 @@ from ..device.textures import empty_layers
 PAGE_BITS = 11
 """Known to shaders: of the width of all pages, and of their height where there are more rows"""
 PAGE_WIDTH = 1 << PAGE_BITS
-LARGEST_ARRAY = 1 << 30
+MOST_ARRAYS = 3
+"""Of bytes, and as many of floats: each takes a sampler"""
+_LARGEST_ARRAY, _LEAST_ARRAY = 1 << 30, 1 << 26
 """Bytes: software renderers have no larger textures"""
 _PIXEL_BYTES = {True: 4, False: 8}
 
 
-def _most_rows(is_bytes: bool) -> int:
-    return LARGEST_ARRAY // (PAGE_WIDTH * _PIXEL_BYTES[is_bytes])
+def _most_rows(is_bytes: bool, cap: int) -> int:
+    """Of one array. (Half of all: it takes a while to make a large one.)"""
+    size = min(max(cap // 2, _LEAST_ARRAY), _LARGEST_ARRAY)
+    return size // (PAGE_WIDTH * _PIXEL_BYTES[is_bytes])
 
 
 class ImageArray:
@@ -31,9 +37,16 @@ class ImageArray:
         """Of the rows in a layer"""
         layers = -(-rows >> self.bits)
         self.rows = layers << self.bits
-        self.texture: Any = empty_layers(PAGE_WIDTH, 1 << self.bits, layers, "RGBA8" if is_bytes else "RGBA16F")
+        self.is_made = False
+        self._layers = layers
         self._taken: dict[int, int] = {}
         """First rows and how many, in order"""
+
+    @cached_property
+    def texture(self) -> Any:
+        """Made when it is first asked for, which takes a while for a large one."""
+        self.is_made = True
+        return empty_layers(PAGE_WIDTH, 1 << self.bits, self._layers, "RGBA8" if self.is_bytes else "RGBA16F")
 
     @property
     def bytes(self) -> int:
@@ -106,31 +119,42 @@ class Place:
 
 
 def within(images: Iterable[ImageSource], cap: int) -> list[Place]:
-    """A place for each of these, the largest halved until all together have at most `cap` bytes."""
+    """A place for each of these, the largest halved until all together have at most `cap` bytes and are in few enough
+    arrays."""
     places = [Place(source) for source in images]
     total = sum(place.bytes for place in places)
-    while places:
-        largest = max(places, key=lambda place: place.bytes)
-        if (total <= cap and largest.bytes <= LARGEST_ARRAY) or largest.rows <= 1:
+    largest_first = [(-place.bytes, number) for number, place in enumerate(places)]
+    heapify(largest_first)
+    while largest_first:
+        size, number = largest_first[0]
+        place = places[number]
+        is_too_large = total > cap or place.rows > _most_rows(place.source.is_bytes, cap)
+        if place.rows <= 1 or not (is_too_large or _are_too_many(places, cap)):
             break
-        total -= largest.bytes
-        largest.halvings += 1
-        total += largest.bytes
+        place.halvings += 1
+        total += size + place.bytes
+        heapreplace(largest_first, (-place.bytes, number))
     return places
 
 
-def bins(places: Iterable[Place]) -> list[int]:
+def _are_too_many(places: list[Place], cap: int) -> bool:
+    """For the arrays that shaders know."""
+    kinds = [[place for place in places if place.source.is_bytes is is_bytes] for is_bytes in (True, False)]
+    return any(len(bins(kind, cap)) > MOST_ARRAYS for kind in kinds)
+
+
+def bins(places: Iterable[Place], cap: int) -> list[int]:
     """Rows of the arrays that these fit into, all of one kind, if the largest enter the first that will do first."""
     result: list[int] = []
     for place in sorted(places, key=lambda place: -place.rows):
-        most = _most_rows(place.source.is_bytes)
+        most = _most_rows(place.source.is_bytes, cap)
         for number, rows in enumerate(result):
             if rows + place.rows <= most:
                 result[number] += place.rows
                 break
         else:
             result.append(place.rows)
-    return result
+    return [rows for rows in result if rows]
 
 
 def _half(side: int, halvings: int) -> int:

@@ -18,20 +18,23 @@ _BRIGHT_SCREENS = {"Rec.2100-PQ": 2.03, "Rec.2100-HLG": 2.03}
 
 type Bytes = NDArray[np.uint8]
 
+FLOAT_FORMATS = ("OPEN_EXR", "HDR")
+"""Blender's words for those of files of floats"""
 LARGEST_HALF = 65504.0
 LEAST_HALF = 2.0**-14
 """With all of its digits"""
 
 
-def decoded(file: str | bytes) -> Bytes | Float32Array:
-    """(h, w, 1..4) of a file, by its path or all of its bytes, as they are in it. Raises OSError if there are none."""
+def decoded(file: str | bytes) -> tuple[Bytes | Float32Array, str]:
+    """(h, w, 1..4) of a file, by its path or all of its bytes, as they are in it, and Blender's word for its format.
+    (Of floats as they are in it only if the format is one of FLOAT_FORMATS.) Raises OSError if there are none."""
     try:
-        loaded = imbuf.load(file) if isinstance(file, str) else imbuf.load_from_buffer(file)
+        loaded: Any = imbuf.load(file) if isinstance(file, str) else imbuf.load_from_buffer(file)
     except (OSError, ValueError) as error:
         raise OSError(str(error)) from None
     try:
         with loaded.with_buffer() as buffer:
-            return np.array(buffer)
+            return np.array(buffer), str(loaded.file_type)
     finally:
         loaded.free()
 

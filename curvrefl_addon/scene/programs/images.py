@@ -20,6 +20,7 @@ from ..materials.color_spaces import REC709, working_space
 from ..remarks import Remark
 from .image_headers import HEADER_BYTES, Header, header_of
 from .image_pixels import (
+    FLOAT_FORMATS,
     blender_pixels,
     decoded,
     four_channels,
@@ -38,10 +39,8 @@ FIRST_TILE = 1001
 _LINEAR = ("Linear", "Raw", "scene_linear")
 """Names of the working space beside its own"""
 
-_FLOAT_FORMATS = ("OPEN_EXR", "OPEN_EXR_MULTILAYER", "HDR")
-
-type _Key = tuple[int, str, int, str, str]
-"""Image (session_uid), file shown, frame of a movie, color space, alpha mode"""
+type _Key = tuple[int, str, int, int, str, str]
+"""Image (session_uid), file shown, frame of a sequence or -1, tile or 0, color space, alpha mode"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,13 +98,14 @@ class ProgramImages:
             image.original.session_uid,
             file,
             frame,
+            tile,
             image.colorspace_settings.name,
             image.alpha_mode,
         )
         if key not in self._places:
             if key not in self._kept:
                 remarks: list[Remark] = []
-                self._kept[key] = _Kept(_Reading(image, file, remarks).source(), tuple(remarks))
+                self._kept[key] = _Kept(_Reading(image, file, tile, remarks).source(), tuple(remarks))
                 self.reads += 1
             self._places[key] = len(self._sources)
             self._sources.append(self._kept[key].source)
@@ -127,6 +127,10 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
         frame = int(user.frame_current)
         return bpy.path.abspath(image.filepath_from_user(image_user=user), library=image.library), frame
     if image.source == "TILED":
+        if image.is_dirty:
+            note("What is painted on tiles {of} and not saved is not shown.")
+        if len(image.packed_files):
+            return "", -1
         path = bpy.path.abspath(image.filepath_raw, library=image.library)
         number = tile - FIRST_TILE
         return path.replace("<UDIM>", str(tile)).replace("<UVTILE>", f"u{number % 10 + 1}_v{number // 10 + 1}"), -1
@@ -140,15 +144,17 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
 class _Reading:
     """One image while it is looked at."""
 
-    def __init__(self, image: bpy.types.Image, file: str, remarks: list[Remark]) -> None:
+    def __init__(self, image: bpy.types.Image, file: str, tile: int, remarks: list[Remark]) -> None:
         self._image = image
         self._file = file
+        self._tile = tile
         self._remarks = remarks
         space = image.colorspace_settings.name
         self._is_data = space == DATA
         self._is_linear = self._is_data or space in _LINEAR or space == working_space()
         self._is_srgb = space == "sRGB" and working_space() == REC709
-        self._is_packed = image.packed_file is not None
+        self._multiplies = image.alpha_mode == "STRAIGHT" and not self._is_data
+        """Colors with alpha"""
 
     def source(self) -> ImageSource:
         """What Cycles would keep."""
@@ -158,8 +164,8 @@ class _Reading:
         if image.type != "IMAGE" and image.type != "UV_TEST":
             self._remark("Renders and layers {of} are not read: drawn magenta.")
             return _missing(image.name)
-        if self._is_packed and not image.is_dirty and image.source == "FILE":
-            data = bytes(image.packed_file.data)
+        data = _packed(image, self._tile)
+        if data is not None:
             header = header_of(data[:HEADER_BYTES])
             # (Blender's own pixels, which are straight, are multiplied as Cycles multiplies them.)
             if header is not None and image.alpha_mode != "PREMUL":
@@ -171,20 +177,29 @@ class _Reading:
         try:
             with path.open("rb") as stream:
                 header = header_of(stream.read(HEADER_BYTES))
-            if header is None:
-                values = decoded(self._file)
-                if values.dtype == np.uint8:
-                    height, width = values.shape[:2]
-                    header = Header(width, height, values.shape[2] != 4 or bool(values[..., 3].min() == 255))
+            if header is not None:
+                return self._of_bytes(self._file, header)
+            values, kind = decoded(self._file)
         except OSError:
             return self._lost()
-        return self._of_float_file() if header is None else self._of_bytes(self._file, header)
+        if values.dtype == np.uint8:
+            height, width = values.shape[:2]
+            is_opaque = values.shape[2] != 4 or bool(values[..., 3].min() == 255)
+            return self._of_bytes(self._file, Header(width, height, is_opaque))
+        is_whole = kind not in FLOAT_FORMATS
+        # (Read like this, they would be multiplied with alpha and converted.)
+        if not is_whole and working_space() == REC709 and (values.shape[2] != 4 or values[..., 3].min() == 1.0):
+            return self._of_floats(four_channels(values))
+        pixels = raw_pixels(self._file)
+        if pixels is None:
+            return self._lost()
+        return self._of_values(self._usable(pixels), self._multiplies, is_whole)
 
     def _of_bytes(self, file: str | bytes, header: Header) -> ImageSource:
         """A file of bytes, or all of its bytes."""
         image = self._image
         is_opaque = header.is_opaque or image.alpha_mode == "NONE"
-        multiplies = image.alpha_mode == "STRAIGHT" and not self._is_data and not header.is_opaque
+        multiplies = self._multiplies and not header.is_opaque
         if header.is_gray_alpha and isinstance(file, str):
             multiplies = False
         read = partial(_read_bytes, file, (header.height, header.width), multiplies, image.alpha_mode == "NONE")
@@ -201,7 +216,7 @@ class _Reading:
         pixels = blender_pixels(image)
         if pixels is None:
             return self._lost()
-        multiplies = image.alpha_mode == "STRAIGHT" and not self._is_data
+        multiplies = self._multiplies
         if not image.is_float:
             return self._of_values(to_bytes(pixels), multiplies)
         if image.alpha_mode == "NONE":
@@ -211,27 +226,29 @@ class _Reading:
             pixels[..., :3] *= pixels[..., 3:]
         return self._of_array(pixels, False)
 
-    def _of_float_file(self) -> ImageSource:
-        pixels = raw_pixels(self._file)
-        if pixels is None:
-            return self._lost()
-        return self._of_values(self._usable(pixels), self._image.alpha_mode == "STRAIGHT" and not self._is_data)
+    def _of_floats(self, pixels: Float32Array) -> ImageSource:
+        """Opaque ones, that can be read again when they are needed."""
+        pixels = self._usable(pixels)
+        if not self._is_linear and not self._is_srgb:
+            return self._of_values(pixels, False, False)
+        height, width = pixels.shape[:2]
+        read = partial(_read_floats, self._file, (height, width))
+        return ImageSource(self._image.name, width, height, False, self._is_srgb, True, read)
 
-    def _of_values(self, values: NDArray[Any], multiplies: bool) -> ImageSource:
-        """Of bytes or floats as they are in a file."""
+    def _of_values(self, values: NDArray[Any], multiplies: bool, is_whole: bool = True) -> ImageSource:
+        """Of bytes or floats as they are in a file; `is_whole`: of whole numbers there."""
         if self._image.alpha_mode == "NONE":
             without_alpha(values)
         if not self._is_linear and not self._is_srgb:
-            return self._converted(values, multiplies)
+            return self._converted(values, multiplies, is_whole)
         if multiplies and values.dtype == np.uint8:
             multiplied(values)
         elif multiplies:
             values[..., :3] *= values[..., 3:]
         return self._of_array(values, self._is_srgb)
 
-    def _converted(self, values: NDArray[Any], multiplies: bool) -> ImageSource:
+    def _converted(self, values: NDArray[Any], multiplies: bool, is_half: bool) -> ImageSource:
         """Of any other color space; Cycles converts whole numbers in half precision."""
-        is_half = values.dtype == np.uint8 or self._image.file_format not in _FLOAT_FORMATS
         pixels = values.astype(np.float32) / np.float32(255.0 if values.dtype == np.uint8 else 1.0)
         if is_half:
             pixels = pixels.astype(np.float16).astype(np.float32)
@@ -267,9 +284,27 @@ class _Reading:
         self._remarks.append(Remark(cause, "image", self._image.name))
 
 
-def _read_bytes(file: str | bytes, shape: tuple[int, int], multiplies: bool, ignores_alpha: bool) -> NDArray[np.uint8]:
+def _packed(image: bpy.types.Image, tile: int) -> bytes | None:
+    """The file within Blender's that an image, or its tile, is; None where there is none or it was painted since."""
+    if image.is_dirty or image.source not in ("FILE", "TILED"):
+        return None
+    for packed in image.packed_files:
+        if packed.packed_file is not None and (not tile or packed.tile_number == tile):
+            return bytes(packed.packed_file.data)
+    return None
+
+
+def _read_floats(file: str, shape: tuple[int, int]) -> Float32Array:
     """(h, w, 4)"""
-    pixels = four_channels(decoded(file))
+    pixels = four_channels(decoded(file)[0])
+    if pixels.dtype != np.float32 or pixels.shape[:2] != shape:
+        raise OSError("the file has changed")
+    return usable_pixels(pixels)[0]
+
+
+def _read_bytes(file: str | bytes, shape: tuple[int, int], multiplies: bool, ignores_alpha: bool) -> NDArray[np.uint8]:
+    """(h, w, 4); `multiplies`: colors with alpha"""
+    pixels = four_channels(decoded(file)[0])
     if pixels.dtype != np.uint8 or pixels.shape[:2] != shape:
         raise OSError("the file has changed")
     if ignores_alpha:
