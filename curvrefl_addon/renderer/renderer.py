@@ -77,7 +77,7 @@ class Renderer:
         self._given = scene
         self._follow_scene(self._placement.placed(scene))
         self._materials = Materials(self.scene)
-        self._lighting = Lighting(self.scene, self.geometry, self.settings.samples)
+        self._lighting = Lighting(self.scene, self.geometry, self._materials, self.settings.samples)
         self._shade = ShadePass(self.scene, self._lighting, self._materials)
         self._tracer: PathTracer | None = None
         self._follow_paths()
@@ -118,6 +118,8 @@ class Renderer:
         difference = self._follow_scene(scene, anew)
         if scene.materials is not before.materials or scene.images is not before.images:
             self._materials.follow(scene)
+        elif difference.moved or difference.structure:
+            self._materials.move(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
         if difference.structure or not same_for_paths(before, scene):
@@ -135,7 +137,7 @@ class Renderer:
         if settings.samples != before.samples:
             self._jitter = offsets(settings.samples)
             self._lighting.free()
-            self._lighting = Lighting(self.scene, self.geometry, settings.samples)
+            self._lighting = Lighting(self.scene, self.geometry, self._materials, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
             self._tracer = self._new_tracer()
             self._preparation.forget_cubes()

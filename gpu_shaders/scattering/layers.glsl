@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): coat, metal,
 // glass, dielectric, diffuse base; as optics/scattering/layers.py.
-#include "paths/path_material.glsl"
+#include "surfaces/material_at.glsl"
 #include "scattering/fresnel_layers.glsl"
 #include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
@@ -59,7 +59,7 @@ vec3 dielectric_albedo(float roughness, float cosine, float eta, vec3 f0, out ve
   return table.x * scattering * mix(f0, vec3(1.0), mix(table.z, table.w, slice - below));
 }
 
-vec2 base_alpha(PathMaterial m, float roughness)
+vec2 base_alpha(Material m, float roughness)
 {
   vec2 alpha = vec2(roughness * roughness);
 #ifdef PATHS_ANISOTROPY
@@ -77,7 +77,7 @@ vec2 base_alpha(PathMaterial m, float roughness)
 }
 
 // The coat alone: what is above all else.
-void add_coat(PathMaterial m, inout Layers layers)
+void add_coat(Material m, inout Layers layers)
 {
   layers.above = vec3(1.0);
 #ifdef PATHS_COAT
@@ -96,7 +96,7 @@ void add_coat(PathMaterial m, inout Layers layers)
 #endif
 }
 
-Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
+Layers layers_of(Material m, bool is_back, float cos_viewer)
 {
   Layers layers;
   layers.cos_viewer = clamp(cos_viewer, 1e-4, 1.0);

@@ -20,6 +20,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("diagnostic_colors",),
     ("options",),
     ("renderer.device",),
+    ("renderer.programs",),
     ("renderer.geometry",),
     ("renderer.surfaces",),
     ("renderer.mirrors",),

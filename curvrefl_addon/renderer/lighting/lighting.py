@@ -21,6 +21,8 @@ from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import largest_texture, texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
+from ..surfaces.materials import Materials
+from .caster_images import CasterBake
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
@@ -86,7 +88,9 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
 class Lighting:
     """GPU resources that light one scene; `free()` when done."""
 
-    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, sub_frames: int = 16) -> None:
+    def __init__(
+        self, scene: SceneArrays, geometry: SceneGeometry, materials: Materials, sub_frames: int = 16
+    ) -> None:
         """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
         self.sub_frames = max(sub_frames, 1)
         self._geometry = geometry
@@ -102,7 +106,7 @@ class Lighting:
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
-        self._alpha = ShadowAlpha(scene)
+        self._alpha = ShadowAlpha(scene, CasterBake(materials))
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
