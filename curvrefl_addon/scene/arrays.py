@@ -232,8 +232,18 @@ class LightArrays:
 
 
 @dataclass(frozen=True, slots=True)
+class SunDisc:
+    """Where the world's program draws a sun, which is small and bright."""
+
+    direction: tuple[float, float, float]
+    """Unit, towards its middle"""
+    angle: float
+    """Its diameter, radians"""
+
+
+@dataclass(frozen=True, slots=True)
 class WorldArrays:
-    """Background radiance: `color` times, where there is one, an equirectangular image."""
+    """Background radiance: `color` times, where there is one, an equirectangular image or what a program says."""
 
     color: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Scene-linear radiance (strength included), or the factor on `image`"""
@@ -247,6 +257,10 @@ class WorldArrays:
     """Lights diffuse parts of surfaces"""
     visible_glossy: bool = True
     """Seen in mirrors, and lights glossy parts of surfaces"""
+    program: Program | None = None
+    """Sets the channel "emission" by the direction (`ShadingPoint.position`), in place of an image"""
+    discs: tuple[SunDisc, ...] = ()
+    """Of the program"""
 
 
 @dataclass(frozen=True, slots=True)

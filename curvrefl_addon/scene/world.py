@@ -12,22 +12,16 @@ import numpy as np
 
 from .arrays import Float32Array, Float64Array, WorldArrays
 from .finite import usable_world
-from .materials.color_spaces import rec709_to_scene
 from .materials.images import MAGNIFIED, MISSING_COLOR, ImageReader, magnified
 from .materials.mappings import mapped_from
 from .materials.node_color import Change, NodeColor, gray
 from .materials.node_colors import ColorReader
 from .materials.node_links import Source, find_input, output_source
 from .materials.pixels import bilinear, stretched
+from .programs.builder import Images
+from .programs.emitters import NoImages, world_program
 from .remarks import Remark
 
-SKY_COLORS = {
-    "SINGLE_SCATTERING": (1.6, 2.0, 2.5),
-    "MULTIPLE_SCATTERING": (2.1, 3.2, 5.0),
-    "PREETHAM": (0.60, 0.64, 0.88),
-    "HOSEK_WILKIE": (0.11, 0.15, 0.17),
-}
-"""Linear Rec.709, mean over all directions of the sky textures in Cycles: default settings, sun 0.8 rad up, no disc"""
 FEWEST_ROWS = 32
 """Of an environment image"""
 
@@ -56,11 +50,16 @@ class WorldImage:
         return self
 
 
-def read_world(world: bpy.types.World | None, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
-    """Background color or environment texture with its mapping; the nearest color and a remark for the rest."""
+def read_world(
+    world: bpy.types.World | None, images: ImageReader, warnings: list[Remark], programs: Images | None = None
+) -> WorldArrays:
+    """Background color or environment texture with its mapping, or a program for what is neither.
+
+    `programs`: finds the images that programs look up.
+    """
     if world is None:
         return WorldArrays()
-    found = _background(world, images, warnings)
+    found = _background(world, images, warnings, programs or NoImages())
     # Cycles is an add-on, and may be off.
     rays = getattr(world, "cycles_visibility", None)
     if rays is None:
@@ -68,13 +67,19 @@ def read_world(world: bpy.types.World | None, images: ImageReader, warnings: lis
     return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
 
 
-def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark]) -> WorldArrays:
+def _background(
+    world: bpy.types.World, images: ImageReader, warnings: list[Remark], programs: Images
+) -> WorldArrays:
     notes: list[str] = []
     if output_source(world.node_tree, "Volume") is not None:
         notes.append("The volume {of} is not shown.")
     source = output_source(world.node_tree, "Surface")
     if source is not None:
-        result = _WorldReader(images, notes).background(source)
+        plain: list[str] = []
+        result = _WorldReader(images, plain).background(source)
+        if plain:
+            # More than a color or one image.
+            result = world_program(source, programs, notes)
     else:
         # Nodes that end nowhere are black; a world without any, as of old files, is the viewport's color.
         result = WorldArrays() if world.node_tree is not None else WorldArrays(_triple(world.color))
@@ -99,14 +104,6 @@ class _WorldReader:
         if source.socket.type != "SHADER":
             # Cycles takes a color for a background of it.
             return _world_of(self._colors.color(source))
-        if node.type == "MIX_SHADER":
-            factor = min(max(self._colors.number(source.input("Fac"), "the mix factor"), 0.0), 1.0)
-            if 0.0 < factor < 1.0:
-                self._notes.append("Of mixed backgrounds {of} only the stronger one is drawn.")
-            return self.background(source.input("Shader_001" if factor > 0.5 else "Shader"))
-        if node.type == "ADD_SHADER":
-            self._notes.append("Of added backgrounds {of} only the first one is drawn.")
-            return self.background(source.input("Shader"))
         if node.type not in ("BACKGROUND", "EMISSION"):
             self._notes.append(f"{node.bl_label} {{of}} is drawn black.")
             return WorldArrays()
@@ -119,12 +116,6 @@ class _WorldReader:
     def _texture(self, source: Source) -> NodeColor | None:
         node = source.node
         assert node is not None
-        if node.type == "TEX_SKY":
-            self._notes.append(
-                "The sky {of} is drawn as an even color without a sun; an image of it would be drawn in full."
-            )
-            sky = SKY_COLORS.get(node.sky_type, SKY_COLORS["MULTIPLE_SCATTERING"])
-            return NodeColor(_triple(rec709_to_scene(np.array(sky, np.float32))))
         if node.type != "TEX_ENVIRONMENT":
             return None
         is_alpha = source.socket.identifier == "Alpha"

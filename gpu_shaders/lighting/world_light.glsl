@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: seen, as diffuse light with the shadows of a few directions, and in glossy lobes.
-// Needs the samplers `lighting_world_image` (FLOAT_2D, equirectangular) and `lighting_world_maps` (FLOAT_2D_ARRAY,
+// Needs the samplers `lighting_world_image`, with LIGHTING_SEEN `lighting_world_seen` (equirectangular: what mirrors
+// show, what the camera sees), and `lighting_world_maps` (FLOAT_2D_ARRAY,
 // octahedral: irradiance, irradiance over that of the directions, one radiance map per roughness level).
 // Records of a direction: itself and its layer of the depth maps; rows to texel x, texel y and depth; weight (its red,
 // green and blue as alpha), which without an image is that of all, in the header.
@@ -11,6 +12,15 @@ vec3 world_color()
   return lighting_data[1].rgb;
 }
 
+// Of a unit direction in the world's image.
+vec2 world_place(vec3 direction)
+{
+  vec3 d = vec3(dot(lighting_data[2].xyz, direction),
+                dot(lighting_data[3].xyz, direction),
+                dot(lighting_data[4].xyz, direction));
+  return vec2(0.5 - atan(d.y, d.x) / (2.0 * LIGHTING_PI), 0.5 + asin(clamp(d.z, -1.0, 1.0)) / LIGHTING_PI);
+}
+
 // Background radiance in the unit direction.
 vec3 world_radiance(vec3 direction)
 {
@@ -18,12 +28,7 @@ vec3 world_radiance(vec3 direction)
   if (lighting_data[0].z < 0.5) {
     return world_color();
   }
-  vec3 d = vec3(dot(lighting_data[2].xyz, direction),
-                dot(lighting_data[3].xyz, direction),
-                dot(lighting_data[4].xyz, direction));
-  float u = 0.5 - atan(d.y, d.x) / (2.0 * LIGHTING_PI);
-  float v = 0.5 + asin(clamp(d.z, -1.0, 1.0)) / LIGHTING_PI;
-  return world_color() * textureLod(lighting_world_image, vec2(u, v), 0.0).rgb;
+  return world_color() * textureLod(lighting_world_image, world_place(direction), 0.0).rgb;
 #else
   return world_color();
 #endif
@@ -32,11 +37,14 @@ vec3 world_radiance(vec3 direction)
 // The same as the camera sees it, or as mirrors do.
 vec3 world_seen(vec3 direction, bool by_camera)
 {
-#ifdef LIGHTING_PARTS
-  return world_radiance(direction) * (by_camera ? lighting_data[6].x : lighting_data[6].z);
-#else
-  return world_radiance(direction);
+  vec3 radiance = world_radiance(direction);
+#ifdef LIGHTING_SEEN
+  radiance = by_camera ? textureLod(lighting_world_seen, world_place(direction), 0.0).rgb : radiance;
 #endif
+#ifdef LIGHTING_PARTS
+  radiance *= by_camera ? lighting_data[6].x : lighting_data[6].z;
+#endif
+  return radiance;
 }
 
 #ifdef PATH_LIGHT

@@ -17,9 +17,8 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
-from ...scene.materials.pixels import averaged
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import largest_texture, texture_2d, texture_layers
+from ..device.textures import texture_2d, texture_layers
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from ..surfaces.materials import Materials
 from .caster_images import CasterBake
@@ -28,11 +27,13 @@ from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
+from .programs.textures import seen_texture, world_texture
+from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
 from .shadow_reach import shadow_pieces
 from .shadow_views import SceneExtent, ShadowView, meets_faces
-from .suns import split_suns
+from .suns import shines, split_suns, suns_of_kinds
 from .world import WORLD_DEFINES, world_light
 
 HEADER_RECORDS = 8
@@ -59,6 +60,8 @@ FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
+SEEN = "LIGHTING_SEEN"
+"""The camera sees another world than mirrors do"""
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 
@@ -71,6 +74,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             "lighting_world_maps": "FLOAT_2D_ARRAY",
             **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
+            **({"lighting_world_seen": "FLOAT_2D"} if SEEN in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
@@ -201,6 +205,8 @@ class Lighting:
             found.add("LIGHTING_WORLD")
         if self._alpha.materials:
             found.add(ALPHA)
+        if self._world_seen is not None:
+            found.add(SEEN)
         return frozenset(found)
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
@@ -237,12 +243,14 @@ class Lighting:
             self._alpha.bind(shader)
         shader.uniform_sampler("lighting_world_maps", self._world_textures)
         shader.uniform_sampler("lighting_world_image", self._world_image)
+        if SEEN in self.features:
+            shader.uniform_sampler("lighting_world_seen", self._world_seen)
         shader.uniform_sampler("lighting_ggx", self.ggx)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "ggx"):
+        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_world_seen", "ggx"):
             self.__dict__.pop(name, None)
 
     @property
@@ -265,7 +273,7 @@ class Lighting:
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
-        self._lights = self._chosen_lights(self._scene.lights + self._sky.suns)
+        self._lights = self._chosen_lights(self._scene.lights + self._suns)
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
         points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
@@ -275,9 +283,12 @@ class Lighting:
 
     def _read_world(self) -> None:
         """Choose the world's directions; fill its textures."""
-        world = self._world = self._scene.world
+        baked = baked_world(self._scene.world)
+        world = self._world = baked.glossy
         self._sky = split_suns(world)
-        lit = max(world.color) > 0.0 and (world.visible_diffuse or world.visible_glossy)
+        even = self._sky if baked.diffuse is world else split_suns(baked.diffuse)
+        self._suns = baked.suns + suns_of_kinds(self._sky, even)
+        lit = shines(world, world.visible_glossy) or shines(baked.diffuse, world.visible_diffuse)
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS
         self._directions_at_once = min(-(-most // self.sub_frames), at_once) if lit else 0
@@ -287,21 +298,12 @@ class Lighting:
             # More than the directions what is there by chance wants a mean of many.
             self._directions_at_once, count = at_once, min(at_once * self.sub_frames, most)
             self._world_visits = -(-at_once * self.sub_frames // count)
-        light = world_light(self._sky.world, max(count, 1))
+        light = world_light(self._sky.world, max(count, 1), even.world)
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = texture_layers(light.maps)
-        self.world_warnings = ()
-        if world.image is None:
-            self._world_image = texture_2d(np.zeros((1, 1, 4), np.float32))
-        else:
-            pixels = averaged(world.image, largest_texture(), largest_texture())
-            if pixels.shape != world.image.shape:
-                self.world_warnings = (
-                    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
-                )
-            image = np.ones((*pixels.shape[:2], 4), np.float32)
-            image[..., :3] = pixels
-            self._world_image = texture_2d(image, linear=True, extension="REPEAT")
+        self._world_image, warnings = world_texture(world)
+        self.world_warnings = baked.warnings + warnings
+        self._world_seen = None if baked.seen is world else seen_texture(baked.seen)
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""

@@ -46,11 +46,25 @@ def split_suns(world: WorldArrays) -> Sky:
     return sky
 
 
+def suns_of_kinds(glossy: Sky, diffuse: Sky) -> tuple[LightArrays, ...]:
+    """The suns of the world as mirrors show it and as it lights diffuse parts: often the same."""
+    if diffuse is glossy:
+        return glossy.suns
+    of_glossy = tuple(replace(sun, lights_diffuse=False) for sun in glossy.suns)
+    return of_glossy + tuple(replace(sun, lights_glossy=False) for sun in diffuse.suns)
+
+
+def shines(world: WorldArrays, is_asked: bool) -> bool:
+    """Whether it gives light where that is asked for."""
+    return is_asked and max(world.color) > 0.0 and (world.image is None or bool(world.image.any()))
+
+
 def is_same_world(one: WorldArrays, other: WorldArrays) -> bool:
     """Whether they shine alike and for the same rays."""
-    plain = [item.name for item in fields(WorldArrays) if item.name not in ("image", "rotation")]
+    plain = [item.name for item in fields(WorldArrays) if item.name not in ("image", "rotation", "program")]
     return (
         one.image is other.image
+        and one.program is other.program
         and np.array_equal(one.rotation, other.rotation)
         and all(getattr(one, name) == getattr(other, name) for name in plain)
     )

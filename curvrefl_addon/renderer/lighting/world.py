@@ -63,24 +63,30 @@ def lobe_window(cosine: np.ndarray) -> np.ndarray:
     return np.maximum(cosine, 0.0) ** 4
 
 
-_last: list[tuple[WorldArrays, int, WorldLight]] = []
+_last: list[tuple[WorldArrays, WorldArrays, int, WorldLight]] = []
 
 
-def world_light(world: WorldArrays, count: int) -> WorldLight:
-    """`count` draws from the sky, and its maps. The last two worlds' are kept: scenes change more often, and a render
-    may run beside the viewports."""
-    for known, known_count, light in _last:
-        if known_count == count and is_same_world(known, world):
+def world_light(world: WorldArrays, count: int, diffuse: WorldArrays | None = None) -> WorldLight:
+    """`count` draws from the sky, and its maps. `diffuse`: what lights diffuse parts, where that is another one; then
+    both have images. The last two worlds' are kept: scenes change more often, and a render may run beside the
+    viewports."""
+    diffuse = diffuse or world
+    for known, known_diffuse, known_count, light in _last:
+        if known_count == count and is_same_world(known, world) and is_same_world(known_diffuse, diffuse):
             return light
     sky = _Sky.of(world, 64)
-    coarse = _Sky.of(world, 32)
+    coarse = even = _Sky.of(world, 32)
+    drawn = sky
+    if diffuse is not world:
+        even = _Sky.of(diffuse, 32)
+        drawn = _Sky(sky.directions, sky.solid_angles, 0.5 * (sky.power + _Sky.of(diffuse, 64).power))
     normals = octahedral_directions(MAP_SIZE).reshape(-1, 3).astype(np.float32)
-    directions, draws, weights = _uniform(world, count) if world.image is None else _by_power(sky, count)
+    directions, draws, weights = _uniform(world, count) if world.image is None else _by_power(drawn, count)
     if world.image is None:
         irradiance = np.tile(np.pi * np.asarray(world.color, np.float64), (len(normals), 1))
         lobes = [np.tile(np.asarray(world.color, np.float64), (len(normals), 1))] * len(ROUGHNESS_LEVELS)
     else:
-        irradiance = np.maximum(normals @ coarse.directions.T.astype(np.float32), 0.0) @ coarse.power
+        irradiance = np.maximum(normals @ even.directions.T.astype(np.float32), 0.0) @ even.power
         lobes = [
             _lobe_radiance(sky if roughness < 0.3 else coarse, roughness, normals) for roughness in ROUGHNESS_LEVELS
         ]
@@ -93,7 +99,7 @@ def world_light(world: WorldArrays, count: int) -> WorldLight:
     maps[LOBE_LAYER:, ..., 3] = window.reshape(MAP_SIZE, MAP_SIZE)
     maps[..., :3] = layers.reshape(-1, MAP_SIZE, MAP_SIZE, 3)
     light = WorldLight(directions, draws, weights, maps)
-    _last[:] = [(world, count, light), *_last[:1]]
+    _last[:] = [(world, diffuse, count, light), *_last[:1]]
     return light
 
 

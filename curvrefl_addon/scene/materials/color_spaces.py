@@ -33,10 +33,20 @@ def scene_to_rec709(colors: Float32Array) -> Float32Array:
     return _changed(colors, "from_scene_linear_to_rec709_linear")
 
 
+def xyz_to_scene(colors: Float64Array) -> Float64Array:
+    """CIE XYZ (D65) colors (..., 3) in the working space."""
+    return colors @ _matrix(working_space(), "from_xyz_d65_to_scene_linear").T
+
+
 def luminance_weights() -> Float64Array:
     """(3,) of scene-linear red, green and blue in the luminance."""
     space = working_space()
     return REC709_LUMINANCE if space == REC709 else _matrix(space, "from_scene_linear_to_xyz_d65")[1]
+
+
+def xyz_to_scene() -> Float64Array:
+    """(3, 3) from CIE XYZ (D65) to scene-linear colors."""
+    return _matrix(working_space(), "from_xyz_d65_to_scene_linear")
 
 
 def _changed(colors: Float32Array, change: str) -> Float32Array:

@@ -38,12 +38,15 @@ class Builder:
         images: Images,
         notes: list[str],
         luminance: Sequence[float] = (0.2126, 0.7152, 0.0722),
+        is_world: bool = False,
     ) -> None:
-        """`handlers`: by the type of node. `notes` gets causes of remarks. `luminance`: weights of the working space."""
+        """`handlers`: by the type of node. `notes` gets causes of remarks. `luminance`: weights of the working space.
+        `is_world`: the program is a world's, whose positions are directions."""
         self._handlers = handlers
         self._images = images
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
+        self.is_world = is_world
         self._functions: list[str] = []
         self._lines: list[str] = []
         self._known: dict[Any, Expression] = {}
@@ -139,10 +142,14 @@ class Builder:
 
     def made(self, kind: Kind, text: str, low: float = -np.inf, high: float = np.inf) -> Expression:
         """A value by any GLSL, which is computed once."""
+        return Expression(self.made_as(glsl_type(kind), text), kind, None, float(low), float(high))
+
+    def made_as(self, glsl: str, text: str) -> str:
+        """The same of any type of GLSL, a struct's or vec2: its name."""
         name = f"v{self._names}"
         self._names += 1
-        self._lines.append(f"  {glsl_type(kind)} {name} = {text};")
-        return Expression(name, kind, None, float(low), float(high))
+        self._lines.append(f"  {glsl} {name} = {text};")
+        return name
 
     def shared(self, key: Any, make: Callable[[], Expression]) -> Expression:
         """Made once for all outputs of a node: `key` has the node's name for what is made, and the source's groups."""

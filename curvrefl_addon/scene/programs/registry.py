@@ -7,5 +7,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
+from .nodes import noise, patterns, skies, voronoi
+from .nodes.values import bumps, colors, numbers, places, plain, ramps, surface, vectors
 
-HANDLERS: Mapping[str, Handler] = {}
+HANDLERS: Mapping[str, Handler] = {
+    **noise.NODES,
+    **patterns.NODES,
+    **voronoi.NODES,
+    **skies.NODES,
+    **numbers.NODES,
+    **vectors.NODES,
+    **colors.NODES,
+    **ramps.NODES,
+    **places.NODES,
+    **surface.NODES,
+    **bumps.NODES,
+    **plain.NODES,
+}

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a program emits, drawn into images by directions and read back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array
+from ....scene.programs.program import Program
+from ....scene.programs.program import Shape as ProgramShape
+from .....gpu_shaders.loader import Snippet
+from ...device.batches import full_screen_triangle
+from ...device.context import gpu_cache
+from ...device.frame_buffers import frame_buffer
+from ...device.records import record_texture
+from ...device.shaders import FULL_SCREEN, Block, Piece, build_shader, flags, named, uniform_block
+from ...device.state import drawing_state, set_viewport
+from ...device.textures import empty_texture, read_texture
+
+SKY, DISC, LAMP = 0, 1, 2
+"""Shapes of directions: an equirectangular image, a disc of the sky, all about a lamp (octahedral)"""
+CAMERA, GLOSSY, DIFFUSE, TRANSMISSION, LIGHTING = 1, 2 + 16 + 32, 2 + 8, 4, 0
+"""Rays, as bits of `shading_point.glsl`; LIGHTING: Cycles tells shaders of light nothing of the rays that ask it"""
+BAKE_RECORDS = 6
+INSTANCE_VALUES = 12
+"""Records of a lamp in the table of instances: it has no values by name"""
+
+
+@dataclass(frozen=True, slots=True)
+class Directions:
+    """In which a program is asked."""
+
+    shape: int
+    width: int
+    height: int
+    frame: Float64Array
+    """(3, 3) rows: see `bake_program.frag.glsl`"""
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def sky_directions(width: int) -> Directions:
+    """Of an equirectangular image."""
+    return Directions(SKY, width, max(width // 2, 1), np.eye(3))
+
+
+class Baker:
+    """Bakes one program."""
+
+    def __init__(self, program: Program, instance: Float64Array | None = None) -> None:
+        """`instance`: records (INSTANCE_VALUES, 4) of the lamp that it is on."""
+        self._shape = program.shape
+        # Before the parameters lie the numbers of attributes, of which worlds and lamps have none.
+        self._first = program.shape.attributes + len(program.instance_attributes)
+        self._records = record_texture(np.vstack([np.zeros((self._first, 4), np.float32), program.records]))
+        self._instance = record_texture(np.zeros((INSTANCE_VALUES, 4)) if instance is None else instance)
+
+    def bake(self, directions: Directions, rays: int, without_suns: bool = False) -> Float32Array:
+        """(height, width, 3) radiance, row 0 lowest; what is no usable number is black."""
+        shader = _shader(self._shape, without_suns)
+        target = empty_texture(directions.width, directions.height)
+        buffer = frame_buffer(target)
+        with drawing_state(), buffer.bind():
+            set_viewport(0, 0, directions.width, directions.height)
+            shader.bind()
+            shader.uniform_sampler("program_records", self._records)
+            if "PROGRAM_INSTANCE" in self._shape.needs:
+                shader.uniform_sampler("instance_table", self._instance)
+            block = uniform_block(self._numbers(directions, rays).ravel())
+            shader.uniform_block("bake", block)
+            full_screen_triangle().draw(shader)
+        pixels = np.ascontiguousarray(read_texture(target)[..., :3])
+        pixels[~(np.abs(pixels) < LARGEST_COORDINATE).all(axis=-1)] = 0.0
+        return pixels
+
+    def _numbers(self, directions: Directions, rays: int) -> Float32Array:
+        """(6, 4) as the shader takes them."""
+        numbers = np.zeros((BAKE_RECORDS, 4), np.float32)
+        numbers[:3, :3] = directions.frame
+        numbers[3, :3] = directions.place
+        numbers[4] = directions.width, directions.height, directions.shape, self._first
+        numbers[5] = *_depths(rays), rays
+        return numbers
+
+
+def _depths(rays: int) -> tuple[float, float, float]:
+    """Bounces in all, diffuse ones, glossy ones."""
+    return (0.0, 0.0, 0.0) if rays == CAMERA else (1.0, float(rays == DIFFUSE), float(rays == GLOSSY))
+
+
+@gpu_cache
+def _shader(shape: ProgramShape, without_suns: bool) -> Any:
+    has_instance = "PROGRAM_INSTANCE" in shape.needs
+    text = "\n".join(
+        (
+            '#include "programs/shading_point.glsl"',
+            '#include "programs/material.glsl"',
+            *(f'#include "{file}"' for file in shape.files),
+            shape.text,
+        )
+    )
+    return build_shader(
+        "emitting program",
+        FULL_SCREEN,
+        Piece(
+            samplers=named("FLOAT_2D", "program_records", *(("instance_table",) if has_instance else ())),
+            blocks={"bake": Block("vec4", length=BAKE_RECORDS)},
+            outputs={"color": "VEC4"},
+            defines={
+                **flags(*sorted(shape.needs), *(("PROGRAM_WITHOUT_SUNS",) if without_suns else ())),
+                "ATTRIBUTES": shape.attributes,
+                "INSTANCE_VALUES": INSTANCE_VALUES,
+                "SHAPE_SKY": SKY,
+                "SHAPE_DISC": DISC,
+                "SHAPE_LAMP": LAMP,
+            },
+            fragment=Snippet("emitting program", text),
+        ),
+        Piece(fragment="lighting/bake_program.frag.glsl"),
+    )
