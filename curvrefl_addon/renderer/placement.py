@@ -82,7 +82,10 @@ class Placement:
         if middle is not None:
             matrix[:3, 3] += matrix[:3, :3] @ middle
         matrix[:3, 3] -= self.origin
-        return replace(instance, matrix=matrix)
+        if middle is None:
+            return replace(instance, matrix=matrix)
+        x, y, z = middle.tolist()
+        return replace(instance, matrix=matrix, shift=(x, y, z))
 
     def _moved_light(self, light: LightArrays) -> LightArrays:
         if light.kind == "SUN" or not self.origin.any():

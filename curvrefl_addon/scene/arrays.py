@@ -10,6 +10,7 @@ Everything is right-handed Blender world space in meters unless a field says "ob
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import IntEnum
 
@@ -70,6 +71,24 @@ class ImageArrays:
     """Beyond the border: 'REPEAT', 'EXTEND' (its texels go on), 'MIRROR' (repeated, every other one the other way
     round) or 'CLIP' (black)"""
     nearest: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ImageSource:
+    """An image that programs look up. Its pixels are made when they are asked for, and kept by nobody else."""
+
+    name: str
+    width: int
+    """0: the image is missing"""
+    height: int
+    is_bytes: bool
+    is_srgb: bool
+    """Pixels are encoded: they are interpolated first, then made linear, as Cycles does"""
+    is_opaque: bool
+    """Alpha is 1 everywhere"""
+    read: Callable[[], NDArray[np.uint8] | NDArray[np.float16] | Float32Array]
+    """(height, width, 4), row 0 at the bottom (v = 0), colors multiplied with alpha where Cycles keeps them so. Raises
+    OSError where they are no longer to be had."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,17 +197,23 @@ class MaterialArrays:
     ranges: tuple[tuple[str, float, float], ...] = ()
     """(channel, lowest, highest) of what the program sets, as far as they are known"""
 
+    @property
+    def kind(self) -> float:
+        """The channel "kind" of what is the same everywhere: bits of `programs/material.glsl`."""
+        glass = {Glass.PRINCIPLED: 0, Glass.GLASS: 4, Glass.REFRACTION: 8}[self.glass]
+        return float(self.glossy_only + 2 * self.thin_wall + glass)
+
     def range_of(self, channel: str) -> tuple[float, float]:
-        """Lowest and highest value of a channel that is one number; endless where a program's is not known."""
+        """Lowest and highest value of a channel, of any part of a color; endless where a program's is not known."""
         if self.program is None or channel not in self.program.shape.channels:
-            value = float(getattr(self, channel))
-            return value, value
+            values = np.atleast_1d(getattr(self, channel))
+            return float(values.min()), float(values.max())
         return next(((low, high) for name, low, high in self.ranges if name == channel), (-math.inf, math.inf))
 
     @property
     def is_seen_through(self) -> bool:
         """Light goes on behind it, at least at some places."""
-        return self.transmission > 0.0 or self.alpha < 1.0
+        return self.range_of("transmission")[1] > 0.0 or self.range_of("alpha")[0] < 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,6 +307,8 @@ class InstanceArrays:
     visible_shadow: bool = True
     visible_transmission: bool = True
     holdout: bool = False
+    shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Object space of its object less that of `matrix`: not 0 where the mesh has been moved to its middle"""
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     """Of the object, for its materials' programs as all that follows"""
     random: float = 0.0

@@ -18,6 +18,7 @@ import numpy as np
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
+from .instances.values import comparable, values_of_instance
 from .lights import read_light
 from .materials.color_spaces import working_space
 from .materials.images import ImageReader
@@ -263,16 +264,16 @@ class SceneReader:
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
         if not is_mirror and any(slot.has_relief for slot in slots):
             warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
-        needs = needs_of(obj, slots, warnings)
+        found = (self._materials.materials[slot.index].program for slot in slots)
+        programs = tuple(program for program in found if program is not None)
+        needs = needs_of(obj, slots, programs, warnings)
         if is_mirror and needs.uv_map is None and len(obj.data.uv_layers):
             needs = replace(needs, uv_map="")
         stored = self._meshes.read(obj, parent or uid, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
-        error = (
-            f'"{name}" has vertices at no finite place or too far out: repair its mesh or choose another.'
-            if stored.dropped
-            else ""
-        )
+        error = ""
+        if stored.dropped:
+            error = f'"{name}" has vertices at no finite place or too far out: repair its mesh or choose another.'
         if problem := problem_of_place(matrix, stored.reach):
             return ShownInstance(
                 warnings=(*warnings, f'"{name}" {problem} and is left out.'),
@@ -289,7 +290,8 @@ class SceneReader:
         if obj.original.is_shadow_catcher:
             warnings.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
         materials = tuple(slot.index for slot in slots)
-        made_of = (name, stored.number, matrix.tobytes(), materials, rays)
+        asked = values_of_instance(instance, programs, view_layer)
+        made_of = (name, stored.number, matrix.tobytes(), materials, rays, comparable(asked))
         made = before.instance if before is not None and before.made_of == made_of else None
         if made is None:
             made = InstanceArrays(
@@ -304,6 +306,7 @@ class SceneReader:
                 visible_shadow=rays.shadow,
                 visible_transmission=rays.transmission,
                 holdout=rays.holdout,
+                **asked,
             )
         return ShownInstance(made, None, tuple(warnings), True, made_of, error, rays.any, name)
 

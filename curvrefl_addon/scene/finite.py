@@ -57,7 +57,11 @@ def usable_material(material: MaterialArrays, notes: list[str]) -> MaterialArray
     changes: dict[str, Any] = {}
     for item in fields(MaterialArrays):
         value = getattr(material, item.name)
-        if not isinstance(value, (float, tuple)) or is_usable(value, largest.get(item.name, LARGEST_LIGHT)):
+        if (
+            item.name == "ranges"
+            or not isinstance(value, (float, tuple))
+            or is_usable(value, largest.get(item.name, LARGEST_LIGHT))
+        ):
             continue
         is_color = item.name in ("base_color", "emission")
         changes[item.name] = (0.0, 0.0, 0.0) if is_color else getattr(plain, item.name)

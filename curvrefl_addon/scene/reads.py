@@ -17,6 +17,7 @@ from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays
 from .finite import problem_of_place
 from .materials.materials import ReadMaterial
 from .meshes.meshes import GENERATED, MeshNeeds
+from .programs.program import Program
 from .remarks import Remark
 
 SMALLEST_STRETCH = 1e-6
@@ -48,6 +49,7 @@ class PlainObject:
     show_self: bool = True
     is_instance: bool = False
     parent: Any = None
+    random_id: int = 0
 
 
 @dataclass(slots=True)
@@ -165,8 +167,13 @@ def is_diced(obj: bpy.types.Object) -> bool:
     return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
 
 
-def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: list[Remark | str]) -> MeshNeeds:
-    """What the first slots that need a UV map or colors say: a mesh has one of each here."""
+def needs_of(
+    obj: bpy.types.Object,
+    slots: Sequence[ReadMaterial],
+    programs: Sequence[Program],
+    warnings: list[Remark | str],
+) -> MeshNeeds:
+    """What the first slots that need a UV map or colors say, a mesh has one of each here; all that `programs` do."""
     mesh = obj.data
     assert isinstance(mesh, bpy.types.Mesh)
     default = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
@@ -181,7 +188,12 @@ def needs_of(obj: bpy.types.Object, slots: Sequence[ReadMaterial], warnings: lis
     if len(set(colors)) > 1:
         warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
     hidden = tuple(slot.is_hidden for slot in slots)
-    return MeshNeeds(uv_maps[0] if uv_maps else None, colors[0] if colors else None, hidden if any(hidden) else ())
+    return MeshNeeds(
+        uv_maps[0] if uv_maps else None,
+        colors[0] if colors else None,
+        hidden if any(hidden) else (),
+        tuple(sorted({attribute for program in programs for attribute in program.attributes})),
+    )
 
 
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:

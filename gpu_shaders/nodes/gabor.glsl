@@ -36,9 +36,7 @@ vec2 gabor_plane_cell(vec2 cell, vec2 place, float frequency, float isotropy, fl
 // The direction of an impulse in space, turned by chance.
 vec3 gabor_turned(vec3 orientation, float isotropy, vec4 seed)
 {
-  // (Cycles' azimuth of a direction along Z is not a number.)
-  float across = length(orientation.xy);
-  float azimuth = across > 0.0 ? acos(clamp(orientation.x / across, -1.0, 1.0)) : 0.0;
+  float azimuth = acos(clamp(orientation.x / length(orientation.xy), -1.0, 1.0));
   azimuth = orientation.y < 0.0 ? -azimuth : azimuth;
   float inclination = acos(clamp(orientation.z, -1.0, 1.0));
   vec2 turn = vec2(hash_unit(seed), hash_unit(seed.zxwy)) * GABOR_PI * isotropy;
@@ -84,8 +82,11 @@ vec3 gabor_plane(vec2 p, float frequency, float anisotropy, float orientation)
 vec3 gabor_space(vec3 p, float frequency, float anisotropy, vec3 orientation)
 {
   float isotropy = 1.0 - clamp(anisotropy, 0.0, 1.0);
-  float size = length(orientation);
-  vec3 direction = size > 0.0 ? orientation / size : vec3(0.0);
+  // Along no direction, and about the Z axis by chance, Cycles' values are not numbers, which it draws black: all 0.
+  if (orientation == vec3(0.0) || (orientation.xy == vec2(0.0) && isotropy != 0.0)) {
+    return vec3(0.0);
+  }
+  vec3 direction = normalize(orientation);
   vec3 cell = floor(p), place = p - cell;
   vec2 sum = vec2(0.0);
   for (int k = -1; k <= 1; k++) {
@@ -101,17 +102,17 @@ vec3 gabor_space(vec3 p, float frequency, float anisotropy, vec3 orientation)
 
 float gabor_value(vec3 phasor)
 {
-  return phasor.y / phasor.z * 0.5 + 0.5;
+  return phasor.z > 0.0 ? phasor.y / phasor.z * 0.5 + 0.5 : 0.0;
 }
 
 float gabor_phase(vec3 phasor)
 {
   // (GLSL's atan has no value at 0.)
   float angle = phasor.x == 0.0 && phasor.y == 0.0 ? 0.0 : atan(phasor.y, phasor.x);
-  return (angle + GABOR_PI) / (2.0 * GABOR_PI);
+  return phasor.z > 0.0 ? (angle + GABOR_PI) / (2.0 * GABOR_PI) : 0.0;
 }
 
 float gabor_intensity(vec3 phasor)
 {
-  return length(phasor.xy) / phasor.z;
+  return phasor.z > 0.0 ? length(phasor.xy) / phasor.z : 0.0;
 }

@@ -266,7 +266,7 @@ VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bo
     weights += share * weight;
     sum.distance += share * weight * octave.distance;
     sum.color += share * weight * octave.color;
-    sum.position = mix(sum.position, octave.position / octave_scale, share * weight);
+    sum.position = mix(sum.position, octave.position * (1.0 / octave_scale), share * weight);
     octave_scale *= lacunarity;
     weight *= roughness;
   }
@@ -276,7 +276,8 @@ VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bo
     sum.distance /= weights * most;
     sum.color /= weights;
   }
-  sum.position = scale != 0.0 ? sum.position / scale : vec4(0.0);
+  // (Times the reciprocal, as Cycles does: nodes may hash it to the last bit.)
+  sum.position = scale != 0.0 ? sum.position * (1.0 / scale) : vec4(0.0);
   return sum;
 }
 

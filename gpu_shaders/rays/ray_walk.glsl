@@ -10,9 +10,9 @@
 // Of a corner: normal; uv and packed color.
 // Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as
 // none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of
-// materials).
-#include "rays/hit_attributes.glsl"
+// materials, first record of attributes over REGION_UNIT, first of their places, row of instance_table).
 #include "common/records.glsl"
+#include "rays/hit_attributes.glsl"
 
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
 #define NOWHERE -1

@@ -11,7 +11,7 @@ from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry.convexity import is_convex
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import is_closed
-from curvrefl.curvrefl_addon.renderer.rays.ray_scene import OWN_RANGE
+from curvrefl.curvrefl_addon.renderer.rays.ray_instances import OWN_RANGE
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
 from scenes.ray_cast import first_hits, world_triangles

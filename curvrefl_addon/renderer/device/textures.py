@@ -54,6 +54,13 @@ def empty_texture(width: int, height: int, fmt: str = "RGBA32F", linear: bool = 
     return texture
 
 
+def empty_layers(width: int, height: int, layers: int, fmt: str) -> Any:
+    """Array texture, unfilled."""
+    texture = gpu.types.GPUTexture((width, height), layers=layers, format=fmt)
+    texture.filter_mode(False)
+    return texture
+
+
 def depth_texture(width: int, height: int) -> Any:
     """Depths in 32 bits, unfilled."""
     return gpu.types.GPUTexture((width, height), format=DEPTH)

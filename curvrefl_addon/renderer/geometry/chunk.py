@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from ..device.batches import indexed_batch
 from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
 from ..device.shaders import Image, Piece, build_shader, dispatch, named
+from .chunk_attributes import CornerAttributes
 from .mesh_pieces import is_count
 
 HOLDOUT = -1
@@ -105,6 +107,11 @@ class Chunk:
         self._table = np.zeros((len(meshes), INSTANCE_RECORDS, 4), np.float32)
         self._fill_table(range(len(meshes)))
         self._place(((0, self.position_count, 0, corner_count),))
+
+    @cached_property
+    def attributes(self) -> CornerAttributes:
+        """What programs read at its corners."""
+        return CornerAttributes.of_meshes([item.drawn for item in self.placed])
 
     def move(self, changed: Mapping[int, Placed]) -> None:
         """Replace instances by the same with another matrix, object_id or mirror number."""

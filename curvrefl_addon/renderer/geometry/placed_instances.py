@@ -83,6 +83,18 @@ def instance_keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:
     return keys
 
 
+def matched(placed: Sequence[Placed], instances: Sequence[InstanceArrays]) -> list[int | None]:
+    """For each instance the index of the one that was `placed` before."""
+    if len(placed) == len(instances):
+        differ = [item.instance is not new for item, new in zip(placed, instances, strict=True)]
+        if not any(differ) or all(
+            placed[index].instance.object_id == instances[index].object_id for index in np.flatnonzero(differ).tolist()
+        ):
+            return list(range(len(instances)))
+    before = {key: index for index, key in enumerate(instance_keys(item.instance for item in placed))}
+    return [before.get(key) for key in instance_keys(instances)]
+
+
 def differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) -> bool:
     old = known.instance
     return (

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.arrays import Float64Array, InstanceArrays, SceneArrays
+from ...scene.arrays import Float64Array, Int32Array, SceneArrays
 from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
 from .mesh_facts import MeshFactsCache
@@ -24,7 +24,7 @@ from .placed_instances import (
     box_around,
     corners_of_boxes,
     differs_in_place_only,
-    instance_keys,
+    matched,
     relative_positions,
     require_room,
     stretches_of,
@@ -66,6 +66,8 @@ class SceneGeometry:
         self._sceneries: dict[int, list[tuple[Chunk, Batches]]] = {}
         """By the mirror's instance; of this revision, as the next"""
         self._seen: list[tuple[Chunk, Batches]] | None = None
+        self._rows: dict[int, Int32Array] = {}
+        """By a chunk's id, indices of its instances in the scene; of this revision"""
         self._where: list[tuple[Chunk, int] | None] = []
         self._angles: list[float] = []
         """Per instance the angle it is split with, endless where it is not"""
@@ -77,7 +79,7 @@ class SceneGeometry:
 
         `anew`: in other chunks than before, so that those of an earlier picture stay where they are.
         """
-        old = self._matched(scene.instances)
+        old = matched(self.placed, scene.instances)
         known = [None if before is None else self.placed[before] for before in old]
         difference = Difference(structure=old != list(range(len(self.placed))))
         numbers = [0] * len(old)
@@ -122,6 +124,7 @@ class SceneGeometry:
         gone = set(range(len(self.placed))) - {before for before in old if before is not None}
         stale = {id(found[0]) for index in gone if (found := self._where[index]) is not None}
         self.placed, self._where = placed, where
+        self._rows.clear()
         self._unchecked = set(range(len(placed)))
         self._move(difference.moved)
         self._build(dirty, stale)
@@ -215,6 +218,15 @@ class SceneGeometry:
         assert found is not None
         return found
 
+    def rows_of(self, chunk: Chunk) -> Int32Array:
+        """(instances of a chunk,) their indices in the scene."""
+        if not self._rows:
+            for index, found in enumerate(self._where):
+                if found is not None:
+                    rows = self._rows.setdefault(id(found[0]), np.zeros(len(found[0].placed), np.int32))
+                    rows[found[1]] = index
+        return self._rows[id(chunk)]
+
     def balls(self, indices: NDArray[np.int64] | None = None) -> tuple[Float64Array, Float64Array]:
         """Centers (n, 3) and radii (n,) of balls around instances, world space."""
         chosen = range(len(self.placed)) if indices is None else indices
@@ -236,18 +248,6 @@ class SceneGeometry:
         """(8 n, 3) corners of the boxes around instances, world space."""
         items = [self.placed[index] for index in indices]
         return corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
-
-    def _matched(self, instances: Sequence[InstanceArrays]) -> list[int | None]:
-        """For each instance the index of the one it was before."""
-        if len(self.placed) == len(instances):
-            differ = [item.instance is not new for item, new in zip(self.placed, instances, strict=True)]
-            if not any(differ) or all(
-                self.placed[index].instance.object_id == instances[index].object_id
-                for index in np.flatnonzero(differ).tolist()
-            ):
-                return list(range(len(instances)))
-        before = {key: index for index, key in enumerate(instance_keys(item.instance for item in self.placed))}
-        return [before.get(key) for key in instance_keys(instances)]
 
     def _move(self, moved: Iterable[int]) -> None:
         changed: dict[int, tuple[Chunk, dict[int, Placed]]] = {}
@@ -275,6 +275,7 @@ class SceneGeometry:
             return
         self.revision += 1
         self._boxes.clear()
+        self._rows.clear()
         self._sceneries.clear()
         self._seen = None
         self.chunks = [chunk for chunk in self.chunks if id(chunk) not in stale]

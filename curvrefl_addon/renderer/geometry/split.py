@@ -76,6 +76,8 @@ def split_mesh(
     vertex_layers = [relative, mesh.positions]
     corner_layers = [mesh.corner_normals]
     corner_layers += [layer for layer in (mesh.corner_uv, mesh.corner_color) if layer is not None]
+    if mesh.corner_attributes is not None:
+        corner_layers.append(mesh.corner_attributes.reshape(len(corner_vertex), -1))
 
     # Only triangles that were just made, or not yet looked at, can have long edges.
     settled: list[tuple[Int32Array, Int32Array]] = []
@@ -114,6 +116,9 @@ def split_mesh(
         corner_normals=corner_layers[0],
         corner_uv=None if mesh.corner_uv is None else next(rest),
         corner_color=None if mesh.corner_color is None else next(rest),
+        corner_attributes=None
+        if mesh.corner_attributes is None
+        else next(rest).reshape(-1, *mesh.corner_attributes.shape[1:]),
         triangles=np.concatenate([part[0] for part in settled]),
         triangle_slot=mesh.triangle_slot[parents],
     )

@@ -35,9 +35,9 @@ class MeshRays:
     hierarchy: Hierarchy
     kept: NDArray[np.int64]
     """Triangles that have a place: the items of the hierarchy"""
-    starts: tuple[int, int, int]
-    """First records of nodes, triangles and corners"""
-    sizes: tuple[int, int, int]
+    starts: list[int]
+    """First records of nodes, triangles, corners and attributes"""
+    sizes: list[int]
     cost: float
     """Of the tree when it was built; vertices may have moved since"""
     is_best: bool

@@ -15,7 +15,9 @@ from ...scene.arrays import (
     Int32Array,
     MeshArrays,
 )
+from ...scene.programs.program import Attribute
 from ..geometry.chunk import pack_color
+from ..geometry.chunk_attributes import places_of
 from .hierarchy import Hierarchy
 
 NODE_RECORDS = 4
@@ -109,13 +111,33 @@ def corner_records(mesh: MeshArrays) -> Float32Array:
     return records.reshape(-1, 4)
 
 
-def material_records(instances: list[InstanceArrays]) -> tuple[Float32Array, list[int]]:
-    """Material numbers, four to a record, and the first record of each instance's; equal lists are stored once."""
-    firsts: dict[tuple[int, ...], int] = {}
-    numbers: list[int] = []
-    for instance in instances:
-        if instance.materials not in firsts:
-            firsts[instance.materials] = len(numbers) // 4
-            numbers += instance.materials
-            numbers += [0] * (-len(numbers) % 4)
-    return np.array(numbers, np.float32).reshape(-1, 4), [firsts[instance.materials] for instance in instances]
+def attribute_records(mesh: MeshArrays) -> Float32Array:
+    """What programs read of the mesh, corner by corner."""
+    if mesh.corner_attributes is None:
+        return np.zeros((0, 4), np.float32)
+    return mesh.corner_attributes.reshape(-1, 4)
+
+
+class NumberLists:
+    """Lists of numbers, four to a record; equal ones are stored once."""
+
+    def __init__(self) -> None:
+        self._firsts: dict[tuple[int, ...], int] = {}
+        self._numbers: list[int] = []
+
+    def first_record(self, numbers: tuple[int, ...]) -> int:
+        """Where a list is."""
+        if numbers not in self._firsts:
+            self._firsts[numbers] = len(self._numbers) // 4
+            self._numbers += numbers
+            self._numbers += [0] * (-len(self._numbers) % 4)
+        return self._firsts[numbers]
+
+    def first_of_places(self, order: tuple[Attribute, ...], mesh: MeshArrays) -> int:
+        """Where it says how many attributes a mesh has, and at which place each of the scene's; 0 without any."""
+        return self.first_record((len(mesh.attributes), *places_of(order, mesh.attributes))) if order else 0
+
+    @property
+    def records(self) -> Float32Array:
+        """All, (n, 4)."""
+        return np.array(self._numbers, np.float32).reshape(-1, 4)

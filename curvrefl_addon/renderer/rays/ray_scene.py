@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...scene.arrays import InstanceArrays, MeshArrays, SceneArrays
+from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
+from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
 from ..paths.features import lets_straight_on
 from .hierarchy import Boxes, Hierarchy
@@ -34,18 +36,20 @@ from .mesh_rays import (
     triangles_with_a_place,
     world_boxes,
 )
+from .ray_instances import INSTANCE_RECORDS, fill_records
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
     InstanceFlag,
+    NumberLists,
+    attribute_records,
     corner_records,
-    material_records,
     node_records,
-    seen_by,
     triangle_records,
 )
 
-INSTANCE_RECORDS = 6
+PARTS = 4
+"""Regions of a mesh"""
 STACK = 64
 """Levels of the top and the deepest mesh together"""
 RAYS = Piece(
@@ -57,12 +61,11 @@ RAYS = Piece(
         "INSTANCE_RECORDS": INSTANCE_RECORDS,
         "TRIANGLE_RECORDS": TRIANGLE_RECORDS,
         "REGION_UNIT": UNIT,
+        "LACKING_BY_NAME": LACKING_BY_NAME,
         **{flag.name: int(flag) for flag in InstanceFlag if flag.name is not None},
     },
 )
 """What `ray_walk.glsl` needs"""
-OWN_RANGE = 1e-4
-"""A ray that leaves a mirror, or what is seen through, does not see it nearer than this share of its size"""
 FEW = 4096
 """A mesh of no more triangles gets the best tree at once: 15 milliseconds at most in place of 8, and rays look at a
 third of the boxes, also while the mesh deforms and nothing can be improved"""
@@ -97,6 +100,8 @@ class RayScene:
         self._seen_through: frozenset[int] = frozenset()
         self._clear: frozenset[int] = frozenset()
         """Indices of materials that light goes on through, and of those it goes straight on through"""
+        self._attributes: tuple[Attribute, ...] = ()
+        """All that programs of the scene read, in their order"""
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         self._place_of: dict[int, int] = {}
         """Index in `_instances` by index in the scene"""
@@ -124,9 +129,10 @@ class RayScene:
         """
         seen_through = frozenset(index for index, item in enumerate(scene.materials) if item.is_seen_through)
         clear = frozenset(index for index in seen_through if lets_straight_on(scene.materials[index]))
-        is_same = (seen_through, clear) == (self._seen_through, self._clear)
+        attributes = attributes_of(scene)
+        is_same = (seen_through, clear, attributes) == (self._seen_through, self._clear, self._attributes)
         moved = self._moved(scene, numbers) if is_same else None
-        self._seen_through, self._clear = seen_through, clear
+        self._seen_through, self._clear, self._attributes = seen_through, clear, attributes
         self._followed = (scene, dict(numbers))
         if moved is not None:
             for index in moved:
@@ -269,13 +275,17 @@ class RayScene:
                 node_records(tree.hierarchy, tree.hierarchy.link, tree.hierarchy.count),
                 triangle_records(tree.mesh, tree.kept[tree.hierarchy.order]),
                 corner_records(tree.mesh),
+                attribute_records(tree.mesh),
             )
         ]
-        places = iter(zip(self.regions.put(parts), (len(part) for part in parts), strict=True))
-        for tree in trees:
-            starts, sizes = zip(*(next(places) for _ in range(3)), strict=True)
+        sizes = [len(part) for part in parts]
+        # (What has no records gets no region.)
+        stored = iter(self.regions.put([part for part in parts if len(part)]))
+        starts = [next(stored) if size else 0 for size in sizes]
+        for index, tree in enumerate(trees):
+            own = slice(PARTS * index, PARTS * (index + 1))
             self._meshes[id(tree.mesh)] = MeshRays(
-                tree.mesh, tree.hierarchy, tree.kept, starts, sizes, tree.cost, tree.is_best
+                tree.mesh, tree.hierarchy, tree.kept, starts[own], sizes[own], tree.cost, tree.is_best
             )
 
     def _forget(self, item: MeshRays) -> None:
@@ -284,42 +294,34 @@ class RayScene:
 
     def _free(self, item: MeshRays) -> None:
         for start, size in zip(item.starts, item.sizes, strict=True):
-            self.regions.drop(start, size)
+            if size:
+                self.regions.drop(start, size)
 
     def _place(self, is_same: bool) -> None:
         """The top level; the tree over the instances may be kept where they are the `same`."""
         self._items = [self._meshes[id(mesh)] for mesh in self._mesh_of]
         self._deepest = max(item.hierarchy.depth for item in self._items)
-        self._materials, firsts = material_records(self._instances)
+        lists = NumberLists()
+        firsts = [lists.first_record(instance.materials) for instance in self._instances]
+        places = [lists.first_of_places(self._attributes, mesh) for mesh in self._mesh_of]
+        self._materials = lists.records
         count = len(self._items)
         self._low, self._high = np.empty((count, 3), np.float32), np.empty((count, 3), np.float32)
         self._records = np.zeros((count, INSTANCE_RECORDS, 4), np.float32)
         self._records[:, 4, 3] = firsts
+        self._records[:, 5, 2] = places
+        self._records[:, 5, 3] = list(self._place_of)
         self._fill(list(range(count)))
         self._store_top(is_same)
 
     def _fill(self, places: list[int]) -> None:
         """Boxes and records of some instances."""
         items, placed = [self._items[place] for place in places], [self._instances[place] for place in places]
-        matrices = np.array([instance.matrix for instance in placed])
-        self._low[places], self._high[places] = world_boxes(items, matrices)
-        records = self._records[places]
-        records[:, :3] = np.linalg.inv(matrices)[:, :3]
-        flags = np.array([seen_by(item, not self._clear.isdisjoint(item.materials)) for item in placed])
-        flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += InstanceFlag.IS_MIRRORED
+        low, high = world_boxes(items, np.array([instance.matrix for instance in placed]))
+        self._low[places], self._high[places] = low, high
         mirrors = [self._mirrors[place] for place in places]
-        records[:, 3, 0] = [item.object_id for item in placed]
-        records[:, 3, 1] = mirrors
-        records[:, 3, 3] = OWN_RANGE * np.linalg.norm(self._high[places] - self._low[places], axis=1)
-        lets_light_on = [not self._seen_through.isdisjoint(item.materials) for item in placed]
-        for index in np.flatnonzero(np.logical_or(mirrors, lets_light_on)):
-            facts = self._facts.of(items[index].mesh)
-            flags[index] += InstanceFlag.NEVER_SEES_ITSELF * facts.never_sees_itself
-            flags[index] += InstanceFlag.IS_CLOSED * facts.is_closed
-            records[index, 3, 3] = OWN_RANGE * np.linalg.norm(matrices[index, :3, :3] @ (facts.box[1] - facts.box[0]))
-        records[:, 3, 2] = flags
-        records[:, 4, :3] = np.array([item.starts for item in items]) // UNIT
-        records[:, 5, 0] = [len(item.materials) for item in placed]
+        records = self._records[places]
+        fill_records(records, items, placed, mirrors, high - low, self._seen_through, self._clear, self._facts)
         self._records[places] = records
 
     def _store_top(self, is_same: bool) -> None:

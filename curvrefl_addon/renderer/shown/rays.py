@@ -11,7 +11,7 @@ from typing import Any, Self
 from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
-from ..rays.ray_scene import OWN_RANGE
+from ..rays.ray_instances import OWN_RANGE
 from ..settings import Settings
 from ..shading.shade import RayShadows
 from ..surfaces.canvas import Canvas

@@ -87,7 +87,9 @@ class _Cutting:
         self.corner_position = chunk.corner_position
         self.corner_records = np.zeros((0, 8), np.float32)
         """(corners, 8) two records of each; read when something is cut"""
-        self._chunk, self._view, self._tolerance, self._solve = chunk, view, tolerance, solve
+        self.halved: list[Int32Array] = []
+        """Pairs (n, 2) of corners between which the next corners are"""
+        self.chunk, self._view, self._tolerance, self._solve = chunk, view, tolerance, solve
         self._straight = np.zeros(0, np.int64)
         """Keys of edges that have been asked, or need not be"""
 
@@ -159,12 +161,13 @@ class _Cutting:
         """New corners half way on the edges of triangles (n, 3), -1 where `middle_place` has no position for one."""
         count = len(self.corner_position)
         if len(self.corner_records) == 0:
-            self.corner_records = read_records(self._chunk.corners, 2 * count).reshape(-1, 8)
+            self.corner_records = read_records(self.chunk.corners, 2 * count).reshape(-1, 8)
         halved = middle_place >= 0
         middle, pairs = number_pairs(corners[halved], corners[:, [1, 2, 0]][halved], count)
         place = np.empty(len(pairs), np.int32)
         place[middle - count] = middle_place[halved]
         self.corner_position = np.concatenate([self.corner_position, place])
+        self.halved.append(pairs)
         ends = self.corner_records[pairs]
         means = ends.mean(axis=1)
         means[:, 6] = pack_color(np.mean([unpack_color(ends[:, end, 6]) for end in range(2)], axis=0))
@@ -218,10 +221,13 @@ def _pieces(cutting: _Cutting, triangles: Int32Array, material: Int32Array, imag
     vertices = cutting.vertices.of(places)
     solution = VertexSolution(record_texture(vertices.points), record_texture(vertices.virtual), len(places))
     triangles = renumbered.reshape(-1, 3).astype(np.int32)
+    # (Of the cutting no more is kept than this.)
+    chunk, halved = cutting.chunk, cutting.halved
     pieces = Pieces(
         record_texture(vertices.positions),
         record_texture(records.reshape(-1, 4)),
         triangles,
         of_corner.astype(np.int32),
+        lambda: chunk.attributes.of_pieces(halved, used),
     )
     return SolvedChunk(pieces, by_material(triangles, material), solution, image)

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from ...scene.arrays import Int32Array
 from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.records import read_records
 from ..geometry.chunk import Batches, Chunk
+from ..geometry.chunk_attributes import CornerAttributes
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,12 @@ class Pieces:
     """(n, 3) index into corners"""
     corner_position: Int32Array
     """(corners,) index into positions"""
+    make_attributes: Callable[[], CornerAttributes]
+
+    @cached_property
+    def attributes(self) -> CornerAttributes:
+        """What programs read at its corners; the instances are those of the chunk that it is of."""
+        return self.make_attributes()
 
 
 @dataclass(frozen=True)

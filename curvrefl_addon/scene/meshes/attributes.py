@@ -24,7 +24,7 @@ class VertexColors:
     """By a Color Attribute node: without a name it is the default color attribute"""
 
 
-_PARTS = {
+PARTS = {
     "FLOAT": ("value", 1),
     "INT": ("value", 1),
     "INT8": ("value", 1),
@@ -50,10 +50,10 @@ def corner_colors(mesh: bpy.types.Mesh, needed: VertexColors, corner_vertex: Int
     if needed.is_painted and not name:
         name = mesh.attributes.default_color_name
     attribute = mesh.attributes.get(name) if name else None
-    if attribute is None or attribute.data_type not in _PARTS:
+    if attribute is None or attribute.data_type not in PARTS:
         missing = 1.0 if needed.output == "Alpha" and not needed.is_painted else 0.0
         return np.full((len(corner_vertex), 4), missing, np.float32)
-    values = _at_corners(mesh, attribute.domain, _values(attribute), corner_vertex)
+    values = at_corners(mesh, attribute.domain, values_of(attribute), corner_vertex)
     parts = values.shape[1]
     colors = np.ones((len(values), 4), np.float32)
     if needed.output == "Fac":
@@ -72,15 +72,15 @@ def corner_colors(mesh: bpy.types.Mesh, needed: VertexColors, corner_vertex: Int
 def corner_coordinates(mesh: bpy.types.Mesh, name: str, corner_vertex: Int32Array) -> Float32Array | None:
     """(corners, 2) of an attribute as texture coordinates; None where the mesh has no such."""
     attribute = mesh.attributes.get(name)
-    if attribute is None or attribute.data_type not in _PARTS:
+    if attribute is None or attribute.data_type not in PARTS:
         return None
-    values = _at_corners(mesh, attribute.domain, _values(attribute), corner_vertex)
+    values = at_corners(mesh, attribute.domain, values_of(attribute), corner_vertex)
     return np.ascontiguousarray(values[:, :2] if values.shape[1] > 1 else np.repeat(values, 2, axis=1))
 
 
-def _values(attribute: bpy.types.Attribute) -> Float32Array:
-    """(n, parts)"""
-    name, parts = _PARTS[attribute.data_type]
+def values_of(attribute: bpy.types.Attribute) -> Float32Array:
+    """(n, parts) on its own domain."""
+    name, parts = PARTS[attribute.data_type]
     data = attribute_data(attribute)
     plain = np.empty(
         len(data) * parts, {"INT": np.int32, "INT8": np.int32, "BOOLEAN": bool}.get(attribute.data_type, np.float32)
@@ -90,7 +90,7 @@ def _values(attribute: bpy.types.Attribute) -> Float32Array:
     return plain.astype(np.float32).reshape(-1, parts)
 
 
-def _at_corners(mesh: bpy.types.Mesh, domain: str, values: Float32Array, corner_vertex: Int32Array) -> Float32Array:
+def at_corners(mesh: bpy.types.Mesh, domain: str, values: Float32Array, corner_vertex: Int32Array) -> Float32Array:
     """(corners, parts) of values on a domain; a corner's on edges are the mean of the two that meet there."""
     if domain == "POINT":
         return values[corner_vertex]

@@ -14,9 +14,11 @@ import numpy as np
 from ...errors import InputError
 from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
 from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
+from ..programs.program import Attribute
 from ..signature import array_signature
 from .attributes import VertexColors, attribute_data, corner_colors, corner_coordinates
 from .corners import merge_corners
+from .program_attributes import Corners, four_numbers, generated_of, read_layers, uv_of_map
 
 GENERATED = "\0generated"
 """Texture space "Generated" in place of a UV map's name"""
@@ -34,6 +36,8 @@ class MeshNeeds:
     colors: VertexColors | None = None
     hidden_slots: tuple[bool, ...] = ()
     """For each slot whether its faces are left out, as those of volumes; empty where none are"""
+    attributes: tuple[Attribute, ...] = ()
+    """What programs read, ascending"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +87,8 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
     is_cut = colors is not None and bool((colors < -1e-6).any() or (colors > 1.0 + 1e-6).any())
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
+    known = Corners(positions, corner_vertex, normals, triangle_corners)
+    extra = read_layers(mesh, needs.attributes, known, repaired)
 
     used_corners, triangle_corners = _compact(
         triangle_corners, len(corner_vertex), complete=dropped == 0 and not any(needs.hidden_slots)
@@ -92,12 +98,14 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         normals = normals if per_vertex_normals else normals[used_corners]
         uv = None if uv is None else uv[used_corners]
         colors = None if colors is None else colors[used_corners]
+        extra = [replace(layer, values=layer.values[used_corners]) for layer in extra]
     used_vertices, corner_vertex = _compact(corner_vertex, len(positions), complete=False)
     if used_vertices is not None:
         positions = positions[used_vertices]
         normals = normals[used_vertices] if per_vertex_normals else normals
 
-    if per_vertex_normals and uv is None and colors is None:
+    models: Int32Array | None = None
+    if per_vertex_normals and uv is None and colors is None and not extra:
         corner_count = len(positions)
         triangles = corner_vertex[triangle_corners]
         corner_vertex = np.arange(corner_count, dtype=np.int32)
@@ -106,6 +114,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         triangles = triangle_corners
     else:
         layers = [layer for layer in (None if per_vertex_normals else normals, uv, colors) if layer is not None]
+        layers += [layer.values for layer in extra]
         merged, models = merge_corners(corner_vertex, len(positions), layers)
         triangles = merged[triangle_corners]
         normals = normals[corner_vertex[models]] if per_vertex_normals else normals[models]
@@ -114,6 +123,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         corner_vertex = corner_vertex[models]
     if not np.isfinite(normals).all():
         normals = _repaired_normals(normals, positions, corner_vertex, triangles)
+    attributes = four_numbers(extra, models)
     arrays = MeshArrays(
         name=mesh.name,
         positions=positions,
@@ -123,7 +133,9 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         corner_color=colors,
         triangles=triangles,
         triangle_slot=slots,
-        signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots),
+        attributes=tuple(layer.attribute for layer in extra),
+        corner_attributes=attributes,
+        signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots, attributes),
     )
     return MeshReading(arrays, dropped, is_cut, tuple(repaired))
 
@@ -188,16 +200,12 @@ def _uv(
     if name in (GENERATED, OBJECT):
         flat: Float64Array | Float32Array = positions[:, :2]
         if name == GENERATED:
-            size = np.array(mesh.texspace_size[:2], np.float32)
-            location = np.array(mesh.texspace_location[:2], np.float32)
-            flat = (flat - location) / np.where(size == 0.0, 1.0, 2.0 * size) + 0.5
+            scale, offset = generated_of(mesh)
+            flat = flat * scale[:2] + offset[:2]
         return np.ascontiguousarray(flat, np.float32)[corner_vertex]
-    layer = next((uv_map for uv_map in mesh.uv_layers if (uv_map.name == name if name else uv_map.active_render)), None)
-    if layer is None:
-        return corner_coordinates(mesh, name, corner_vertex) if name else None
-    uv = np.empty((len(corner_vertex), 2), np.float32)
-    if len(uv):
-        layer.uv.foreach_get("vector", uv.reshape(-1))
+    uv = uv_of_map(mesh, name)
+    if uv is None and name:
+        return corner_coordinates(mesh, name, corner_vertex)
     return uv
 
 

@@ -24,9 +24,12 @@ _KINDS: Mapping[str, Kind] = {"VALUE": "float", "INT": "float", "BOOLEAN": "floa
 class Images(Protocol):
     """Finds the images that nodes show."""
 
-    def index_of(self, node: Any, note: Callable[[str], None], splits_alpha: bool) -> int | None:
-        """Place in `SceneArrays.images` of an image node's image; None where it has none. `splits_alpha`: the node's
-        alpha is looked at by itself."""
+    def index_of(self, node: Any, note: Callable[[str], None], tile: int = 0) -> int | None:
+        """Place in `SceneArrays.images` of an image node's image, or of this one of its tiles; None where it has no
+        image."""
+
+    def is_opaque(self, index: int) -> bool:
+        """Whether alpha is known to be 1 everywhere."""
 
 
 class Builder:
@@ -59,6 +62,9 @@ class Builder:
         self._needs: set[str] = set()
         self._depends: set[str] = set()
         self._open: set[Any] = set()
+        self.is_bent = False
+        self.path_notes: list[str] = []
+        """Causes of remarks that count where paths go on: on mirrors and on what is seen through"""
 
     # Inputs of nodes
 
@@ -171,9 +177,10 @@ class Builder:
         number = self._instance_attributes.setdefault(name, len(self._instance_attributes))
         return Expression(f"instance_attribute(s, {number})", "vec4")
 
-    def image(self, source: Source, splits_alpha: bool) -> int | None:
-        """The first of the IMAGE_RECORDS parameters of the image of the source's node; None where it has none."""
-        index = self._images.index_of(source.node, self.note, splits_alpha)
+    def image(self, source: Source, tile: int = 0) -> int | None:
+        """The first of the IMAGE_RECORDS parameters of the image of the source's node, or of a tile of it; None where
+        it has none."""
+        index = self._images.index_of(source.node, self.note, tile)
         if index is None:
             return None
         first = self.record()
@@ -182,12 +189,17 @@ class Builder:
         self._uses.append(ImageUse(first, index))
         return first
 
+    def is_opaque_image(self, source: Source) -> bool:
+        """Whether alpha of the image of the source's node is known to be 1 everywhere."""
+        index = self._images.index_of(source.node, self.note)
+        return index is not None and self._images.is_opaque(index)
+
     def need(self, name: str) -> None:
         """A define that the program's ShadingPoint needs (`programs/shading_point.glsl`)."""
         self._needs.add(name)
 
     def depend(self, what: str) -> None:
-        """What values differ with, beside the texture coordinates on the mesh: "position", "ray", "instance"."""
+        """What values differ with, beside the mesh's own coordinates: "position", "ray", "instance", "random"."""
         self._depends.add(what)
 
     def function(self, source: Source, kind: Kind) -> str:
@@ -207,6 +219,16 @@ class Builder:
         """Something is not drawn as it is: the cause of a remark ("Wireframe nodes {of} are not drawn.")."""
         if cause not in self._notes:
             self._notes.append(cause)
+
+    def note_on_paths(self, cause: str) -> None:
+        """The same of what only those see who look closely: on mirrors and through glass."""
+        if cause not in self.path_notes:
+            self.path_notes.append(cause)
+
+    def bend(self, normal: Expression) -> None:
+        """From here on the surface's own normal is another one (unit)."""
+        self.is_bent = True
+        self._lines.append(f"  s.normal = {normal.text};")
 
     # The end
 

@@ -9,9 +9,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-UV, GEOMETRY, TANGENT = "UV", "GEOMETRY", "TANGENT"
-"""Kinds of attributes: a UV map ("": the one that renders use), any attribute by its name, (tangent, sign) of a UV map
-as Blender's own (mikktspace)"""
+UV, GEOMETRY, FACTOR, TANGENT = "UV", "GEOMETRY", "FACTOR", "TANGENT"
+"""Kinds of attributes: a UV map ("": the one that renders use), any attribute by its name ("": the default color
+attribute), the same as the one number that Cycles makes of it, (tangent, sign) of a UV map as Blender's own,
+mikktspace's
+
+What a mesh lacks is 0, and (0, 0, 0, 1) where it is asked for by a name."""
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -7,10 +7,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
-from .nodes import noise, patterns, skies, voronoi
+from .nodes import images, noise, patterns, skies, voronoi
 from .nodes.values import bumps, colors, numbers, places, plain, ramps, surface, vectors
 
 HANDLERS: Mapping[str, Handler] = {
+    **images.NODES,
     **noise.NODES,
     **patterns.NODES,
     **voronoi.NODES,

@@ -49,18 +49,18 @@ def _bump(b: Builder, source: Source) -> Expression:
     width = b.parameter(float(node.inputs["Filter Width"].default_value))
     scale = b.made("float", f"-{distance.text}") if node.invert else distance
     function = b.function(height, "float")
-    return _tilted(b, normal, [f"{function}({{}})"], (scale, strength, width))
+    return _tilted(b, normal, f"{function}({{}})", (scale, strength, width))
 
 
 def _tilted(
-    b: Builder, normal: Expression, height: list[str], numbers: tuple[Expression, Expression, Expression]
+    b: Builder, normal: Expression, height: str, numbers: tuple[Expression, Expression, Expression]
 ) -> Expression:
-    """The normal tilted by heights; `height`: GLSL with `{}` for the point. `numbers`: scale, strength, filter width."""
+    """Tilted by heights; `height`: GLSL with `{}` for the point. `numbers`: scale, strength, the filter's width."""
     b.need("PROGRAM_BUMP")
     b.include(_BUMP_FILE)
     scale, strength, width = numbers
     points = ("s", f"bump_across(s, {width.text})", f"bump_up(s, {width.text})")
-    heights = b.made("vector", f"vec3({', '.join(height[0].format(point) for point in points)})")
+    heights = b.made("vector", f"vec3({', '.join(height.format(point) for point in points)})")
     return b.call("vector", "bump_normal", "s", normal, heights, scale, strength, width)
 
 
@@ -98,7 +98,7 @@ def displacement_as_bump(b: Builder, source: Source) -> Expression | None:
     b.depend("position")
     function = b.function(source, "vector")
     numbers = (b.parameter(1.0), b.parameter(1.0), b.parameter(_FILTER_WIDTH))
-    tilted = _tilted(b, Expression("s.normal", "vector"), [f"dot({function}({{}}), s.normal)"], numbers)
+    tilted = _tilted(b, Expression("s.normal", "vector"), f"dot({function}({{}}), s.normal)", numbers)
     return b.made("vector", f"s.normal = {tilted.text}", -1.0, 1.0)
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes about the surface and the ray: Geometry, Light Path, Fresnel, Layer Weight, Normal, Vector Transform, Tangent."""
+"""Nodes about the surface and the ray: Geometry, Tangent, Light Path, Fresnel, Vector Transform and their like."""
 
 from __future__ import annotations
 

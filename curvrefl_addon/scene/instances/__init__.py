@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instances of the depsgraph: what they have of their own."""

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pixels out of files and out of Blender, as Cycles keeps them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import imbuf
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Float32Array
+from ..camera.srgb import linear_to_srgb
+
+type Bytes = NDArray[np.uint8]
+
+LARGEST_HALF = 65504.0
+
+
+def decoded(file: str | bytes) -> Bytes | Float32Array:
+    """(h, w, 1..4) of a file, by its path or all of its bytes, as they are in it. Raises OSError where there are none."""
+    try:
+        loaded = imbuf.load(file) if isinstance(file, str) else imbuf.load_from_buffer(file)
+    except (OSError, ValueError) as error:
+        raise OSError(str(error)) from None
+    try:
+        with loaded.with_buffer() as buffer:
+            return np.array(buffer)
+    finally:
+        loaded.free()
+
+
+def multiplied(pixels: Bytes) -> Bytes:
+    """Colors of bytes times alpha, in place, rounded down as Cycles does."""
+    # A few rows at a time, which stay in the cache.
+    for start in range(0, len(pixels), 64):
+        rows = pixels[start : start + 64]
+        product = rows[..., :3].astype(np.uint16)
+        product *= rows[..., 3:]
+        product //= 255
+        rows[..., :3] = product
+    return pixels
+
+
+def without_alpha(pixels: NDArray[Any]) -> NDArray[Any]:
+    """Alpha of (h, w, 4) made 1, in place."""
+    pixels[..., 3] = 255 if pixels.dtype == np.uint8 else 1.0
+    return pixels
+
+
+def blender_pixels(image: bpy.types.Image) -> Float32Array | None:
+    """(h, w, 4) float32 as Blender has them now: of bytes a 255th each, of floats scene-linear; None: it has none."""
+    was_loaded = image.has_data
+    width, height = image.size
+    # (A property that stubs know as a list of floats.)
+    own: Any = image.pixels
+    values = np.empty(width * height * image.channels, np.float32)
+    if values.size == 0 or len(own) != values.size or not image.has_data:
+        return None
+    own.foreach_get(values)
+    if not was_loaded and image.source in ("FILE", "SEQUENCE"):
+        image.buffers_free()
+    return four_channels(values.reshape(height, width, -1))
+
+
+def pixels_of_file(image: bpy.types.Image, path: str) -> Float32Array | None:
+    """As `blender_pixels` of another file, with the settings of this image."""
+    try:
+        other = bpy.data.images.load(path)
+    except RuntimeError:
+        return None
+    try:
+        other.colorspace_settings.name = image.colorspace_settings.name
+        other.alpha_mode = image.alpha_mode
+        return blender_pixels(other)
+    finally:
+        bpy.data.images.remove(other)
+
+
+def four_channels(pixels: NDArray[Any]) -> NDArray[Any]:
+    """(h, w, 1..4) to (h, w, 4): gray is spread, alpha is 1."""
+    height, width, channels = pixels.shape
+    if channels == 4:
+        return pixels
+    result = np.empty((height, width, 4), pixels.dtype)
+    result[..., :3] = pixels[..., :3] if channels == 3 else pixels[..., :1]
+    if channels == 2:
+        result[..., 3] = pixels[..., 1]
+        return result
+    return without_alpha(result)
+
+
+def to_bytes(pixels: Float32Array) -> Bytes:
+    """Blender's 255ths as the bytes that they are of."""
+    return np.rint(pixels * np.float32(255.0)).astype(np.uint8)
+
+
+def encoded(pixels: Float32Array, multiplies: bool) -> Float32Array:
+    """Scene-linear colors (h, w, 4), multiplied with alpha where they have some, in the curve of sRGB: encoded first and
+    then multiplied, if they are at all (`multiplies`)."""
+    result = pixels.copy()
+    alpha = pixels[..., 3:]
+    if multiplies and alpha.min() < 1.0:
+        colors = np.divide(pixels[..., :3], alpha, out=np.zeros_like(pixels[..., :3]), where=alpha > 0.0)
+        result[..., :3] = linear_to_srgb(colors) * alpha
+    else:
+        result[..., :3] = linear_to_srgb(pixels[..., :3])
+    return result
+
+
+def scene_linear(colors: Float32Array, space: str) -> Float32Array:
+    """Colors (h, w, 3) of one of Blender's color spaces, by its own configuration."""
+    # (Blender converts the floats of files as it loads them: here of a file within the image itself.)
+    height, width = colors.shape[:2]
+    image: Any = bpy.data.images.new("curvrefl colors", width, height, float_buffer=True)
+    try:
+        image.colorspace_settings.name = "Non-Color"
+        pixels = np.ones((height, width, 4), np.float32)
+        pixels[..., :3] = colors
+        image.pixels.foreach_set(pixels.ravel())
+        image.pack()
+        image.colorspace_settings.name = space
+        result = blender_pixels(image)
+    finally:
+        bpy.data.images.remove(image)
+    assert result is not None
+    return result[..., :3]
+
+
+def narrowed(pixels: Float32Array) -> NDArray[np.float16] | Float32Array:
+    """In half precision, where that holds them."""
+    return pixels.astype(np.float16) if np.abs(pixels).max(initial=0.0) <= LARGEST_HALF else pixels

@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The images that nodes show, each once: what Cycles would keep of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import ImageSource
+from ..finite import usable_pixels
+from ..materials.color_spaces import REC709, working_space
+from ..remarks import Remark
+from .image_headers import HEADER_BYTES, Header, header_of
+from .image_pixels import (
+    blender_pixels,
+    decoded,
+    encoded,
+    four_channels,
+    multiplied,
+    narrowed,
+    pixels_of_file,
+    scene_linear,
+    to_bytes,
+    without_alpha,
+)
+
+DATA = "Non-Color"
+"""Blender's name of the space of what are no colors"""
+FIRST_TILE = 1001
+_LINEAR = ("Linear", "Raw", "scene_linear")
+"""Names of the working space beside its own"""
+
+type _Key = tuple[int, str, int, str, str]
+"""Image (session_uid), file shown, frame of a movie, color space, alpha mode"""
+
+
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    source: ImageSource
+    remarks: tuple[Remark, ...]
+
+
+class ProgramImages:
+    """Finds the images of nodes (`builder.Images`) and lists them."""
+
+    def __init__(self) -> None:
+        self.reads = 0
+        """How many images have been looked at"""
+        self._sources: list[ImageSource] = []
+        self._places: dict[_Key, int] = {}
+        self._kept: dict[_Key, _Kept] = {}
+
+    @property
+    def sources(self) -> tuple[ImageSource, ...]:
+        """All that nodes have asked for since `restart`: `SceneArrays.images`."""
+        return tuple(self._sources)
+
+    @property
+    def remarks(self) -> list[Remark]:
+        """What of these is not drawn as it is."""
+        return [remark for key in self._places for remark in self._kept[key].remarks]
+
+    @property
+    def sequences(self) -> set[int]:
+        """Images (session_uid) that another frame may change."""
+        return {key[0] for key in self._places if key[2] >= 0}
+
+    def restart(self) -> None:
+        """All nodes are asked anew. Images that they show again stay the same objects."""
+        self._kept = {key: kept for key, kept in self._kept.items() if key in self._places}
+        self._sources.clear()
+        self._places.clear()
+
+    def forget(self, images: set[int]) -> None:
+        """These (session_uid) changed; `restart` goes with it."""
+        self._kept = {key: kept for key, kept in self._kept.items() if key[0] not in images}
+
+    def forget_all(self) -> None:
+        """Any may have changed."""
+        self._kept.clear()
+
+    def index_of(self, node: Any, note: Callable[[str], None], tile: int = 0) -> int | None:
+        """As in `builder.Images`."""
+        image = node.image
+        if image is None:
+            return None
+        file, frame = _file_of(image, node.image_user, tile, note)
+        key = (
+            image.original.session_uid,
+            file,
+            frame,
+            image.colorspace_settings.name,
+            image.alpha_mode,
+        )
+        if key not in self._places:
+            if key not in self._kept:
+                remarks: list[Remark] = []
+                self._kept[key] = _Kept(_Reading(image, file, remarks).source(), tuple(remarks))
+                self.reads += 1
+            self._places[key] = len(self._sources)
+            self._sources.append(self._kept[key].source)
+        return self._places[key]
+
+    def is_opaque(self, index: int) -> bool:
+        """As in `builder.Images`."""
+        return self._sources[index].is_opaque
+
+
+def uses_alpha(image: bpy.types.Image) -> bool:
+    """Colors are kept multiplied with alpha, and divided by it where a node's alpha is looked at."""
+    return image.alpha_mode in ("STRAIGHT", "PREMUL") and image.colorspace_settings.name != DATA
+
+
+def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str], None]) -> tuple[str, int]:
+    """Path of the file that is shown ("": what Blender has), and the frame of what has several, else -1."""
+    if image.source == "SEQUENCE":
+        frame = int(user.frame_current)
+        return bpy.path.abspath(image.filepath_from_user(image_user=user), library=image.library), frame
+    if image.source == "TILED":
+        path = bpy.path.abspath(image.filepath_raw, library=image.library)
+        number = tile - FIRST_TILE
+        return path.replace("<UDIM>", str(tile)).replace("<UVTILE>", f"u{number % 10 + 1}_v{number // 10 + 1}"), -1
+    if image.source == "FILE" and image.packed_file is None and not image.is_dirty and image.type == "IMAGE":
+        return bpy.path.abspath(image.filepath_from_user(), library=image.library), -1
+    if image.source == "MOVIE":
+        note("Movies {of} are not shown: they are drawn magenta.")
+    return "", -1
+
+
+class _Reading:
+    """One image while it is looked at."""
+
+    def __init__(self, image: bpy.types.Image, file: str, remarks: list[Remark]) -> None:
+        self._image = image
+        self._file = file
+        self._remarks = remarks
+        space = image.colorspace_settings.name
+        self._is_data = space == DATA
+        self._is_linear = self._is_data or space in _LINEAR or space == working_space()
+        self._is_srgb = space == "sRGB" and working_space() == REC709
+        self._is_packed = image.packed_file is not None
+
+    def source(self) -> ImageSource:
+        """What Cycles would keep."""
+        image = self._image
+        if self._file:
+            return self._of_file()
+        if image.source == "MOVIE":
+            return _missing(image.name)
+        if image.type != "IMAGE" and image.type != "UV_TEST":
+            self._remark("Renders and layers {of} are not read: drawn magenta.")
+            return _missing(image.name)
+        if self._is_packed and not image.is_dirty and image.source == "FILE":
+            data = bytes(image.packed_file.data)
+            header = header_of(data[:HEADER_BYTES])
+            # (Blender's own pixels, which are straight, are multiplied as Cycles multiplies them.)
+            if header is not None and image.alpha_mode != "PREMUL":
+                return self._of_bytes(data, header)
+        return self._of_blender()
+
+    def _of_file(self) -> ImageSource:
+        path = Path(self._file)
+        try:
+            with path.open("rb") as stream:
+                header = header_of(stream.read(HEADER_BYTES))
+            if header is None:
+                values = decoded(self._file)
+                if values.dtype == np.uint8:
+                    height, width = values.shape[:2]
+                    header = Header(width, height, values.shape[2] != 4 or bool(values[..., 3].min() == 255))
+        except OSError:
+            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
+            return _missing(self._image.name)
+        return self._of_blender() if header is None else self._of_bytes(self._file, header)
+
+    def _of_bytes(self, file: str | bytes, header: Header) -> ImageSource:
+        """A file of bytes, or all of its bytes."""
+        image = self._image
+        is_opaque = header.is_opaque or image.alpha_mode == "NONE"
+        multiplies = image.alpha_mode == "STRAIGHT" and not self._is_data and not header.is_opaque
+        if header.is_gray_alpha and isinstance(file, str):
+            multiplies = False
+        read = partial(_read_bytes, file, (header.height, header.width), multiplies, image.alpha_mode == "NONE")
+        if self._is_linear or self._is_srgb:
+            return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, read)
+        try:
+            straight = _read_bytes(file, (header.height, header.width), False, image.alpha_mode == "NONE")
+        except OSError:
+            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
+            return _missing(image.name)
+        return self._converted(straight, multiplies)
+
+    def _of_blender(self) -> ImageSource:
+        """What is painted, generated, of floats."""
+        image = self._image
+        # (Of several files Blender holds the one that is on the screen.)
+        several = image.source in ("SEQUENCE", "TILED")
+        pixels = pixels_of_file(image, self._file) if self._file and several else blender_pixels(image)
+        if pixels is None:
+            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
+            return _missing(image.name)
+        is_straight, is_own = image.alpha_mode == "STRAIGHT", not self._file
+        if image.alpha_mode == "NONE":
+            without_alpha(pixels)
+        if not image.is_float:
+            values = to_bytes(pixels)
+            multiplies = uses_alpha(image) and (is_straight or not is_own)
+            if self._is_linear or self._is_srgb:
+                return self._of_array(multiplied(values) if multiplies else values, self._is_srgb)
+            return self._converted(values, multiplies)
+        pixels, count = usable_pixels(pixels)
+        if count:
+            self._remark(f"Pixels {{of}} that are not usable numbers ({count}) are drawn black.")
+        if uses_alpha(image) and is_straight and is_own:
+            pixels[..., :3] *= pixels[..., 3:]
+        elif not is_own and self._is_srgb:
+            return self._of_array(encoded(pixels, uses_alpha(image)), True)
+        return self._of_array(pixels, False)
+
+    def _converted(self, values: NDArray[np.uint8], multiplies: bool) -> ImageSource:
+        """Of bytes of any other color space."""
+        pixels = values.astype(np.float32) / np.float32(255.0)
+        alpha = pixels[..., 3:]
+        if uses_alpha(self._image) and not multiplies and alpha.min() < 1.0:
+            np.divide(pixels[..., :3], alpha, out=pixels[..., :3], where=alpha > 0.0)
+        pixels[..., :3] = scene_linear(pixels[..., :3], self._image.colorspace_settings.name)
+        if uses_alpha(self._image):
+            pixels[..., :3] *= alpha
+        return self._of_array(pixels, False)
+
+    def _of_array(self, values: NDArray[Any], is_srgb: bool) -> ImageSource:
+        kept = values if values.dtype == np.uint8 else narrowed(values)
+        height, width = kept.shape[:2]
+        is_opaque = bool(kept[..., 3].min() == (255 if kept.dtype == np.uint8 else 1.0))
+        is_bytes = kept.dtype == np.uint8
+        return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, lambda: kept)
+
+    def _remark(self, cause: str) -> None:
+        self._remarks.append(Remark(cause, "image", self._image.name))
+
+
+def _read_bytes(file: str | bytes, shape: tuple[int, int], multiplies: bool, ignores_alpha: bool) -> NDArray[np.uint8]:
+    """(h, w, 4)"""
+    pixels = four_channels(decoded(file))
+    if pixels.dtype != np.uint8 or pixels.shape[:2] != shape:
+        raise OSError("the file has changed")
+    if ignores_alpha:
+        return without_alpha(pixels)
+    return multiplied(pixels) if multiplies else pixels
+
+
+def _missing(name: str) -> ImageSource:
+    """Cycles shows magenta."""
+    return ImageSource(name, 0, 0, True, False, True, lambda: np.zeros((0, 0, 4), np.uint8))

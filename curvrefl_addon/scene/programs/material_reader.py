@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials of the scene: their node trees as constants and programs, with a remark for what is not drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import bpy
+import numpy as np
+
+from ..arrays import ImageArrays, MaterialArrays
+from ..finite import usable_material
+from ..materials.color_spaces import luminance_weights
+from ..materials.node_links import Source, output_source
+from ..remarks import Remark
+from .builder import Builder, Handler, Images
+from .program import Attribute, Program
+from .registry import HANDLERS
+from .shaders.closure import BLACK, Closure, clear, matt
+from .shaders.made_material import made_material
+from .shaders.surfaces import surface_of
+from .shaders.volumes import read_absorption
+
+EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
+"""What Cycles draws without a material: a diffuse gray"""
+
+
+class ImageList(Images, Protocol):
+    """The images of all materials' programs."""
+
+    @property
+    def images(self) -> list[ImageArrays]:
+        """Each keeps its place while any program shows it."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class ReadMaterial:
+    """A material of the scene."""
+
+    index: int
+    """Into `MaterialReader.materials`"""
+    attributes: tuple[Attribute, ...] = ()
+    """What it reads of the meshes it is on"""
+    instance_attributes: tuple[str, ...] = ()
+    """What it reads of instances and objects"""
+    remarks: tuple[Remark, ...] = ()
+    """What is not drawn as it is"""
+    path_remarks: tuple[Remark, ...] = ()
+    """What is not where it is a mirror or seen through"""
+    is_hidden: bool = False
+    """It has no surface: a volume, or full transparency"""
+    is_seen_through: bool = False
+
+    def remarks_as(self, is_mirror: bool) -> tuple[Remark, ...]:
+        """All remarks where it is a mirror's or scenery's."""
+        return self.remarks + (self.path_remarks if is_mirror or self.is_seen_through else ())
+
+
+class MaterialReader:
+    """Reads each material once, and again after `forget`."""
+
+    def __init__(self, images: ImageList, handlers: Mapping[str, Handler] = HANDLERS) -> None:
+        self.materials: list[MaterialArrays] = [EMPTY_SLOT]
+        """A material keeps its place in it"""
+        self.reads = 0
+        """How many materials have been read"""
+        self._images = images
+        self._handlers = handlers
+        self._read: dict[int, ReadMaterial] = {}
+        self._places: dict[int | MaterialArrays, int] = {}
+
+    def read(self, material: bpy.types.Material | None) -> ReadMaterial:
+        """The material's place in the list; None, an empty slot, is at index 0."""
+        if material is None:
+            return ReadMaterial(0)
+        key = material.original.session_uid
+        if key not in self._read:
+            self.reads += 1
+            self._read[key] = self._read_anew(material, key)
+        return self._read[key]
+
+    def plain(self, arrays: MaterialArrays) -> ReadMaterial:
+        """Place of a material without a program that is not the scene's."""
+        return ReadMaterial(self._place(arrays, arrays))
+
+    def forget(self, materials: set[int]) -> None:
+        """These materials (session_uid) changed."""
+        for key in materials:
+            self._read.pop(key, None)
+
+    def forget_all(self) -> None:
+        """Any may have changed, or the images they show."""
+        self._read.clear()
+
+    def _read_anew(self, material: bpy.types.Material, key: int) -> ReadMaterial:
+        notes: list[str] = []
+        path_notes: list[str] = []
+        arrays, is_hidden = self._arrays(material, notes, path_notes)
+        arrays = usable_material(arrays, notes)
+        if arrays.program is not None:
+            arrays = replace(arrays, program=_usable(arrays.program, notes))
+        if arrays.range_of("alpha")[0] < 1.0 and not is_hidden and not material.use_transparent_shadow:
+            notes.append("Shadows {of} let light through, though its settings turn that off.")
+        always, on_paths = (
+            tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(causes))
+            for causes in (notes, path_notes)
+        )
+        program = arrays.program
+        return ReadMaterial(
+            self._place(key, arrays),
+            () if program is None else program.attributes,
+            () if program is None else program.instance_attributes,
+            always,
+            on_paths,
+            is_hidden,
+            arrays.is_seen_through,
+        )
+
+    def _arrays(
+        self, material: bpy.types.Material, notes: list[str], path_notes: list[str]
+    ) -> tuple[MaterialArrays, bool]:
+        """The material, and whether it has no surface; the lists get causes of remarks."""
+        tree = material.node_tree
+        if tree is None:
+            r, g, b, _ = material.diffuse_color
+            plain = MaterialArrays(
+                material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
+            )
+            return plain, False
+        builder = self._builder(notes)
+        surface = self._surface(builder, tree, material, notes)
+        arrays = made_material(builder, surface, material.name)
+        path_notes += builder.path_notes
+        volume = output_source(tree, "Volume")
+        if volume is not None:
+            arrays = self._with_volume(arrays, volume, notes, surface)
+        return arrays, surface.is_hidden
+
+    def _builder(self, notes: list[str]) -> Builder:
+        return Builder(self._handlers, self._images, notes, luminance_weights().tolist())
+
+    def _surface(self, b: Builder, tree: bpy.types.NodeTree, material: bpy.types.Material, notes: list[str]) -> Closure:
+        source = output_source(tree, "Surface")
+        if source is None:
+            # Without a volume Cycles shows no light at all.
+            return matt(BLACK) if output_source(tree, "Volume") is None else clear()
+        displacement = output_source(tree, "Displacement")
+        if displacement is not None:
+            notes.append("Displacement {of} is not shown.")
+        return surface_of(b, source)
+
+    def _with_volume(
+        self, arrays: MaterialArrays, volume: Source, notes: list[str], surface: Closure
+    ) -> MaterialArrays:
+        absorption = None if surface.is_hidden else read_absorption(self._builder(notes), volume)
+        # (What goes straight through surfaces does not know what it is inside of.)
+        is_lost = arrays.range_of("transmission")[1] == 0.0 and arrays.range_of("alpha")[0] < 1.0
+        if absorption is None or (any(absorption) and is_lost):
+            notes.append("Volumes {of} are not shown.")
+            return arrays
+        return replace(arrays, absorption=absorption)
+
+    def _place(self, key: int | MaterialArrays, arrays: MaterialArrays) -> int:
+        if key in self._places:
+            self.materials[self._places[key]] = arrays
+        else:
+            self._places[key] = len(self.materials)
+            self.materials.append(arrays)
+        return self._places[key]
+
+
+def _usable(program: Program, notes: list[str]) -> Program:
+    """With zeros for parameters that single precision cannot compute with."""
+    with np.errstate(invalid="ignore"):
+        bad = ~(np.abs(program.records) <= 1e30)
+    if not bad.any():
+        return program
+    notes.append("Numbers in the nodes {of} that are not usable are taken for 0.")
+    return replace(program, records=np.where(bad, np.float32(0.0), program.records))

@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A surface as the renderer gets it: constants, and a program for the rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...arrays import Glass, MaterialArrays
+from ..builder import Builder
+from ..expression import Expression
+from .arithmetic import settled
+from .closure import DEFAULTS, GLASS, GLOSSY_ONLY, PLAIN_NORMAL, REFRACTION, THIN_WALL, Closure
+
+
+def made_material(b: Builder, surface: Closure, name: str) -> MaterialArrays:
+    """Channels that are the same everywhere are fields; a program sets the others, if there are any."""
+    fields: dict[str, Any] = {}
+    varying: dict[str, Expression] = {}
+    for channel in DEFAULTS:
+        value = settled(surface.get(channel))
+        if value.constant is None:
+            varying[channel] = value
+        elif channel == "kind":
+            fields |= _kinds(int(value.constant[0]))
+        else:
+            fields[channel] = value.constant[0] if value.kind == "float" else value.constant
+    if varying["normal"] == PLAIN_NORMAL and not b.is_bent:
+        del varying["normal"]
+    if not varying:
+        return MaterialArrays(name, **fields)
+    ranges = tuple((channel, value.low, value.high) for channel, value in varying.items())
+    return MaterialArrays(name, **fields, program=b.finished(varying), ranges=ranges)
+
+
+def _kinds(bits: int) -> dict[str, Any]:
+    glass = Glass.REFRACTION if bits & int(REFRACTION) else Glass.GLASS if bits & int(GLASS) else Glass.PRINCIPLED
+    return {"glossy_only": bool(bits & int(GLOSSY_ONLY)), "thin_wall": bool(bits & int(THIN_WALL)), "glass": glass}
