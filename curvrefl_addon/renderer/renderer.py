@@ -39,6 +39,7 @@ from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
+from .programs.image_pages import DEFAULT_CAP
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
 from .surfaces.windows import Window, union
@@ -52,8 +53,15 @@ class Renderer:
     Of a view it keeps nothing but targets of its size: what was chosen and solved for it is its `Reflection`'s.
     """
 
-    def __init__(self, scene: SceneArrays, settings: Settings | None = None) -> None:
-        """Upload the scene and bake its reflectors.
+    def __init__(
+        self,
+        scene: SceneArrays,
+        settings: Settings | None = None,
+        image_memory: int = DEFAULT_CAP,
+        is_gradual: bool = False,
+    ) -> None:
+        """Upload the scene and bake its reflectors. `image_memory`: bytes that images of materials may take on the GPU.
+        With `is_gradual` materials and images get there by and by: `load_some`.
 
         Raises InputError for settings out of range and for reflectors that no map can hold, GpuUnavailableError
         without a GPU context.
@@ -76,7 +84,7 @@ class Renderer:
         self._placement = Placement(self.geometry.facts)
         self._given = scene
         self._follow_scene(self._placement.placed(scene))
-        self._materials = Materials(self.scene)
+        self._materials = Materials(self.scene, image_memory, is_gradual, self.geometry)
         self._lighting = Lighting(self.scene, self.geometry, self._materials, self.settings.samples)
         self._shade = ShadePass(self.scene, self._lighting, self._materials)
         self._tracer: PathTracer | None = None
@@ -319,6 +327,16 @@ class Renderer:
         """Do at once all that `improve` would do."""
         if self._rays is not None:
             self._rays.finish()
+
+    @property
+    def is_loading(self) -> bool:
+        """Some materials or images are not drawn as they are yet."""
+        return self._materials.is_loading
+
+    def load_some(self, seconds: float) -> None:
+        """Go on with that: a program, or images for about so long."""
+        if self._materials.load_some(seconds):
+            self.revision += 1
 
     @property
     def ray_counters(self) -> dict[str, int]:

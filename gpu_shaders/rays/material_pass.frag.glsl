@@ -52,7 +52,7 @@ void main()
   s.true_normal *= dot(s.true_normal, direction) > 0.0 ? -1.0 : 1.0;
   s.incoming = -direction;
   s.is_back = surface.is_back;
-  s.instance = instance_number(hit);
+  s.instance = row_of_instance(hit.instance);
   s.parametric = hit.place;
   s.ray_length = range;
 #ifdef OF_PATHS

@@ -12,7 +12,7 @@ void main()
   world_position = corner.position;
   world_normal = corner.normal;
 #ifdef PROGRAM
-  set_program_inputs(corner);
+  set_program_inputs(gl_VertexID);
 #endif
   ids = vec2(corner.object_id, corner.mirror);
   // Multiplied in this order: a product made beforehand rounds differently from other passes' depths.

@@ -17,7 +17,7 @@ void main()
   world_position = corner.position;
   world_normal = corner.normal;
 #ifdef PROGRAM
-  set_program_inputs(corner);
+  set_program_inputs(gl_VertexID);
 #endif
   object_id = corner.object_id;
   iterations = float(code >> 2);

@@ -18,7 +18,7 @@ from ..device.shaders import FULL_SCREEN, Piece, build_shader
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture, read_texture
 from ..geometry.chunk_attributes import attributes_of
-from ..programs.programs import program_piece
+from ..programs.programs import Surroundings, program_piece
 from ..surfaces.materials import DRAWN, TABLE, Materials
 
 LARGEST, SMALLEST = 2048, 64
@@ -71,7 +71,7 @@ class CasterBake:
 
     def _baked(self, index: int, program: Program, low: Any, size: Any, pixels: tuple[int, int]) -> Float32Array:
         texture = empty_texture(*pixels)
-        shader = _alpha_shader(program.shape)
+        shader = _alpha_shader(program.shape, self._materials.programs.around)
         target = frame_buffer(texture)
         with drawing_state(), target.bind():
             set_viewport(0, 0, *pixels)
@@ -103,11 +103,11 @@ def _reach(scene: SceneArrays, index: int, program: Program) -> tuple[Any, Any]:
 
 
 @gpu_cache
-def _alpha_shader(shape: Shape) -> Any:
+def _alpha_shader(shape: Shape, around: Surroundings) -> Any:
     return build_shader(
         "alpha of casters",
         FULL_SCREEN,
-        program_piece(shape),
+        program_piece(shape, around),
         TABLE,
         Piece(
             constants={"part": "VEC4", "pixels": "VEC2", "program_first": "INT", "turn": "IVEC2", **DRAWN.constants},

@@ -21,7 +21,7 @@ from ...scene.remarks import Remark, sentences
 from ..device.records import TEXTURE_WIDTH, padded_count, record_texture
 from ..device.shaders import Piece
 from ..device.textures import largest_texture
-from ..geometry.chunk_attributes import LACKING_BY_NAME
+from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..paths.features import lets_straight_on
 from .caster_images import CasterImage
 
@@ -67,6 +67,8 @@ class ShadowAlpha:
     def follow(self, scene: SceneArrays) -> bool:
         """Know another state of the scene; whether shadows differ by it."""
         self._scene = scene
+        self.attributes = attributes_of(scene)
+        """What programs read of meshes, in the order of their numbers"""
         if scene.materials is self._materials and scene.images is self._images:
             return False
         before = (self.materials, [self._key(index) for index in sorted(self.materials)])

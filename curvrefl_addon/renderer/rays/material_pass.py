@@ -15,7 +15,7 @@ from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import depth_texture
 from ..programs.buffers import Buffers, MaterialBuffers, fills
-from ..programs.programs import MOST_PROGRAMS, program_piece
+from ..programs.programs import MOST_PROGRAMS, Surroundings, program_piece
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.surface_buffer import SEEN_THROUGH
 from ..surfaces.view_block import VIEW
@@ -69,8 +69,6 @@ class MaterialPass:
         """
         if self._depth is None:
             self._depth = depth_texture(*self._size)
-        programs = materials.programs
-        assert programs is not None
         with drawing_state("ALWAYS", depth_write=True), frame_buffer(depth=self._depth).bind(), scissored(window):
             set_viewport(0, 0, *self._size)
             shader = _classes_shader()
@@ -84,14 +82,11 @@ class MaterialPass:
         target = self._target(hits, made, materials.buffers)
         with drawing_state("EQUAL"), target.bind(), scissored(window):
             set_viewport(0, 0, *self._size)
-            for number, shape in enumerate(programs.shapes):
-                if shape in programs.waiting:
-                    continue
-                shader = _pass_shader(shape, materials.buffers, hits.way is not None)
+            for number, shape in materials.programs.admitted:
+                shader = _pass_shader(shape, materials.programs.around, hits.way is not None)
                 shader.bind()
                 rays.bind(shader)
                 materials.bind_program(shader, shape, turn)
-                rays.bind_attributes(shader, shape)
                 shader.uniform_float("program_number", float(number))
                 shader.uniform_block("view", view_uniforms)
                 shader.uniform_sampler("vertex_position", hits.position)
@@ -128,7 +123,7 @@ def _classes_shader() -> Any:
 
 
 @gpu_cache
-def _pass_shader(shape: Shape, buffers: Buffers, of_paths: bool) -> Any:
+def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool) -> Any:
     paths = Piece(
         samplers=named("FLOAT_2D", "path_way", "path_throughput"),
         defines={**flags("OF_PATHS", "PATH_STEP"), "SEEN_THROUGH": SEEN_THROUGH},
@@ -136,12 +131,12 @@ def _pass_shader(shape: Shape, buffers: Buffers, of_paths: bool) -> Any:
     return build_shader(
         "material pass",
         Piece(inputs={"pos": "VEC2"}, vertex="rays/full_screen_of_program.vert.glsl"),
-        program_piece(shape),
+        program_piece(shape, around),
         VIEW,
         RAYS,
         TABLE,
         Piece(outputs=named("VEC4", "surface_normal", "surface_color_out")),
-        *((fills(buffers),) if buffers else ()),
+        fills(around.buffers),
         *((paths,) if of_paths else ()),
         Piece(
             samplers=named("FLOAT_2D", "vertex_position", "before_position", "path_hit"),

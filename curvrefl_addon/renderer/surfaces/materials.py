@@ -12,9 +12,12 @@ from ...scene.arrays import Glass, MaterialArrays, SceneArrays
 from ...scene.programs.program import Shape
 from ..device.records import record_texture
 from ..device.shaders import Piece, named
-from ..geometry.chunk import HOLDOUT, Chunk
+from ..geometry.chunk import HOLDOUT, Triangles
+from ..geometry.chunk_attributes import CORNER_ATTRIBUTES, CORNER_INSTANCES
+from ..geometry.scene_geometry import SceneGeometry
+from ..programs.image_pages import DEFAULT_CAP
 from ..programs.buffers import Buffers, buffers_for, varies_bits
-from ..programs.programs import Programs, program_piece
+from ..programs.programs import Programs, Surroundings, program_piece
 from .surface_buffer import SEEN_THROUGH
 
 RECORDS = 11
@@ -31,16 +34,16 @@ OF_PATHS = Piece(constants={"seen_through": "FLOAT"}, defines={"PATHS": "", "SEE
 GLOSSY_ONLY, THIN_WALL, GLASS, REFRACTION = 1, 2, 4, 8
 """KIND_ bits of `programs/material.glsl`"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
-DEFAULT_IMAGE_MEMORY = 1 << 30
-"""Bytes that images of programs may take"""
 
 
 class Materials:
     """GPU side of `SceneArrays.materials` and `.images`."""
 
-    def __init__(self, scene: SceneArrays, image_memory: int = DEFAULT_IMAGE_MEMORY) -> None:
-        """`image_memory`: bytes that images may take."""
-        self._image_memory = image_memory
+    def __init__(
+        self, scene: SceneArrays, image_memory: int = DEFAULT_CAP, is_gradual: bool = False, geometry: SceneGeometry | None = None
+    ) -> None:
+        """`image_memory`: bytes that images may take; `is_gradual`: see `Programs`. `geometry`: whose chunks are drawn."""
+        self._image_memory, self._is_gradual, self._geometry = image_memory, is_gradual, geometry
         self._programs: Programs | None = None
         self.follow(scene)
 
@@ -50,7 +53,7 @@ class Materials:
         if self._programs is not None:
             self._programs.follow(scene)
         elif any(item.program is not None for item in scene.materials):
-            self._programs = Programs(scene, self._image_memory)
+            self._programs = Programs(scene, self._image_memory, self._is_gradual)
         self._fill_table()
 
     def move(self, scene: SceneArrays) -> None:
@@ -82,12 +85,18 @@ class Materials:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is not drawn as it is, one sentence each."""
-        return () if self._programs is None else self._programs.pages.warnings
+        return () if self._programs is None else self._programs.warnings
 
     @property
-    def programs(self) -> Programs | None:
-        """None where no material has one."""
+    def programs(self) -> Programs:
+        """Of a scene that `has_programs`."""
+        assert self._programs is not None
         return self._programs
+
+    @property
+    def around(self) -> Surroundings | None:
+        """What programs are compiled for; None where there are none."""
+        return None if self._programs is None else self._programs.around
 
     @property
     def buffers(self) -> Buffers:
@@ -102,12 +111,17 @@ class Materials:
         """Of a material's program; None where it is the same everywhere."""
         return None if self._programs is None else self._programs.shape_of(index)
 
-    def admit_one(self) -> bool:
-        """Let in one of the programs that are held back (`Programs.hold_back`); whether there was one."""
-        admitted = self._programs is not None and self._programs.admit()
-        if admitted:
+    @property
+    def is_loading(self) -> bool:
+        """Some materials are still drawn by their constants, or without their images."""
+        return self._programs is not None and self._programs.is_loading
+
+    def load_some(self, seconds: float) -> bool:
+        """See `Programs.load_some`."""
+        is_changed = self._programs is not None and self._programs.load_some(seconds)
+        if is_changed:
             self._fill_table()
-        return admitted
+        return is_changed
 
     def bind_for_paths(self, shader: Any, index: int) -> None:
         """Set what `OF_PATHS` names."""
@@ -128,6 +142,17 @@ class Materials:
         shader.uniform_sampler("materials", self.table)
         shader.uniform_int("turn", turn)
 
+    def bind_triangles(self, shader: Any, triangles: Triangles, shape: Shape | None) -> None:
+        """The triangles of a pass over them, and what a program reads of them."""
+        shader.uniform_sampler("positions", triangles.positions)
+        shader.uniform_sampler("corners", triangles.corners)
+        if shape is not None:
+            assert self._geometry is not None
+            attributes = triangles.attributes
+            shader.uniform_sampler("corner_attribute_records", attributes.texture(self.programs.attributes))
+            rows = self._geometry.rows_of(triangles.placed_chunk)
+            shader.uniform_sampler("corner_instance_records", attributes.instance_texture(rows))
+
     def _of(self, index: int) -> MaterialArrays:
         return _HOLDOUT if index == HOLDOUT else self._materials[index]
 
@@ -142,7 +167,7 @@ def kind_of(material: MaterialArrays) -> int:
     )
 
 
-def forward_pieces(shape: Shape) -> tuple[Piece, ...]:
+def forward_pieces(shape: Shape, around: Surroundings) -> tuple[Piece, ...]:
     """For passes over triangles that make the surface of each fragment by a program: they go before the pass's own."""
     names = [f"attribute_{number}" for number in range(shape.attributes)]
     cases = " ".join(f"s.attributes[{k}] = {name};" for k, name in enumerate(names))
@@ -154,8 +179,10 @@ def forward_pieces(shape: Shape) -> tuple[Piece, ...]:
         f"{name} = corner_attribute(index, {first.format(number)});" for number, name in enumerate(names)
     )
     return (
-        program_piece(shape),
+        program_piece(shape, around),
         TABLE,
+        CORNER_ATTRIBUTES,
+        CORNER_INSTANCES,
         Piece(
             constants={"program_first": "INT", "turn": "IVEC2"},
             smooth=named("VEC4", *names),
@@ -163,11 +190,3 @@ def forward_pieces(shape: Shape) -> tuple[Piece, ...]:
             defines={"ATTRIBUTE_CASES": cases, "NEIGHBOR_CASES": across, "VERTEX_CASES": vertex},
         ),
     )
-
-
-def bind_chunk(shader: Any, chunk: Chunk, shape: Shape | None) -> None:
-    """The triangles of a pass over them, and what a program reads of them."""
-    shader.uniform_sampler("positions", chunk.positions)
-    shader.uniform_sampler("corners", chunk.corners)
-    if shape is not None:
-        chunk.bind_attributes(shader, shape)

@@ -14,8 +14,9 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
-from ..programs.buffers import Buffers, fills
-from .materials import DRAWN, OF_PATHS, Materials, bind_chunk, forward_pieces
+from ..programs.buffers import fills
+from ..programs.programs import Surroundings
+from .materials import DRAWN, OF_PATHS, Materials, forward_pieces
 from .surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from .view_block import VIEW
 from .windows import Window
@@ -48,7 +49,8 @@ class _Kind:
     is_smooth: bool
     has_linear_depth: bool
     has_paths: bool
-    buffers: Buffers
+    around: Surroundings | None
+    """None where the scene has no programs"""
 
 
 def draw_primary(
@@ -79,7 +81,7 @@ def draw_primary(
             by_shape.setdefault(materials.shape_of(item[0]), []).append(item)
         for shape, chosen in by_shape.items():
             smooth = shape is not None and is_smooth(chunk)
-            kind = _Kind(shape, is_followed(chunk), smooth, depths is not None, has_paths, materials.buffers)
+            kind = _Kind(shape, is_followed(chunk), smooth, depths is not None, has_paths, materials.around)
             groups.setdefault(kind, []).append((chunk, tuple(chosen)))
     with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored):
         with target.frame_buffer.bind():
@@ -96,7 +98,7 @@ def draw_primary(
                 if kind.shape is not None:
                     materials.bind_program(shader, kind.shape, (sub_frame, 0))
                 for chunk, batches in groups[kind]:
-                    bind_chunk(shader, chunk, kind.shape)
+                    materials.bind_triangles(shader, chunk, kind.shape)
                     hide_faces(hidden_faces(chunk))
                     for material, batch in batches:
                         materials.bind(shader, material)
@@ -111,13 +113,13 @@ def _primary_shader(kind: _Kind) -> Any:
         "primary" if kind.shape is None else "primary of a program",
         VIEW,
         CHUNK,
-        *(() if kind.shape is None else forward_pieces(kind.shape)),
+        *(() if kind.shape is None or kind.around is None else forward_pieces(kind.shape, kind.around)),
         DRAWN,
         *((FOLLOWED,) if kind.is_followed else ()),
         *((SMOOTH,) if kind.is_smooth else ()),
         *((LINEAR_DEPTH,) if kind.has_linear_depth else ()),
         SURFACE_OUTPUTS,
-        *((fills(kind.buffers),) if kind.buffers else ()),
+        *(() if kind.around is None else (fills(kind.around.buffers),)),
         *((OF_PATHS,) if kind.has_paths else ()),
         Piece(
             smooth=named("VEC3", "world_position", "world_normal"),

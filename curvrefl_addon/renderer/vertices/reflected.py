@@ -14,8 +14,9 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK
-from ..programs.buffers import Buffers, fills
-from ..surfaces.materials import DRAWN, Materials, bind_chunk, forward_pieces
+from ..programs.buffers import fills
+from ..programs.programs import Surroundings
+from ..surfaces.materials import DRAWN, Materials, forward_pieces
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -51,7 +52,7 @@ def draw_reflected(
     with drawing_state("LESS_EQUAL", depth_write=True), target.target(materials.buffers).bind(), scissored(window):
         set_viewport(0, 0, target.width, target.height)
         for shape in shapes:
-            shader = _reflected_shader(back_faces is not None, shape, materials.buffers)
+            shader = _reflected_shader(back_faces is not None, shape, materials.around)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("mirror", float(mirror))
@@ -71,7 +72,7 @@ def draw_reflected(
                 if not chosen:
                     continue
                 shader.uniform_float("stretched", STRETCHED_COSINE if part.image == 0 else STRETCHED_COSINE_IN_REGION)
-                bind_chunk(shader, part.chunk, shape)
+                materials.bind_triangles(shader, part.chunk, shape)
                 shader.uniform_sampler("reflection_points", part.solution.reflection_points)
                 shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
                 for material, batch in chosen:
@@ -80,16 +81,16 @@ def draw_reflected(
 
 
 @gpu_cache
-def _reflected_shader(with_back_faces: bool, shape: Shape | None, buffers: Buffers) -> Any:
+def _reflected_shader(with_back_faces: bool, shape: Shape | None, around: Surroundings | None) -> Any:
     back_faces = Piece(samplers={"back_faces": "FLOAT_2D"}, defines=flags("BACK_FACES"))
     return build_shader(
         "reflected" if shape is None else "reflected of a program",
         VIEW,
         CHUNK,
-        *(() if shape is None else forward_pieces(shape)),
+        *(() if shape is None or around is None else forward_pieces(shape, around)),
         DRAWN,
         SURFACE_OUTPUTS,
-        *((fills(buffers),) if buffers else ()),
+        *(() if around is None else (fills(around.buffers),)),
         Piece(
             samplers=named(
                 "FLOAT_2D", "reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"
