@@ -67,9 +67,7 @@ def read_world(
     return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
 
 
-def _background(
-    world: bpy.types.World, images: ImageReader, warnings: list[Remark], programs: Images
-) -> WorldArrays:
+def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark], programs: Images) -> WorldArrays:
     notes: list[str] = []
     if output_source(world.node_tree, "Volume") is not None:
         notes.append("The volume {of} is not shown.")

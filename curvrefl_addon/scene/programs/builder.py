@@ -62,7 +62,6 @@ class Builder:
         self._needs: set[str] = set()
         self._depends: set[str] = set()
         self._open: set[Any] = set()
-        self.is_bent = False
         self.path_notes: list[str] = []
         """Causes of remarks that count where paths go on: on mirrors and on what is seen through"""
 
@@ -200,7 +199,7 @@ class Builder:
         self._needs.add(name)
 
     def depend(self, what: str) -> None:
-        """What values differ with, beside the mesh's own coordinates: "position", "ray", "instance", "random"."""
+        """What values differ with beside a mesh's own: "position", "generated", "ray", "instance", "random"."""
         self._depends.add(what)
 
     def function(self, source: Source, kind: Kind) -> str:
@@ -225,11 +224,6 @@ class Builder:
         """The same of what only those see who look closely: on mirrors and through glass."""
         if cause not in self.path_notes:
             self.path_notes.append(cause)
-
-    def bend(self, normal: Expression) -> None:
-        """From here on the surface's own normal is another one (unit)."""
-        self.is_bent = True
-        self._lines.append(f"  s.normal = {normal.text};")
 
     # The end
 

@@ -6,18 +6,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import bpy
 import numpy as np
 
-from ..arrays import ImageArrays, MaterialArrays
+from ..arrays import MaterialArrays
 from ..finite import usable_material
 from ..materials.color_spaces import luminance_weights
 from ..materials.node_links import Source, output_source
 from ..remarks import Remark
 from .builder import Builder, Handler, Images
-from .program import Attribute, Program
+from .nodes.values.bumps import displacement_as_bump
+from .program import Program
 from .registry import HANDLERS
 from .shaders.closure import BLACK, Closure, clear, matt
 from .shaders.made_material import made_material
@@ -28,25 +28,12 @@ EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0
 """What Cycles draws without a material: a diffuse gray"""
 
 
-class ImageList(Images, Protocol):
-    """The images of all materials' programs."""
-
-    @property
-    def images(self) -> list[ImageArrays]:
-        """Each keeps its place while any program shows it."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class ReadMaterial:
     """A material of the scene."""
 
     index: int
     """Into `MaterialReader.materials`"""
-    attributes: tuple[Attribute, ...] = ()
-    """What it reads of the meshes it is on"""
-    instance_attributes: tuple[str, ...] = ()
-    """What it reads of instances and objects"""
     remarks: tuple[Remark, ...] = ()
     """What is not drawn as it is"""
     path_remarks: tuple[Remark, ...] = ()
@@ -63,7 +50,7 @@ class ReadMaterial:
 class MaterialReader:
     """Reads each material once, and again after `forget`."""
 
-    def __init__(self, images: ImageList, handlers: Mapping[str, Handler] = HANDLERS) -> None:
+    def __init__(self, images: Images, handlers: Mapping[str, Handler] = HANDLERS) -> None:
         self.materials: list[MaterialArrays] = [EMPTY_SLOT]
         """A material keeps its place in it"""
         self.reads = 0
@@ -109,16 +96,7 @@ class MaterialReader:
             tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(causes))
             for causes in (notes, path_notes)
         )
-        program = arrays.program
-        return ReadMaterial(
-            self._place(key, arrays),
-            () if program is None else program.attributes,
-            () if program is None else program.instance_attributes,
-            always,
-            on_paths,
-            is_hidden,
-            arrays.is_seen_through,
-        )
+        return ReadMaterial(self._place(key, arrays), always, on_paths, is_hidden, arrays.is_seen_through)
 
     def _arrays(
         self, material: bpy.types.Material, notes: list[str], path_notes: list[str]
@@ -126,15 +104,16 @@ class MaterialReader:
         """The material, and whether it has no surface; the lists get causes of remarks."""
         tree = material.node_tree
         if tree is None:
-            r, g, b, _ = material.diffuse_color
+            red, green, blue, _ = material.diffuse_color
             plain = MaterialArrays(
-                material.name, base_color=(r, g, b), metallic=material.metallic, roughness=material.roughness
+                material.name, base_color=(red, green, blue), metallic=material.metallic, roughness=material.roughness
             )
             return plain, False
-        builder = self._builder(notes)
-        surface = self._surface(builder, tree, material, notes)
-        arrays = made_material(builder, surface, material.name)
-        path_notes += builder.path_notes
+        b = self._builder(notes)
+        is_bent = self._displaced(b, tree, material)
+        surface = self._surface(b, tree)
+        arrays = made_material(b, surface, material.name, is_bent)
+        path_notes += b.path_notes
         volume = output_source(tree, "Volume")
         if volume is not None:
             arrays = self._with_volume(arrays, volume, notes, surface)
@@ -143,14 +122,23 @@ class MaterialReader:
     def _builder(self, notes: list[str]) -> Builder:
         return Builder(self._handlers, self._images, notes, luminance_weights().tolist())
 
-    def _surface(self, b: Builder, tree: bpy.types.NodeTree, material: bpy.types.Material, notes: list[str]) -> Closure:
+    @staticmethod
+    def _displaced(b: Builder, tree: bpy.types.NodeTree, material: bpy.types.Material) -> bool:
+        """Bend the normals of what the tree displaces; whether it does."""
+        source = output_source(tree, "Displacement")
+        if source is None:
+            return False
+        if material.displacement_method != "BUMP":
+            # (Modifiers displace meshes, and these are drawn so.)
+            b.note("Displacement {of} is drawn as bumps: the mesh stays where it is.")
+        return displacement_as_bump(b, source) is not None
+
+    @staticmethod
+    def _surface(b: Builder, tree: bpy.types.NodeTree) -> Closure:
         source = output_source(tree, "Surface")
         if source is None:
             # Without a volume Cycles shows no light at all.
             return matt(BLACK) if output_source(tree, "Volume") is None else clear()
-        displacement = output_source(tree, "Displacement")
-        if displacement is not None:
-            notes.append("Displacement {of} is not shown.")
         return surface_of(b, source)
 
     def _with_volume(

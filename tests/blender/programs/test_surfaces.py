@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import Glass, ImageArrays, MaterialArrays
+from curvrefl.curvrefl_addon.scene.arrays import Glass, MaterialArrays
 from curvrefl.curvrefl_addon.scene.materials.node_links import Source
 from curvrefl.curvrefl_addon.scene.programs.builder import Builder
 from curvrefl.curvrefl_addon.scene.programs.expression import Expression
@@ -21,8 +21,6 @@ type Build = Callable[["Tree"], Any]
 
 class NoImages:
     """Stands for the images of a scene that has none."""
-
-    images: ClassVar[list[ImageArrays]] = []
 
     def index_of(self, node: Any, note: Any, splits_alpha: bool) -> int | None:
         return None

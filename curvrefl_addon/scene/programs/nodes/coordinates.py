@@ -35,6 +35,7 @@ def generated(b: Builder) -> Expression:
     b.depend("position")
     if b.is_world:
         return Expression("s.position", "vector")
+    b.depend("generated")
     b.need("PROGRAM_INSTANCE")
     b.include("programs/instances.glsl")
     text = "to_object(s, s.position) * instance_record(s, 8).xyz + instance_record(s, 9).xyz"

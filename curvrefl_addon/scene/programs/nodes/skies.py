@@ -54,9 +54,7 @@ def sky_texture(b: Builder, source: Source) -> Expression:
     b.record(*lowest, -multiple_scattering.horizon(altitude))
     b.record(*highest)
     b.table(_table(kind, elevation, altitude, air, aerosol, ozone))
-    return b.call(
-        "color", "sky_scattered", f"s.records + {first}", vector, apart, file="nodes/sky.glsl", low=0.0
-    )
+    return b.call("color", "sky_scattered", f"s.records + {first}", vector, apart, file="nodes/sky.glsl", low=0.0)
 
 
 def is_plain(b: Builder, source: Source) -> bool:
@@ -77,9 +75,7 @@ def sun_angles(node: Any) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=4)
-def _table(
-    kind: str, elevation: float, altitude: float, air: float, aerosol: float, ozone: float
-) -> Float64Array:
+def _table(kind: str, elevation: float, altitude: float, air: float, aerosol: float, ozone: float) -> Float64Array:
     make = single_scattering if kind == "SINGLE_SCATTERING" else multiple_scattering
     return make.sky_table(elevation, altitude, air, aerosol, ozone).reshape(-1, 3)
 

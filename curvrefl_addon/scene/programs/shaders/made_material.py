@@ -13,8 +13,11 @@ from .arithmetic import settled
 from .closure import DEFAULTS, GLASS, GLOSSY_ONLY, PLAIN_NORMAL, REFRACTION, THIN_WALL, Closure
 
 
-def made_material(b: Builder, surface: Closure, name: str) -> MaterialArrays:
-    """Channels that are the same everywhere are fields; a program sets the others, if there are any."""
+def made_material(b: Builder, surface: Closure, name: str, is_bent: bool = False) -> MaterialArrays:
+    """Channels that are the same everywhere are fields; a program sets the others, if there are any.
+
+    `is_bent`: the program's own normal is not the mesh's.
+    """
     fields: dict[str, Any] = {}
     varying: dict[str, Expression] = {}
     for channel in DEFAULTS:
@@ -25,7 +28,7 @@ def made_material(b: Builder, surface: Closure, name: str) -> MaterialArrays:
             fields |= _kinds(int(value.constant[0]))
         else:
             fields[channel] = value.constant[0] if value.kind == "float" else value.constant
-    if varying["normal"] == PLAIN_NORMAL and not b.is_bent:
+    if varying["normal"] == PLAIN_NORMAL and not is_bent:
         del varying["normal"]
     if not varying:
         return MaterialArrays(name, **fields)
