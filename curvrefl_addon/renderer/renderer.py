@@ -29,6 +29,7 @@ from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
+from .programs.image_pages import DEFAULT_CAP
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
 from .seen import draw_seen
@@ -39,7 +40,6 @@ from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
-from .programs.image_pages import DEFAULT_CAP
 from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
 from .surfaces.windows import Window, union

@@ -330,7 +330,8 @@ class SceneArrays:
     instances: tuple[InstanceArrays, ...]
     materials: tuple[MaterialArrays, ...]
     """Index 0 is the default material for empty slots"""
-    images: tuple[ImageArrays, ...]
+    images: tuple[ImageSource, ...]
+    """What programs look up"""
     lights: tuple[LightArrays, ...]
     world: WorldArrays
     reflectors: tuple[int, ...] = ()

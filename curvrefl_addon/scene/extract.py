@@ -22,8 +22,9 @@ from .instances.values import comparable, values_of_instance
 from .lights import read_light
 from .materials.color_spaces import working_space
 from .materials.images import ImageReader
-from .materials.materials import MaterialReader, ReadMaterial
 from .meshes.mesh_store import MeshStore
+from .programs.images import ProgramImages
+from .programs.material_reader import MaterialReader, ReadMaterial
 from .reads import (
     Bounces,
     PlainObject,
@@ -69,7 +70,8 @@ class SceneReader:
     def __init__(self) -> None:
         self.counters = {"walks": 0, "objects read": 0, "worlds read": 0}
         self._images = ImageReader()
-        self._materials = MaterialReader(self._images)
+        self._program_images = ProgramImages()
+        self._materials = MaterialReader(self._program_images)
         self._meshes = MeshStore()
         self._shown: dict[tuple[int, int, int], ShownInstance] = {}
         """By (object, what instances it or 0, which of these)"""
@@ -91,7 +93,7 @@ class SceneReader:
     @property
     def sequences(self) -> set[int]:
         """Images (session_uid) that another frame may change."""
-        return self._images.sequences
+        return self._images.sequences | self._program_images.sequences
 
     @property
     def reads(self) -> dict[str, int]:
@@ -100,7 +102,7 @@ class SceneReader:
             **self.counters,
             "meshes read": self._meshes.reads,
             "materials read": self._materials.reads,
-            "images read": self._images.reads,
+            "images read": self._images.reads + self._program_images.reads,
         }
 
     def read(
@@ -129,16 +131,21 @@ class SceneReader:
             changes.everything = True
         if changes.everything:
             self._images.forget_all()
+            self._program_images.forget_all()
         if changes.everything or changes.frame:
-            self._materials.forget_all()
+            changes.all_materials = True
             self._meshes.forget_all()
         if self._last is None or changes.everything or changes.frame:
             changes.world = changes.instances = True
         if changes.images:
             self._images.forget(changes.images)
-            changes.all_materials = changes.world = True
+            self._program_images.forget(changes.images)
+            changes.all_materials = True
         if changes.all_materials:
             self._materials.forget_all()
+            # (Programs of the world show some of these, too.)
+            self._program_images.restart()
+            changes.world = True
         self._materials.forget(changes.materials)
         self._meshes.forget(changes.geometry)
         walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)
@@ -262,8 +269,6 @@ class SceneReader:
         slots = self._slots(obj, uid, view_layer.material_override)
         is_mirror = uid in self._mapped
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
-        if not is_mirror and any(slot.has_relief for slot in slots):
-            warnings.append(Remark("Bumps {of} are left out: only mirrors show theirs.", "object", name))
         found = (self._materials.materials[slot.index].program for slot in slots)
         programs = tuple(program for program in found if program is not None)
         needs = needs_of(obj, slots, programs, warnings)
@@ -313,13 +318,13 @@ class SceneReader:
     def _slots(self, obj: bpy.types.Object, uid: int, override: bpy.types.Material | None) -> list[ReadMaterial]:
         if uid in self._overrides:
             return [self._materials.plain(self._overrides[uid])]
-        return [self._materials.read(material, uid in self._mapped) for material in slot_materials(obj, override)]
+        return [self._materials.read(material) for material in slot_materials(obj, override)]
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
         self._world_uid = uid_of_block(world)
         self._world_warnings = []
-        self._world = read_world(world, self._images, self._world_warnings)
+        self._world = read_world(world, self._images, self._world_warnings, self._program_images)
 
     def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
@@ -335,11 +340,13 @@ class SceneReader:
             meshes=tuple(self._meshes.meshes),
             instances=tuple(instances),
             materials=tuple(self._materials.materials),
-            images=tuple(self._materials.images),
+            images=self._program_images.sources,
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=reflecting,
-            warnings=sentences([*warnings, *self._unseen, *self._images.remarks, *self._world_warnings]),
+            warnings=sentences(
+                [*warnings, *self._unseen, *self._images.remarks, *self._program_images.remarks, *self._world_warnings]
+            ),
             most_bounces=bounces.most,
             mirror_bounces=bounces.mirror,
             transmission_bounces=bounces.transmission,

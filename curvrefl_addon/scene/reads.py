@@ -15,8 +15,8 @@ import numpy as np
 from ..errors import InputError
 from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .finite import problem_of_place
-from .materials.materials import ReadMaterial
-from .meshes.meshes import GENERATED, MeshNeeds
+from .meshes.meshes import MeshNeeds
+from .programs.material_reader import ReadMaterial
 from .programs.program import Program
 from .remarks import Remark
 
@@ -173,27 +173,16 @@ def needs_of(
     programs: Sequence[Program],
     warnings: list[Remark | str],
 ) -> MeshNeeds:
-    """What the first slots that need a UV map or colors say, a mesh has one of each here; all that `programs` do."""
-    mesh = obj.data
-    assert isinstance(mesh, bpy.types.Mesh)
-    default = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
-    uv_maps = [uv_map for slot in slots for uv_map in slot.uv_maps]
-    colors = [slot.colors for slot in slots if slot.colors is not None]
-    if len({uv_map or default for uv_map in uv_maps}) > 1:
-        warnings.append(Remark("Textures {of} are drawn on one UV map, though they use several.", "object", obj.name))
-    if GENERATED in uv_maps and any(modifier.type in DEFORMING for modifier in obj.original.modifiers):
+    """What the programs read of an object's mesh, and which of its slots show nothing."""
+    if any("generated" in program.sampled for program in programs) and any(
+        modifier.type in DEFORMING for modifier in obj.original.modifiers
+    ):
         warnings.append(
             Remark("Generated coordinates {of} are taken of its deformed shape, not of its own.", "object", obj.name)
         )
-    if len(set(colors)) > 1:
-        warnings.append(Remark("Vertex colors {of} are one attribute for all its materials.", "object", obj.name))
     hidden = tuple(slot.is_hidden for slot in slots)
-    return MeshNeeds(
-        uv_maps[0] if uv_maps else None,
-        colors[0] if colors else None,
-        hidden if any(hidden) else (),
-        tuple(sorted({attribute for program in programs for attribute in program.attributes})),
-    )
+    attributes = sorted({attribute for program in programs for attribute in program.attributes})
+    return MeshNeeds(None, None, hidden if any(hidden) else (), tuple(attributes))
 
 
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:

@@ -89,7 +89,11 @@ def _reach(scene: SceneArrays, index: int, program: Program) -> tuple[Any, Any]:
     lows, highs = [], []
     for mesh in {instance.mesh for instance in scene.instances if index in instance.materials}:
         arrays = scene.meshes[mesh]
-        if arrays.corner_attributes is None or program.attributes[0] not in arrays.attributes or not len(arrays.triangles):
+        if (
+            arrays.corner_attributes is None
+            or program.attributes[0] not in arrays.attributes
+            or not len(arrays.triangles)
+        ):
             continue
         uv = arrays.corner_attributes[:, arrays.attributes.index(program.attributes[0]), :2]
         uv = uv[np.isfinite(uv).all(axis=1)]

@@ -33,7 +33,7 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
         for index, material in enumerate(scene.materials)
         if not material.is_seen_through and _shine(material) > SHINY
     }
-    strong = {index for index, material in enumerate(scene.materials) if max(material.emission) > STRONG}
+    strong = {index for index, material in enumerate(scene.materials) if _emits(material) > STRONG}
     found = []
     if shiny and len(scene.instances) > 1:
         others = [item for item in scene.instances if item.object_id not in scene.reflectors]
@@ -62,19 +62,35 @@ def is_lit_indirectly(scene: SceneArrays) -> bool:
     """Whether the file's own renders follow light on from surfaces that scatter it."""
     used = {index for instance in scene.instances for index in instance.materials}
     return scene.diffuse_bounces > 0 and any(
-        scene.materials[index].metallic < 1.0 and not scene.materials[index].glossy_only for index in used
+        scene.materials[index].range_of("metallic")[0] < 1.0 and not scene.materials[index].glossy_only
+        for index in used
     )
 
 
 def _shine(material: MaterialArrays) -> float:
     """See `SHINY`. A texture counts as white."""
-    color = max(material.base_color)
+    color = 1.0 if _sets(material, "base_color") else max(material.base_color)
+    roughness = min(max(material.range_of("roughness")[0], 0.0), 1.0)
+    metallic = min(max(material.range_of("metallic")[1], 0.0), 1.0)
     root = (material.ior - 1.0) / (material.ior + 1.0)
     # (What very rough dielectrics reflect of all around them hardly differs from place to place.)
-    dielectric = min(2.0 * material.specular_level * root * root, 0.99) * (1.0 - material.roughness**3)
-    metal = 1.0 if material.glossy_only else material.metallic
-    below = ORDINARY_LIGHT * (1.0 - metal) * color + max(material.emission)
+    level = min(max(material.range_of("specular_level")[1], 0.0), 1.0)
+    dielectric = min(2.0 * level * root * root, 0.99) * (1.0 - roughness**3)
+    metal = 1.0 if material.glossy_only else metallic
+    below = ORDINARY_LIGHT * (1.0 - metal) * color + (0.0 if _sets(material, "emission") else max(material.emission))
     return _shown(below + ORDINARY_CONTRAST * (metal * color + (1.0 - metal) * dielectric)) - _shown(below)
+
+
+def _emits(material: MaterialArrays) -> float:
+    """Its greatest radiance; endless where that is not known."""
+    if not _sets(material, "emission"):
+        return max(material.emission)
+    return next((high for name, _, high in material.ranges if name == "emission"), np.inf)
+
+
+def _sets(material: MaterialArrays, channel: str) -> bool:
+    """Whether its program does, from place to place."""
+    return material.program is not None and channel in material.program.shape.channels
 
 
 def _shown(radiance: float) -> float:

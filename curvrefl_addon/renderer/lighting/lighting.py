@@ -92,9 +92,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
 class Lighting:
     """GPU resources that light one scene; `free()` when done."""
 
-    def __init__(
-        self, scene: SceneArrays, geometry: SceneGeometry, materials: Materials, sub_frames: int = 16
-    ) -> None:
+    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, materials: Materials, sub_frames: int = 16) -> None:
         """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
         self.sub_frames = max(sub_frames, 1)
         self._geometry = geometry
@@ -250,7 +248,16 @@ class Lighting:
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "_world_image", "_world_seen", "ggx"):
+        for name in (
+            "_bound",
+            "_casters",
+            "_lamp_maps",
+            "_world_maps",
+            "_world_textures",
+            "_world_image",
+            "_world_seen",
+            "ggx",
+        ):
             self.__dict__.pop(name, None)
 
     @property

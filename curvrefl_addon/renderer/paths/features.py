@@ -10,8 +10,8 @@ from ...optics.scattering.microfacet import SHARP_ALPHA
 from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
-SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
-TINT = "PATHS_TINT"
+ANISOTROPY, FILM, ABSORPTION, TINT = "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION", "PATHS_TINT"
+VARIES = "PATHS_VARIES"
 """Defines of the shaders of paths"""
 
 
@@ -56,30 +56,54 @@ def goes_on(material: MaterialArrays, is_mirror: bool) -> bool:
 
 def lets_straight_on(material: MaterialArrays) -> bool:
     """Whether light goes through as if nothing was there, at some places or in part: not so through glass."""
-    return material.alpha < 1.0
+    return material.range_of("alpha")[0] < 1.0
+
+
+def has_base(material: MaterialArrays) -> bool:
+    """Whether a surface shows something besides what its lobes do, at least at some places."""
+    if _varies(material):
+        return True
+    shines = max(material.emission) > 0.0
+    is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
+    return shines or not is_lobe_alone
+
+
+def _varies(material: MaterialArrays) -> bool:
+    """Whether more than its base color and its normal differs from place to place."""
+    return material.program is not None and not {"base_color", "normal"}.issuperset(material.program.shape.channels)
 
 
 def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
     """Defines that a path needs which goes on from the material. `is_mirror`: of a chosen mirror."""
+
+    def most(channel: str) -> float:
+        return material.range_of(channel)[1]
+
+    def is_set(channel: str) -> bool:
+        """By a program, from place to place."""
+        return material.program is not None and channel in material.program.shape.channels
+
     # (Lobes of what only lets light straight on are not followed.)
-    is_followed = is_mirror or material.transmission > 0.0
+    is_followed = is_mirror or most("transmission") > 0.0
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
-    is_dielectric = material.specular_level > 0.0 and material.ior != 1.0
-    reflects = material.metallic > 0.0 or material.glossy_only or is_dielectric
-    has_scalars = material.scalars is not None
-    is_rough = (reflects or material.transmission > 0.0) and material.roughness**2 >= SHARP_ALPHA
-    is_coat_rough = material.coat_weight > 0.0 and material.coat_roughness**2 >= SHARP_ALPHA
+    is_dielectric = most("specular_level") > 0.0 and (material.ior != 1.0 or is_set("ior"))
+    is_glossy_only = material.glossy_only or is_set("kind")
+    reflects = most("metallic") > 0.0 or is_glossy_only or is_dielectric
+    is_rough = (reflects or most("transmission") > 0.0) and max(most("roughness"), 0.0) ** 2 >= SHARP_ALPHA
+    is_coat_rough = most("coat_weight") > 0.0 and max(most("coat_roughness"), 0.0) ** 2 >= SHARP_ALPHA
+    is_tinted = material.specular_tint != (1.0, 1.0, 1.0) or is_set("specular_tint")
     of_lobes = {
-        ROUGH: is_rough or is_coat_rough or has_scalars,
-        COAT: material.coat_weight > 0.0,
-        GLASS: material.transmission > 0.0,
-        ANISOTROPY: material.anisotropy != 0.0 and (is_rough or has_scalars),
-        FILM: material.film_thickness > 0.0,
+        ROUGH: is_rough or is_coat_rough,
+        COAT: most("coat_weight") > 0.0,
+        GLASS: most("transmission") > 0.0,
+        ANISOTROPY: (material.anisotropy != 0.0 or is_set("anisotropy")) and is_rough,
+        FILM: most("film_thickness") > 0.0,
         # (Nothing but paths knows it; they always do.)
-        TINT: material.specular_tint != (1.0, 1.0, 1.0) and reflects and not material.glossy_only,
-        ABSORPTION: material.transmission > 0.0 and max(material.absorption) > 0.0,
+        TINT: is_tinted and reflects and not material.glossy_only,
+        ABSORPTION: most("transmission") > 0.0 and max(material.absorption) > 0.0,
+        VARIES: _varies(material),
     }
-    found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}
+    found = {ALPHA: lets_straight_on(material)}
     needed = found | of_lobes if is_followed else found
     return frozenset(name for name, is_needed in needed.items() if is_needed)
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...optics.catalog import Method
-from ...scene.arrays import InstanceArrays, SceneArrays
+from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 from ...scene.remarks import Remark, sentences
-from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, SCALARS, TINT, features_of, in_use, path_features
+from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, TINT, VARIES, features_of, in_use, path_features
 
 BUMPS = "BUMPS"
 """Beside the features of paths"""
@@ -19,10 +19,10 @@ KINDS = {
     ALPHA: ("The transparency {of} is left out", "is transparent in part"),
     COAT: ("The coat {of} is left out", "has a coat"),
     FILM: ("The thin film {of} is left out", "has a thin film"),
-    SCALARS: ("Textures of roughness, metallic and alpha {of} are their means", "has a texture of its gloss"),
     ROUGH: ("Roughness {of} is left out", "is rough"),
     ANISOTROPY: ("Anisotropy {of} is left out", "is anisotropic"),
     TINT: ("The tint of edges {of} is left out", "has tinted edges"),
+    VARIES: ("Textures of more than its color {of} are left out", "has textures of its gloss"),
 }
 """What is left out, and why `auto` follows rays: the first that there is"""
 SCENERY = "The transparency {of} is left out in mirrors"
@@ -79,11 +79,15 @@ def reasons_for_rays(scene: SceneArrays, mirrors: Iterable[int]) -> dict[str, st
 
 def kinds_of(scene: SceneArrays, mirror: InstanceArrays) -> Iterator[str]:
     """Keys of `KINDS`, in their order."""
-    found = {BUMPS} if any(scene.materials[index].relief is not None for index in mirror.materials) else set[str]()
+    found = {BUMPS} if any(_is_bent(scene.materials[index]) for index in mirror.materials) else set[str]()
     of = {index: features_of(scene.materials[index], True) for index in mirror.materials}
     for index in in_use(scene, mirror, {index for index, features in of.items() if features}):
         found |= of[index]
     yield from (kind for kind in KINDS if kind in found)
+
+
+def _is_bent(material: MaterialArrays) -> bool:
+    return material.program is not None and "normal" in material.program.shape.channels
 
 
 def lets_light_on(scene: SceneArrays, instance: InstanceArrays) -> bool:

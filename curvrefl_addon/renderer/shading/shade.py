@@ -14,6 +14,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..paths.features import has_base
 from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
 from ..rays.paths import ON_PATHS, Bounce
 from ..rays.ray_scene import RAYS, RayScene
@@ -71,8 +72,7 @@ class ShadePass:
         }
         """Lamps that the camera sees, and those that mirrors do"""
         self._has_base = any(
-            not scene.materials[index].glossy_only
-            and (scene.materials[index].metallic < 1.0 or max(scene.materials[index].emission) > 0.0)
+            has_base(scene.materials[index])
             for instance in scene.instances
             if instance.object_id in scene.reflectors
             for index in instance.materials

@@ -15,8 +15,8 @@ from ..device.shaders import Piece, named
 from ..geometry.chunk import HOLDOUT, Triangles
 from ..geometry.chunk_attributes import CORNER_ATTRIBUTES, CORNER_INSTANCES
 from ..geometry.scene_geometry import SceneGeometry
-from ..programs.image_pages import DEFAULT_CAP
 from ..programs.buffers import Buffers, buffers_for, varies_bits
+from ..programs.image_pages import DEFAULT_CAP
 from ..programs.programs import Programs, Surroundings, program_piece
 from .surface_buffer import SEEN_THROUGH
 
@@ -40,7 +40,11 @@ class Materials:
     """GPU side of `SceneArrays.materials` and `.images`."""
 
     def __init__(
-        self, scene: SceneArrays, image_memory: int = DEFAULT_CAP, is_gradual: bool = False, geometry: SceneGeometry | None = None
+        self,
+        scene: SceneArrays,
+        image_memory: int = DEFAULT_CAP,
+        is_gradual: bool = False,
+        geometry: SceneGeometry | None = None,
     ) -> None:
         """`image_memory`: bytes that images may take; `is_gradual`: see `Programs`. `geometry`: whose chunks are drawn."""
         self._image_memory, self._is_gradual, self._geometry = image_memory, is_gradual, geometry
@@ -175,9 +179,7 @@ def forward_pieces(shape: Shape, around: Surroundings) -> tuple[Piece, ...]:
         f"s.attributes_across[{k}] = dFdx({name}); s.attributes_up[{k}] = dFdy({name});" for k, name in enumerate(names)
     )
     first = "int(fetch_record(program_records, program_first - 1 - {}).x + 0.5)"
-    vertex = " ".join(
-        f"{name} = corner_attribute(index, {first.format(number)});" for number, name in enumerate(names)
-    )
+    vertex = " ".join(f"{name} = corner_attribute(index, {first.format(number)});" for number, name in enumerate(names))
     return (
         program_piece(shape, around),
         TABLE,

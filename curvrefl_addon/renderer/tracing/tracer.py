@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...scene.arrays import UNLIMITED_BOUNCES, MaterialArrays, SceneArrays
+from ...scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..device.textures import depth_texture
 from ..lighting.lighting import Lighting
-from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on
+from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
 from ..shading.shade import RayShadows
 from ..surfaces.canvas import Canvas
@@ -49,7 +49,7 @@ class PathTracer:
             for index in instance.materials
             if goes_on(scene.materials[index], instance.object_id in scene.reflectors)
         }
-        self._has_base = any(_has_base(scene.materials[index]) for index in used)
+        self._has_base = any(has_base(scene.materials[index]) for index in used)
         self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
         self.sees_through = any(scene.materials[index].is_seen_through for index in used)
         """Paths begin at other surfaces than mirrors, too"""
@@ -136,9 +136,7 @@ class PathTracer:
             if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
-                light.add(
-                    canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame
-                )
+                light.add(canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame)
             before = met
 
     def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
@@ -154,12 +152,3 @@ class PathTracer:
 
 MOST_EVENTS = 63
 """Interfaces or transparent surfaces that a path is followed through at most: what its state counts"""
-
-
-def _has_base(material: MaterialArrays) -> bool:
-    """Whether a surface shows something besides what its lobes do."""
-    if material.program is not None and material.program.shape.channels != ("base_color",):
-        return True
-    shines = max(material.emission) > 0.0
-    is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
-    return shines or not is_lobe_alone

@@ -4,16 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from .....gpu_shaders.loader import Snippet
 from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array
 from ....scene.programs.program import Program
 from ....scene.programs.program import Shape as ProgramShape
-from .....gpu_shaders.loader import Snippet
 from ...device.batches import full_screen_triangle
 from ...device.context import gpu_cache
 from ...device.frame_buffers import frame_buffer

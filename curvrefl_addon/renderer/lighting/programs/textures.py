@@ -12,9 +12,7 @@ from ....scene.arrays import WorldArrays
 from ....scene.materials.pixels import averaged
 from ...device.textures import largest_texture, texture_2d
 
-FEWER_PIXELS = (
-    "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes."
-)
+FEWER_PIXELS = "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes."
 
 
 def world_texture(world: WorldArrays) -> tuple[Any, tuple[str, ...]]:
