@@ -158,6 +158,7 @@ void unpack_layers(int index, uvec4 held, inout Material m)
 }
 #endif
 
+#ifndef FILLS_BUFFERS
 // At a pixel of the buffers `surface_scalars`, `surface_shine` and `surface_layers`.
 Material material_at(ivec2 pixel, int index, vec3 color)
 {
@@ -174,3 +175,4 @@ Material material_at(ivec2 pixel, int index, vec3 color)
 #endif
   return settled(m);
 }
+#endif

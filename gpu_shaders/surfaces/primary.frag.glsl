@@ -22,16 +22,17 @@ void main()
   gl_FragDepth = distance_ahead / depths.z;
 #endif
   vec3 normal = normalize(world_normal);
-  vec3 color = base_color;
 #ifdef PROGRAM
   Material m = material_constants(int(material));
   ShadingPoint s = point_of_fragment(normal);
   m.normal = s.normal;
   material_program(s, m);
-  color = m.base_color;
+  vec3 color = m.base_color;
 #ifndef SMOOTH
   normal = gl_FrontFacing ? m.normal : -m.normal;
 #endif
+#else
+  vec3 color = base_color;
 #endif
 #ifdef FOLLOWED
   normal = raised_normal(normal);

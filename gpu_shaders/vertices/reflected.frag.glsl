@@ -52,7 +52,6 @@ void main()
 
   vec3 surface = normalize(world_normal);
   surface = dot(surface, to_vertex) > 0.0 ? -surface : surface;
-  vec3 color = base_color;
 #ifdef PROGRAM
   Material m = material_constants(int(material));
   ShadingPoint s = point_of_fragment(surface);
@@ -68,7 +67,7 @@ void main()
   m.normal = surface;
   material_program(s, m);
   surface = m.normal;
-  color = m.base_color;
+  vec3 color = m.base_color;
 #ifdef PROGRAM_SCALARS
   scalars_out = packed_scalars(m);
 #endif
@@ -79,6 +78,7 @@ void main()
   layers_out = packed_layers(m);
 #endif
 #else
+  vec3 color = base_color;
 #ifdef PROGRAM_SCALARS
   scalars_out = vec4(0.0);
 #endif

@@ -48,7 +48,7 @@ def varies_bits(buffers: Buffers) -> int:
 def fills(buffers: Buffers) -> Piece:
     """For shaders that fill them; its outputs follow those of the surface buffer."""
     outputs = dict(_OUTPUTS[name] for name in _OF_BUFFERS if name in buffers)
-    return Piece(outputs=outputs, defines=flags(*sorted(buffers)))
+    return Piece(outputs=outputs, defines=flags("FILLS_BUFFERS", *sorted(buffers)))
 
 
 def reads(buffers: Buffers) -> Piece:

@@ -11,7 +11,7 @@ import numpy as np
 from ...scene.arrays import Glass, MaterialArrays, SceneArrays
 from ...scene.programs.program import Shape
 from ..device.records import record_texture
-from ..device.shaders import Piece, named
+from ..device.shaders import Piece, knows, named
 from ..geometry.chunk import HOLDOUT, Triangles
 from ..geometry.chunk_attributes import CORNER_ATTRIBUTES, CORNER_INSTANCES
 from ..geometry.scene_geometry import SceneGeometry
@@ -27,8 +27,9 @@ TABLE = Piece(
     defines={"MATERIAL_RECORDS": RECORDS, **{f"GLASS_{kind.name}": int(kind) for kind in Glass}},
 )
 """What `material_records.glsl` needs: `Materials.table`"""
-DRAWN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"})
-"""What passes over triangles need of each material: `Materials.bind`"""
+DRAWN = Piece(constants={"material": "FLOAT"})
+PLAIN = Piece(constants={"base_color": "VEC3", **DRAWN.constants})
+"""What passes over triangles need of each material, of one without a program: `Materials.bind`"""
 OF_PATHS = Piece(constants={"seen_through": "FLOAT"}, defines={"PATHS": "", "SEEN_THROUGH": SEEN_THROUGH})
 """What the primary pass needs in scenes with paths"""
 GLOSSY_ONLY, THIN_WALL, GLASS, REFRACTION = 1, 2, 4, 8
@@ -133,18 +134,19 @@ class Materials:
 
     def bind(self, shader: Any, index: int) -> None:
         """Set a bound shader with `DRAWN` to a material, and one with `forward_pieces` to its program's parameters."""
-        shader.uniform_float("base_color", self._of(index).base_color)
         shader.uniform_float("material", float(index))
-        if self.shape_of(index) is not None:
-            assert self._programs is not None
-            shader.uniform_int("program_first", self._programs.firsts[index])
+        if self.shape_of(index) is None:
+            shader.uniform_float("base_color", self._of(index).base_color)
+        elif knows(shader, "program_first"):
+            shader.uniform_int("program_first", self.programs.firsts[index])
 
     def bind_program(self, shader: Any, shape: Shape, turn: tuple[int, int]) -> None:
         """Set what `forward_pieces` name on a bound shader, but for its material and its chunk."""
         assert self._programs is not None
         self._programs.bind(shader, shape)
         shader.uniform_sampler("materials", self.table)
-        shader.uniform_int("turn", turn)
+        if knows(shader, "turn"):
+            shader.uniform_int("turn", turn)
 
     def bind_triangles(self, shader: Any, triangles: Triangles, shape: Shape | None) -> None:
         """The triangles of a pass over them, and what a program reads of them."""

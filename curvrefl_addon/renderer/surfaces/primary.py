@@ -16,7 +16,7 @@ from ..device.state import drawing_state, hide_faces, scissored, set_viewport
 from ..geometry.chunk import CHUNK, Batches, Chunk
 from ..programs.buffers import fills
 from ..programs.programs import Surroundings
-from .materials import DRAWN, OF_PATHS, Materials, forward_pieces
+from .materials import DRAWN, OF_PATHS, PLAIN, Materials, forward_pieces
 from .surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from .view_block import VIEW
 from .windows import Window
@@ -114,7 +114,7 @@ def _primary_shader(kind: _Kind) -> Any:
         VIEW,
         CHUNK,
         *(() if kind.shape is None or kind.around is None else forward_pieces(kind.shape, kind.around)),
-        DRAWN,
+        PLAIN if kind.shape is None else DRAWN,
         *((FOLLOWED,) if kind.is_followed else ()),
         *((SMOOTH,) if kind.is_smooth else ()),
         *((LINEAR_DEPTH,) if kind.has_linear_depth else ()),

@@ -16,7 +16,7 @@ from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK
 from ..programs.buffers import fills
 from ..programs.programs import Surroundings
-from ..surfaces.materials import DRAWN, Materials, forward_pieces
+from ..surfaces.materials import DRAWN, PLAIN, Materials, forward_pieces
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -88,7 +88,7 @@ def _reflected_shader(with_back_faces: bool, shape: Shape | None, around: Surrou
         VIEW,
         CHUNK,
         *(() if shape is None or around is None else forward_pieces(shape, around)),
-        DRAWN,
+        PLAIN if shape is None else DRAWN,
         SURFACE_OUTPUTS,
         *(() if around is None else (fills(around.buffers),)),
         Piece(
