@@ -210,10 +210,18 @@ class MaterialArrays:
             return float(values.min()), float(values.max())
         return next(((low, high) for name, low, high in self.ranges if name == channel), (-math.inf, math.inf))
 
+    def may_be(self, channel: str) -> bool:
+        """Whether a channel is above 0 anywhere, as far as that is known."""
+        return self.range_of(channel)[1] > 0.0
+
+    def varies(self, *channels: str) -> bool:
+        """Whether any of these differs from place to place."""
+        return self.program is not None and not set(channels).isdisjoint(self.program.shape.channels)
+
     @property
     def is_seen_through(self) -> bool:
         """Light goes on behind it, at least at some places."""
-        return self.range_of("transmission")[1] > 0.0 or self.range_of("alpha")[0] < 1.0
+        return self.may_be("transmission") or self.range_of("alpha")[0] < 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,10 +266,9 @@ class LightArrays:
 
 @dataclass(frozen=True, slots=True)
 class SunDisc:
-    """Where the world's program draws a sun, which is small and bright."""
+    """Where (unit direction) the world's program draws a sun, which is small and bright."""
 
     direction: tuple[float, float, float]
-    """Unit, towards its middle"""
     angle: float
     """Its diameter, radians"""
 
@@ -286,6 +293,8 @@ class WorldArrays:
     """Sets the channel "emission" by the direction (`ShadingPoint.position`), in place of an image"""
     discs: tuple[SunDisc, ...] = ()
     """Of the program"""
+    program_images: tuple[ImageSource, ...] = ()
+    """That the program looks up: its own list"""
 
 
 @dataclass(frozen=True, slots=True)

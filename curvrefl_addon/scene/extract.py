@@ -79,6 +79,7 @@ class SceneReader:
         self._ids: dict[int, int] = {}
         self._world = WorldArrays()
         self._world_warnings: list[Remark] = []
+        self._world_images = ProgramImages()
         self._unseen: list[Remark | str] = []
         self._world_uid = 0
         """`session_uid` of the world last read, 0 for none: a scene whose world is taken away lists only itself"""
@@ -93,7 +94,7 @@ class SceneReader:
     @property
     def sequences(self) -> set[int]:
         """Images (session_uid) that another frame may change."""
-        return self._images.sequences | self._program_images.sequences
+        return self._images.sequences | self._program_images.sequences | self._world_images.sequences
 
     @property
     def reads(self) -> dict[str, int]:
@@ -132,19 +133,17 @@ class SceneReader:
         if changes.everything:
             self._images.forget_all()
             self._program_images.forget_all()
-        if changes.everything or changes.frame:
-            changes.all_materials = True
-            self._meshes.forget_all()
         if self._last is None or changes.everything or changes.frame:
-            changes.world = changes.instances = True
+            self._meshes.forget_all()
+            changes.all_materials = changes.instances = True
         if changes.images:
             self._images.forget(changes.images)
             self._program_images.forget(changes.images)
             changes.all_materials = True
         if changes.all_materials:
             self._materials.forget_all()
-            # (Programs of the world show some of these, too.)
             self._program_images.restart()
+            # (Worlds show the same images.)
             changes.world = True
         self._materials.forget(changes.materials)
         self._meshes.forget(changes.geometry)
@@ -271,9 +270,7 @@ class SceneReader:
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
         found = (self._materials.materials[slot.index].program for slot in slots)
         programs = tuple(program for program in found if program is not None)
-        needs = needs_of(obj, slots, programs, warnings)
-        if is_mirror and needs.uv_map is None and len(obj.data.uv_layers):
-            needs = replace(needs, uv_map="")
+        needs = needs_of(obj, slots, programs, is_mirror, warnings)
         stored = self._meshes.read(obj, parent or uid, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
         error = ""
@@ -322,9 +319,8 @@ class SceneReader:
 
     def _read_world(self, world: bpy.types.World | None) -> None:
         self.counters["worlds read"] += 1
-        self._world_uid = uid_of_block(world)
-        self._world_warnings = []
-        self._world = read_world(world, self._images, self._world_warnings, self._program_images)
+        self._world_uid, self._world_warnings, self._world_images = uid_of_block(world), [], ProgramImages()
+        self._world = read_world(world, self._images, self._world_warnings, self._world_images)
 
     def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
@@ -335,7 +331,7 @@ class SceneReader:
             if item.instance is not None and (item.is_visible or key[0] in chosen)
         ]
         warnings = [warning for item in self._shown.values() for warning in item.warnings]
-        reflecting = tuple(self._ids[uid] for uid in chosen)
+        of_images = self._images.remarks + self._program_images.remarks
         arrays = SceneArrays(
             meshes=tuple(self._meshes.meshes),
             instances=tuple(instances),
@@ -343,10 +339,8 @@ class SceneReader:
             images=self._program_images.sources,
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
-            reflectors=reflecting,
-            warnings=sentences(
-                [*warnings, *self._unseen, *self._images.remarks, *self._program_images.remarks, *self._world_warnings]
-            ),
+            reflectors=tuple(self._ids[uid] for uid in chosen),
+            warnings=sentences([*warnings, *self._unseen, *of_images, *self._world_warnings]),
             most_bounces=bounces.most,
             mirror_bounces=bounces.mirror,
             transmission_bounces=bounces.transmission,

@@ -171,18 +171,24 @@ def needs_of(
     obj: bpy.types.Object,
     slots: Sequence[ReadMaterial],
     programs: Sequence[Program],
+    is_mirror: bool,
     warnings: list[Remark | str],
 ) -> MeshNeeds:
-    """What the programs read of an object's mesh, and which of its slots show nothing."""
-    if any("generated" in program.sampled for program in programs) and any(
-        modifier.type in DEFORMING for modifier in obj.original.modifiers
-    ):
+    """What programs of its materials read, and of a mirror the UV map, which methods search in."""
+    mesh = obj.data
+    assert isinstance(mesh, bpy.types.Mesh)
+    deforms = any(modifier.type in DEFORMING for modifier in obj.original.modifiers)
+    if deforms and any("generated" in program.sampled for program in programs):
         warnings.append(
             Remark("Generated coordinates {of} are taken of its deformed shape, not of its own.", "object", obj.name)
         )
     hidden = tuple(slot.is_hidden for slot in slots)
-    attributes = sorted({attribute for program in programs for attribute in program.attributes})
-    return MeshNeeds(None, None, hidden if any(hidden) else (), tuple(attributes))
+    return MeshNeeds(
+        "" if is_mirror and len(mesh.uv_layers) else None,
+        None,
+        hidden if any(hidden) else (),
+        tuple(sorted({attribute for program in programs for attribute in program.attributes})),
+    )
 
 
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:

@@ -18,8 +18,8 @@ from .materials.node_color import Change, NodeColor, gray
 from .materials.node_colors import ColorReader
 from .materials.node_links import Source, find_input, output_source
 from .materials.pixels import bilinear, stretched
-from .programs.builder import Images
-from .programs.emitters import NoImages, world_program
+from .programs.emitters import world_program
+from .programs.images import ProgramImages
 from .remarks import Remark
 
 FEWEST_ROWS = 32
@@ -51,15 +51,15 @@ class WorldImage:
 
 
 def read_world(
-    world: bpy.types.World | None, images: ImageReader, warnings: list[Remark], programs: Images | None = None
+    world: bpy.types.World | None, images: ImageReader, warnings: list[Remark], programs: ProgramImages | None = None
 ) -> WorldArrays:
     """Background color or environment texture with its mapping, or a program for what is neither.
 
-    `programs`: finds the images that programs look up.
+    `programs`: lists the images that a program looks up.
     """
     if world is None:
         return WorldArrays()
-    found = _background(world, images, warnings, programs or NoImages())
+    found = _background(world, images, warnings, programs or ProgramImages())
     # Cycles is an add-on, and may be off.
     rays = getattr(world, "cycles_visibility", None)
     if rays is None:
@@ -67,7 +67,9 @@ def read_world(
     return replace(found, visible_camera=rays.camera, visible_diffuse=rays.diffuse, visible_glossy=rays.glossy)
 
 
-def _background(world: bpy.types.World, images: ImageReader, warnings: list[Remark], programs: Images) -> WorldArrays:
+def _background(
+    world: bpy.types.World, images: ImageReader, warnings: list[Remark], programs: ProgramImages
+) -> WorldArrays:
     notes: list[str] = []
     if output_source(world.node_tree, "Volume") is not None:
         notes.append("The volume {of} is not shown.")
@@ -78,6 +80,7 @@ def _background(world: bpy.types.World, images: ImageReader, warnings: list[Rema
         if plain:
             # More than a color or one image.
             result = world_program(source, programs, notes)
+            warnings += programs.remarks
     else:
         # Nodes that end nowhere are black; a world without any, as of old files, is the viewport's color.
         result = WorldArrays() if world.node_tree is not None else WorldArrays(_triple(world.color))

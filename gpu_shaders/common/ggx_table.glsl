@@ -17,9 +17,9 @@ vec4 ggx_entry(float roughness, float cosine, float slice, float first_row)
 }
 
 // x: albedo of the lobe with Fresnel 1; y: mean over it of Schlick's (1 - cos)^5; z, w: mean share of a dielectric's
-// Fresnel term between F0 and 1, of this slice's IOR and the next's. In the slice after the last, x: cosine between
-// the lobe's mean direction and the normal, y: roughness of the lobe that is spread as much about its own normal; z,
-// w: of a dielectric.
+// Fresnel term between F0 and 1, of this slice's IOR and the next's; w of the last slice: mean of cos (1 - cos)^6. In
+// the slice after the last, x: cosine between the lobe's mean direction and the normal, y: roughness of the lobe that
+// is spread as much about its own normal; z, w: of a dielectric.
 vec4 ggx_table(float roughness, float cosine, float slice)
 {
   return ggx_entry(roughness, cosine, slice, 0.0);
@@ -31,6 +31,12 @@ vec4 ggx_table(float roughness, float cosine, float slice)
 vec4 ggx_glass_table(float roughness, float cosine, float slice)
 {
   return ggx_entry(roughness, cosine, slice, float(GGX_TABLE_SIZE));
+}
+
+// Of sheen, in the last quarter: both numbers of the transform (scattering/sheen.glsl), and the albedo.
+vec3 sheen_table(float roughness, float cosine)
+{
+  return ggx_entry(roughness, cosine, 0.0, float(3 * GGX_TABLE_SIZE)).xyz;
 }
 
 // Cosine-weighted average of the lobe's albedo over all angles (fitted to the table, error under 0.007).

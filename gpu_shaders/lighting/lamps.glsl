@@ -20,6 +20,9 @@
 #if defined(LIGHTING_SUN) || defined(LIGHTING_NEAR_LAMPS)
 #define LIGHTING_LAMPS
 #endif
+#if (defined(PATH_LOBES) && defined(PATHS_GLASS)) || defined(SURFACE_TRANSLUCENT)
+#define LIT_FROM_BEHIND
+#endif
 
 float spot_share(int base, vec3 from_lamp)
 {
@@ -156,8 +159,8 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
     float cos_light = dot(s.normal, to_light);
     bool is_lit = cos_light > 0.0;
-#if defined(PATH_LOBES) && defined(PATHS_GLASS)
-    // (Rough lobes that let light through are lit from behind.)
+#ifdef LIT_FROM_BEHIND
+    // (What lets light through and scatters it.)
     is_lit = true;
     s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
 #endif
@@ -168,20 +171,37 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif
-      vec3 scattered = lobes.diffuse * (max(cos_light, 0.0) / LIGHTING_PI);
+      vec3 scattered = diffuse_lobes(s, lobes, to_viewer, to_light, cos_light);
+#ifdef SURFACE_TRANSLUCENT
+      scattered += lobes.translucent * (max(-cos_light, 0.0) / LIGHTING_PI);
+#endif
 #ifdef LIGHTING_PARTS
       scattered *= lighting_data[base + 11].y;
 #endif
 #if !defined(PATH_LOBES) || defined(PATHS_ALPHA)
       // highlights are as wide as the lamp, of which this is one sample: half its angle in the half vector
       float alpha = sqrt(lobes.alpha * lobes.alpha + 0.25 * width * width);
-      if (alpha > GGX_SINGULAR_ALPHA && lobes.metal_weight.g + lobes.dielectric_weight > 0.0) {
+      bool is_above = lobes.metal_weight.g + lobes.dielectric_weight.g > 0.0;
+#ifdef LIT_FROM_BEHIND
+      is_above = is_above && cos_light > 0.0;
+#endif
+      if (alpha > GGX_SINGULAR_ALPHA && is_above) {
         vec3 glossy = glossy_lobe(lobes, alpha, s.normal, to_viewer, to_light, cos_light);
 #ifdef LIGHTING_PARTS
         glossy *= lighting_data[base + 11].z;
 #endif
         scattered += glossy;
       }
+#ifdef SURFACE_COAT
+      float coat_alpha = sqrt(lobes.coat_alpha * lobes.coat_alpha + 0.25 * width * width);
+      if (coat_alpha > GGX_SINGULAR_ALPHA && lobes.coat_weight > 0.0 && cos_light > 0.0) {
+        float coat = coat_lobe(lobes, coat_alpha, s.normal, to_viewer, to_light, cos_light);
+#ifdef LIGHTING_PARTS
+        coat *= lighting_data[base + 11].z;
+#endif
+        scattered += vec3(coat);
+      }
+#endif
 #endif
 #ifdef PATH_LOBES
       vec3 body = abs(lighting_data[base + 6].rgb) * (lighting_data[base + 5].w > 0.5 ? 1.0 : 0.0);
@@ -195,7 +215,7 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
       sum += scattered * irradiance;
     }
-#if defined(PATH_LOBES) && defined(PATHS_GLASS)
+#ifdef LIT_FROM_BEHIND
     s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
 #endif
     i++;

@@ -10,20 +10,9 @@
 //   lamps or directions the first record is dark: the loops over them run at least once, as a software renderer runs
 //   the body of a `for` once more than it needs.
 
-struct Surface {
-  vec3 position;   // world space
-  vec3 normal;     // unit shading normal
-  vec3 base_color;
-  float metallic;
-  float roughness;
-  float ior;
-  float specular_level;
-  vec3 emission;
-  bool glossy_only;
-};
-
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
 #include "common/records.glsl"
+#include "programs/surface.glsl"
 #if defined(RAY_SHADOWS) || defined(WORLD_RAYS)
 #ifdef LIGHTING_ALPHA
 #define LIGHT_THROUGH
@@ -60,6 +49,15 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #include "lighting/world_light.glsl"
 #include "lighting/lamps.glsl"
 
+vec3 emission_of(Surface s, Lobes lobes)
+{
+#if defined(SURFACE_SHEEN) || defined(SURFACE_COAT)
+  return s.emission * lobes.above;
+#else
+  return s.emission;
+#endif
+}
+
 // Outgoing radiance. `to_viewer`: unit. The normal is turned to the viewer's side.
 vec3 shade_surface(Surface s, vec3 to_viewer)
 {
@@ -69,23 +67,35 @@ vec3 shade_surface(Surface s, vec3 to_viewer)
     cos_viewer = -cos_viewer;
   }
   Lobes lobes = lobes_of(s, cos_viewer);
-  return s.emission + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+  return emission_of(s, lobes) + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
 }
 
-// What a mirror shows besides its reflection: emission and the diffuse base below the reflecting lobe.
+// What a mirror shows besides its reflection, of which sheen, coat and tints are left out: emission and the diffuse
+// base below the reflecting lobe.
 vec3 shade_under_mirror(Surface s, vec3 to_viewer)
 {
+#ifdef SURFACE_TINT
+  s.specular_tint = vec3(1.0);
+#endif
+#ifdef SURFACE_SHEEN
+  s.sheen = vec3(0.0);
+#endif
+#ifdef SURFACE_COAT
+  s.coat_weight = 0.0;
+#endif
   float cos_viewer = dot(s.normal, to_viewer);
   if (cos_viewer < 0.0) {
     s.normal = -s.normal;
     cos_viewer = -cos_viewer;
   }
   Lobes lobes = lobes_of(s, cos_viewer);
-  vec3 sum = s.emission;
-  if (max(lobes.diffuse.r, max(lobes.diffuse.g, lobes.diffuse.b)) > 0.0) {
-    lobes.metal_weight = vec3(0.0);
-    lobes.dielectric_weight = 0.0;
-    lobes.specular_albedo = vec3(0.0);
+  vec3 sum = emission_of(s, lobes);
+  vec3 below = lobes.diffuse;
+#ifdef SURFACE_TRANSLUCENT
+  below += lobes.translucent;
+#endif
+  if (largest(below) > 0.0) {
+    lobes.metal_weight = lobes.dielectric_weight = lobes.specular_albedo = vec3(0.0);
     sum += lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
   }
   return sum;

@@ -4,6 +4,7 @@
 // `materials`.
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
+#include "programs/layers.glsl"
 
 // At a pixel of surface buffers.
 Surface surface_of(ivec2 pixel, vec4 position, vec4 normal, vec3 color)
@@ -19,6 +20,7 @@ Surface surface_of(ivec2 pixel, vec4 position, vec4 normal, vec3 color)
   s.specular_level = m.specular_level;
   s.emission = m.emission;
   s.glossy_only = m.glossy_only;
+  add_layers(s, m);
   return s;
 }
 

@@ -111,6 +111,10 @@ vec4 world_lobe(vec3 direction, float roughness)
 #endif
 }
 
+#ifdef SURFACE_SHEEN
+#define SHEEN_PART_ROUGHNESS 0.5
+#endif
+
 // How much a direction's shadow counts for a glossy lobe at this cosine to it.
 float lobe_window(float cosine)
 {
@@ -132,6 +136,40 @@ bool world_is_parted = false;  // it does not, but a part of the directions stan
 int world_turn = 0;            // whose part which is changes from sub-frame to sub-frame and from quad to quad
 #endif
 
+#ifdef SURFACE_SHEEN
+// Mean radiance that the lobe sees: of four places that stand for a quarter of it each.
+vec3 world_in_sheen(Surface s, Lobes lobes, vec3 to_viewer)
+{
+  vec3 x = along_to_viewer(s.normal, to_viewer), sum = vec3(0.0);
+  mat3 frame = mat3(x, cross(s.normal, x), s.normal);
+  for (int k = 0; k < 4; k++) {
+    vec2 disk = vec2(k % 2, k / 2) - 0.5;
+    sum += world_lobe(frame * sheen_direction(lobes.sheen_transform, disk), SHEEN_PART_ROUGHNESS).rgb;
+  }
+  return 0.25 * sum;
+}
+#endif
+
+#ifdef SURFACE_DIFFUSE_ROUGHNESS
+// What arrives for a rough base, in parts of what arrives for an even one: it looks back to the viewer's side.
+vec3 world_on_rough_base(Surface s, Lobes lobes, vec3 to_viewer, vec3 irradiance)
+{
+  float c = lobes.cos_viewer;
+  float sine = sqrt(max(1.0 - c * c, 0.0));
+  OrenNayar o = lobes.rough_base;
+  // Its mean direction, as optics/scattering/oren_nayar.py: oren_nayar_tilt.
+  float along = o.rough * sine * (11.0 + c * (c * c - 6.0)) * LIGHTING_PI / 24.0;
+  float up = sine * (0.274037 + c * (-0.002556 + c * (-0.314822 + c * (-0.045698 + c * 0.088027))));
+  float sigma = clamp(s.diffuse_roughness, 0.0, 1.0);
+  float level = 1.0 / (LIGHTING_PI + sigma * (0.5 * LIGHTING_PI - 2.0 / 3.0));
+  float twice = 2.0 / 3.0 * LIGHTING_PI * (1.0 - level * LIGHTING_PI) - sigma * level * 0.321012;
+  up = LIGHTING_PI * 2.0 / 3.0 * o.level + o.rough * up + mean_of(o.again) * twice;
+  vec3 middle = normalize(s.normal * up + along_to_viewer(s.normal, to_viewer) * along);
+  vec3 turned = world_irradiance(octahedral_place(middle)) / max(irradiance, 1e-9);
+  return oren_nayar_albedo(o, s.diffuse_roughness, c) * turned;
+}
+#endif
+
 // Radiance towards the viewer from the world. The directions' shadows are taken off the exact light, scaled so that a
 // point that sees none of them gets nothing. One sub-frame alone may take off too much: only the mean is right.
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
@@ -141,10 +179,21 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
     vec4 shapes = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES));
-    vec2 shape = lobes.dielectric_weight > 0.0 ? mix(shapes.zw, shapes.xy, clamp(s.metallic, 0.0, 1.0)) : shapes.xy;
+    vec2 shape = lobes.dielectric_weight.g > 0.0 ? mix(shapes.zw, shapes.xy, clamp(s.metallic, 0.0, 1.0)) : shapes.xy;
     vec3 middle = lobe_middle(to_viewer, s.normal, shape.x);
     vec3 lost = vec3(0.0);
     float lobe_lost = 0.0;
+#ifdef SURFACE_TRANSLUCENT
+    vec3 lost_behind = vec3(0.0);
+#endif
+#if defined(SURFACE_SHEEN) || defined(SURFACE_COAT)
+    vec3 lost_above = vec3(0.0);  // of the coat; of sheen, and the directions' weights in that
+    vec3 towards = along_to_viewer(s.normal, to_viewer);
+#endif
+#ifdef SURFACE_COAT
+    vec2 coat_shape = ggx_table(s.coat_roughness, lobes.cos_viewer, float(GGX_IOR_SLICES)).zw;
+    vec3 coat_middle = lobe_middle(to_viewer, s.normal, coat_shape.x);
+#endif
     vec4 p = vec4(s.position, 1.0);
     int count = int(lighting_data[0].y);
 #ifdef QUADS
@@ -166,32 +215,86 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
       vec4 weight = lighting_data[5];
 #endif
       float cos_light = max(dot(s.normal, light.xyz), 0.0);
+      bool may_light = cos_light > 0.0;
+#ifdef SURFACE_TRANSLUCENT
+      float cos_behind = max(-dot(s.normal, light.xyz), 0.0);
+      may_light = may_light || largest(lobes.translucent) > 0.0;
+#endif
 #ifdef WORLD_RAYS
-      LIT dark = cos_light > 0.0 ? LIT(1.0) - lit_by_ray(s, light.xyz, 1e30) : LIT(0.0);
+#ifdef SURFACE_TRANSLUCENT
+      Surface side = s;
+      side.normal *= cos_behind > 0.0 ? -1.0 : 1.0;
+      LIT dark = may_light ? LIT(1.0) - lit_by_ray(side, light.xyz, 1e30) : LIT(0.0);
+#else
+      LIT dark = may_light ? LIT(1.0) - lit_by_ray(s, light.xyz, 1e30) : LIT(0.0);
+#endif
       float mean_dark = dot(dark, LIT(1.0)) / LIT_CHANNELS;
 #else
       vec3 window = vec3(dot(lighting_data[record + 1], p),
                          dot(lighting_data[record + 2], p),
                          dot(lighting_data[record + 3], p) - 2e-6);
-      float dark = cos_light > 0.0 ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
+      float dark = may_light ? 1.0 - lit_sharp(window, int(light.w)) : 0.0;
       float mean_dark = dark;
 #endif
       lost += weight.rgb * (cos_light * dark);
+#ifdef SURFACE_TRANSLUCENT
+      lost_behind += weight.rgb * (cos_behind * dark);
+      mean_dark *= cos_light > 0.0 ? 1.0 : 0.0;
+#endif
       lobe_lost += weight.w * lobe_window(dot(middle, light.xyz)) * mean_dark;
+#ifdef SURFACE_COAT
+      lost_above.x += weight.w * lobe_window(dot(coat_middle, light.xyz)) * mean_dark;
+#endif
+#ifdef SURFACE_SHEEN
+      vec3 local = vec3(dot(towards, light.xyz), dot(cross(s.normal, towards), light.xyz), cos_light);
+      float in_sheen = weight.w * sheen_value(lobes.sheen_transform, local);
+      lost_above.yz += vec2(in_sheen * mean_dark, in_sheen);
+#endif
       i += stride;
     } while (i < count);
 #ifdef QUADS
     vec4 all = quad_sum(vec4(lost, lobe_lost));
     lost = world_is_shared ? all.xyz : (world_is_parted ? float(parts) * lost : lost);
     lobe_lost = world_is_shared ? all.w : (world_is_parted ? float(parts) * lobe_lost : lobe_lost);
+#ifdef SURFACE_TRANSLUCENT
+    vec3 all_behind = quad_sum(vec4(lost_behind, 0.0)).xyz;
+    lost_behind = world_is_shared ? all_behind : (world_is_parted ? float(parts) * lost_behind : lost_behind);
 #endif
-    vec3 seen = world_irradiance(place) - world_map(place, 1).rgb * lost;
+#if defined(SURFACE_SHEEN) || defined(SURFACE_COAT)
+    vec3 all_above = quad_sum(vec4(lost_above, 0.0)).xyz;
+    lost_above = world_is_shared ? all_above : (world_is_parted ? float(parts) * lost_above : lost_above);
+#endif
+#endif
+    vec3 irradiance = world_irradiance(place);
+    vec3 seen = irradiance - world_map(place, 1).rgb * lost;
+#ifdef SURFACE_DIFFUSE_ROUGHNESS
+    seen *= world_on_rough_base(s, lobes, to_viewer, irradiance);
+#endif
+    vec3 added = vec3(0.0);  // of diffuse parts beside the base
+#ifdef SURFACE_TRANSLUCENT
+    vec2 behind = octahedral_place(-s.normal);
+    added += lobes.translucent * (world_irradiance(behind) - world_map(behind, 1).rgb * lost_behind) / LIGHTING_PI;
+#endif
+#ifdef SURFACE_SHEEN
+    added += lobes.sheen * world_in_sheen(s, lobes, to_viewer) * (1.0 - lost_above.y / max(lost_above.z, 1e-9));
+#endif
+#ifdef SURFACE_COAT
+    vec4 coat = world_lobe(coat_middle, coat_shape.y);
+    coat.rgb *= lobes.coat_albedo * (1.0 - lost_above.x / max(coat.a, 1e-9));
+#endif
     vec4 lobe = world_lobe(middle, shape.y);
 #ifdef LIGHTING_PARTS
     seen *= lighting_data[6].y;
     lobe.rgb *= lighting_data[6].z;
+    added *= lighting_data[6].y;
+#ifdef SURFACE_COAT
+    coat.rgb *= lighting_data[6].z;
 #endif
-    sum = lobes.diffuse * seen / LIGHTING_PI +
+#endif
+#ifdef SURFACE_COAT
+    added += coat.rgb;
+#endif
+    sum = added + lobes.diffuse * seen / LIGHTING_PI +
           lobes.specular_albedo * lobe.rgb * (1.0 - lobe_lost / max(lobe.a, 1e-9));
   }
 #endif

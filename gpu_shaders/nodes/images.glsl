@@ -97,16 +97,17 @@ vec3 image_box_weights(vec3 normal, float blend)
 }
 
 #define IMAGE_BOX(lookup) \
+  vec3 p = place; \
   vec3 weights = image_box_weights(normal, blend); \
   vec4 sum = vec4(0.0); \
   if (weights.x > 0.0) { \
-    sum += weights.x * lookup(s, record, vec2(normal.x < 0.0 ? 1.0 - place.y : place.y, place.z), extension, divides); \
+    sum += weights.x * lookup(s, record, vec2(normal.x < 0.0 ? 1.0 - p.y : p.y, p.z), extension, divides); \
   } \
   if (weights.y > 0.0) { \
-    sum += weights.y * lookup(s, record, vec2(normal.y > 0.0 ? 1.0 - place.x : place.x, place.z), extension, divides); \
+    sum += weights.y * lookup(s, record, vec2(normal.y > 0.0 ? 1.0 - p.x : p.x, p.z), extension, divides); \
   } \
   if (weights.z > 0.0) { \
-    sum += weights.z * lookup(s, record, vec2(normal.z > 0.0 ? 1.0 - place.y : place.y, place.x), extension, divides); \
+    sum += weights.z * lookup(s, record, vec2(normal.z > 0.0 ? 1.0 - p.y : p.y, p.x), extension, divides); \
   } \
   return sum;
 

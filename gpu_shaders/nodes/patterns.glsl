@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-FileCopyrightText: 2011-2026 Blender Foundation and contributors (Apache-2.0)
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wave, Magic, Brick, Checker and Gradient Texture, after Cycles (svm/wave.h, magic.h, brick.h, checker.h, gradient.h).
+// Wave, Magic, Brick, Checker and Gradient Texture, after Cycles (wave.h, magic.h, brick.h, checker.h, gradient.h).
 
 #define PATTERN_TURN 6.28318530718
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2013 Inigo Quilez (MIT)
 // SPDX-FileCopyrightText: 2011-2026 Blender Foundation and contributors (Apache-2.0)
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Voronoi Texture, after Cycles (svm/voronoi.h). Places have four numbers, of which the first `dimensions` count and the
-// rest are 0: dimensions and metric are constants in every call, so that compilers leave out what is not asked for.
+// Voronoi Texture, after Cycles (svm/voronoi.h). Places have four numbers, of which the first `dimensions` count and
+// the rest are 0. Dimensions, feature, metric are constants in every call: compilers leave out what is not asked for.
 #include "nodes/texture_hash.glsl"
 
 #define VORONOI_EUCLIDEAN 0
@@ -90,14 +90,16 @@ int voronoi_count(int side, int dimensions)
 ivec4 voronoi_neighbor(int number, int side, int dimensions)
 {
   ivec4 axes = ivec4(1, dimensions > 1, dimensions > 2, dimensions > 3);
-  return (ivec4(number, number / side, number / (side * side), number / (side * side * side)) % side - side / 2) * axes;
+  ivec4 place = ivec4(number, number / side, number / (side * side), number / (side * side * side)) % side;
+  return (place - side / 2) * axes;
 }
 
-// The point of a neighbor, as seen from the cell's corner. (Never from the place: one point has to be the same number
-// from everywhere, as it may be hashed.)
+// The point of a neighbor, as seen from the cell's corner. (One point is the same number from everywhere, and Cycles'
+// to the last bit, as it may be hashed: compilers may not round it in their own way, here and where it is scaled.)
 vec4 voronoi_point(ivec4 cell, ivec4 neighbor, int dimensions, float randomness)
 {
-  return vec4(neighbor) + voronoi_random(cell + neighbor, dimensions) * randomness;
+  precise vec4 point = vec4(neighbor) + voronoi_random(cell + neighbor, dimensions) * randomness;
+  return point;
 }
 
 // Features of one octave
@@ -248,15 +250,18 @@ VoronoiPoint voronoi_feature(vec4 p, int feature, int dimensions, int metric, fl
   return voronoi_f1(p, dimensions, metric, exponent, randomness);
 }
 
-VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bool normalized, float scale, float detail,
-                             float roughness, float lacunarity, float smoothness, float exponent, float randomness)
+// `per_scale`: from p to the texture's coordinates.
+VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bool normalized, float per_scale,
+                             float detail, float roughness, float lacunarity, float smoothness, float exponent,
+                             float randomness)
 {
   VoronoiPoint sum = VoronoiPoint(0.0, vec3(0.0), vec4(0.0));
   float weight = 1.0, weights = 0.0, octave_scale = 1.0;
   bool is_single = detail == 0.0 || roughness == 0.0;
   int last = is_single ? 0 : int(ceil(detail));
   for (int i = 0; i <= last; i++) {
-    VoronoiPoint octave = voronoi_feature(p * octave_scale, feature, dimensions, metric, exponent, randomness, smoothness);
+    VoronoiPoint octave = voronoi_feature(p * octave_scale, feature, dimensions, metric, exponent, randomness,
+                                          smoothness);
     if (is_single) {
       weights = 1.0;
       sum = octave;
@@ -276,8 +281,8 @@ VoronoiPoint voronoi_octaves(vec4 p, int feature, int dimensions, int metric, bo
     sum.distance /= weights * most;
     sum.color /= weights;
   }
-  // (Times the reciprocal, as Cycles does: nodes may hash it to the last bit.)
-  sum.position = scale != 0.0 ? sum.position * (1.0 / scale) : vec4(0.0);
+  precise vec4 position = sum.position * per_scale;
+  sum.position = position;
   return sum;
 }
 

@@ -32,17 +32,14 @@ vec3 light_of_vertex(Surface s, PathVertex v, vec3 to_viewer)
   vec3 sum = s.emission * coat_passes(v.material, dot(v.facing.normal, to_viewer));
 #if defined(PATHS_BASE) || defined(PATH_LOBES)
   float cos_viewer = dot(s.normal, to_viewer);
-  Lobes lobes;
 #ifdef PATHS_BASE
-  lobes.diffuse = base_share(v.material, v.facing, max(cos_viewer, 1e-4));
-#else
-  lobes.diffuse = vec3(0.0);
+  Lobes lobes = base_lobes(s, base_share(v.material, v.facing, max(cos_viewer, 1e-4)), cos_viewer);
+#ifdef SURFACE_SHEEN
+  add_sheen(s, lobes);
 #endif
-  lobes.metal_f0 = lobes.metal_weight = lobes.specular_albedo = vec3(0.0);
-  lobes.metal_edge = lobes.dielectric_weight = 0.0;
-  lobes.eta = 1.5;
-  lobes.alpha = 1.0;
-  lobes.cos_viewer = max(cos_viewer, 1e-4);
+#else
+  Lobes lobes = base_lobes(s, vec3(0.0), cos_viewer);
+#endif
   sum += lamps_on(s, lobes, to_viewer);
 #ifdef PATHS_BASE
   sum += world_on(s, lobes, to_viewer);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): coat, metal,
-// glass, dielectric, diffuse base; as optics/scattering/layers.py.
+// The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): sheen, coat,
+// metal, glass, dielectric, diffuse base; as optics/scattering/layers.py.
 #include "surfaces/material_at.glsl"
-#include "scattering/fresnel_layers.glsl"
+#include "scattering/dielectric.glsl"
+#include "scattering/sheen.glsl"
 #include "scattering/microfacet.glsl"
-#include "common/ggx_table.glsl"
 #include "scattering/film.glsl"
 #ifdef PATHS_GLASS
 #include "scattering/glass.glsl"
@@ -46,19 +46,6 @@ vec3 metal_fresnel(Layers layers, float cosine)
   return tinted_metal(layers.metal_f0, layers.metal_dip, cosine);
 }
 
-// Albedo of a dielectric's lobe from `f0` to white; `scattering`: multiple scattering in parts of the single one.
-vec3 dielectric_albedo(float roughness, float cosine, float eta, vec3 f0, out vec3 scattering)
-{
-  float real = normal_reflectance(eta);
-  float slice = sqrt(sqrt(real)) * float(GGX_IOR_SLICES - 1);
-  float below = min(floor(slice), float(GGX_IOR_SLICES - 2));
-  vec4 table = ggx_table(roughness, cosine, below);
-  float mean_share = clamp((mean_dielectric(eta) - real) / max(1.0 - real, 1e-6), 0.0, 1.0);
-  float missing = (1.0 - table.x) / max(table.x, 1e-4);
-  scattering = multiple_scattering(mix(f0, vec3(1.0), mean_share), average_albedo(roughness), missing);
-  return table.x * scattering * mix(f0, vec3(1.0), mix(table.z, table.w, slice - below));
-}
-
 vec2 base_alpha(Material m, float roughness)
 {
   vec2 alpha = vec2(roughness * roughness);
@@ -76,10 +63,13 @@ vec2 base_alpha(Material m, float roughness)
   return alpha;
 }
 
-// The coat alone: what is above all else.
+// Sheen and coat: what is above all else. (Sheen has no lobe here: it is as wide as the diffuse base, and is shaded.)
 void add_coat(Material m, inout Layers layers)
 {
   layers.above = vec3(1.0);
+#ifdef PATHS_SHEEN
+  layers.above *= clamp(1.0 - (m.sheen_weight * largest(m.sheen_tint)) * sheen_lobe(m.sheen_roughness, layers.cos_viewer).z, 0.0, 1.0);
+#endif
 #ifdef PATHS_COAT
   float weight = max(m.coat_weight, 0.0);
   float roughness = clamp(m.coat_roughness, 0.0, 1.0);
@@ -87,12 +77,11 @@ void add_coat(Material m, inout Layers layers)
   layers.coat_alpha = roughness * roughness;
   vec3 scattering;
   vec3 f0 = vec3(normal_reflectance(layers.coat_eta));
-  layers.coat_albedo = weight * dielectric_albedo(roughness, layers.cos_viewer, layers.coat_eta, f0, scattering).x;
-  layers.coat = weight * scattering.x;
-  layers.above *= clamp(1.0 - layers.coat_albedo, 0.0, 1.0);
-  // The tint is of light that goes straight through.
-  float way = 1.0 / max(refracted_cosine(layers.cos_viewer, layers.coat_eta), 1e-4);
-  layers.above *= mix(vec3(1.0), pow(max(m.coat_tint, 1e-10), vec3(way)), min(weight, 1.0));
+  float albedo = weight * dielectric_albedo(roughness, layers.cos_viewer, layers.coat_eta, f0, scattering).x;
+  layers.coat_albedo = layers.above.x * albedo;
+  layers.coat = layers.above.x * weight * scattering.x;
+  layers.above *= clamp(1.0 - albedo, 0.0, 1.0);
+  layers.above *= coat_tint_on_way(m.coat_tint, weight, layers.coat_eta, layers.cos_viewer);
 #endif
 }
 

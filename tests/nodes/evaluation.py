@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -12,21 +12,25 @@ import numpy as np
 from curvrefl.curvrefl_addon.renderer.device.batches import full_screen_triangle
 from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
 from curvrefl.curvrefl_addon.renderer.device.records import record_texture
-from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, named
 from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_viewport
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.programs.image_pages import ImagePages
+from curvrefl.curvrefl_addon.renderer.programs.instance_table import InstanceTable
+from curvrefl.curvrefl_addon.renderer.surfaces.view_block import VIEW, view_block
+from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.scene.materials.node_links import source_of
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from curvrefl.curvrefl_addon.scene.programs.builder import Builder
-from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute, Program, Shape
+from curvrefl.curvrefl_addon.scene.programs.images import ProgramImages
+from curvrefl.curvrefl_addon.scene.programs.program import Program
 from curvrefl.curvrefl_addon.scene.programs.registry import HANDLERS
 from curvrefl.gpu_shaders.loader import Snippet
 
-from .stage import CAMERA_DISTANCE, CORNERS, FRAME, SIDE, judged_input
+from .stage import SIDE, judged_input
+from .tiles import FIRST_ATTRIBUTE, INCOMING, NORMAL, PLACE, POSITION, corner_records, instance_table
 
-INSTANCE_RECORDS = 12
-"""Before those of values by name"""
-PLACE, POSITION, NORMAL, INCOMING, FIRST_ATTRIBUTE = range(5)
-"""Quantities of corners; INCOMING has the distance of the camera too"""
+NEEDS_VIEW = "PROGRAM_CAMERA"
 LIBRARY = """
 #include "programs/shading_point.glsl"
 #include "programs/instances.glsl"
@@ -97,154 +101,97 @@ void main()
 """
 
 
-class NoImages:
-    """Stands for the images of a scene that has none."""
+@dataclass(frozen=True, slots=True)
+class Board:
+    """What all programs of a board look at."""
 
-    def index_of(self, node: Any, note: Any, splits_alpha: bool) -> int | None:
-        return None
+    view: View
+    images: ProgramImages
+    pages: ImagePages
 
+    @staticmethod
+    def of_scene() -> Board:
+        """As the camera of the scene sees it."""
+        scene = bpy.context.scene
+        width, height = scene.render.resolution_x, scene.render.resolution_y
+        view = view_of_camera(scene, scene.camera, width, height, bpy.context.evaluated_depsgraph_get())
+        return Board(view, ProgramImages(), ImagePages())
 
-def compiled(material: bpy.types.Material) -> tuple[Program, list[str]]:
-    """The program of what a tile's material sends out, and the notes of what is left out."""
-    notes: list[str] = []
-    builder = Builder(HANDLERS, NoImages(), notes)
-    value = builder.value(source_of(judged_input(material)), "color")
-    return builder.finished({"emission": value}), notes
+    def compiled(self, material: bpy.types.Material) -> tuple[Program, list[str]]:
+        """The program of what a tile's material sends out, and the notes of what is left out."""
+        notes: list[str] = []
+        builder = Builder(HANDLERS, self.images, notes)
+        value = builder.value(source_of(judged_input(material)), "color")
+        return builder.finished({"emission": value}), notes
 
+    def load_images(self) -> None:
+        """Those of all that has been compiled."""
+        self.pages.follow(self.images.sources)
+        self.pages.fill()
 
-def evaluated(program: Program, tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
-    """(SIDE, SIDE, 3) of what a program gives on a tile at places (SIDE, SIDE, 2) of it, rows from below."""
-    where = np.concatenate([places, np.zeros_like(places)], axis=2)
-    head = [(float(k), 0.0, 0.0, 0.0) for k in reversed(range(len(program.instance_attributes)))]
-    head += [(float(k), 0.0, 0.0, 0.0) for k in reversed(range(len(program.attributes)))]
-    records = np.array([*head, *program.records.tolist()], np.float32).reshape(-1, 4)
-    textures = {
-        "program_records": record_texture(records),
-        "places": texture_2d(where),
-        "corners": record_texture(_corner_records(program, tile)),
-        "instance_table": record_texture(_instance_records(program, tile)),
-    }
-    shader = _shader(program.shape, len(program.instance_attributes))
-    target = empty_texture(SIDE, SIDE)
-    with drawing_state(), frame_buffer(target).bind():
-        set_viewport(0, 0, SIDE, SIDE)
-        shader.bind()
-        for name, texture in textures.items():
-            shader.uniform_sampler(name, texture)
-        full_screen_triangle().draw(shader)
-    return read_texture(target)[..., :3]
+    def evaluated(self, program: Program, tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
+        """(SIDE, SIDE, 3) of what a program gives on a tile at places (SIDE, SIDE, 2) of it, rows from below."""
+        instances = instance_table(program, tile)
+        head = [float(instances.names.index(name)) for name in reversed(program.instance_attributes)]
+        head += [float(k) for k in reversed(range(len(program.attributes)))]
+        records = program.records.copy()
+        for use in program.images:
+            found = self.pages.records(use.image)
+            records[use.record : use.record + len(found)] = found
+        before = np.zeros((len(head), 4), np.float32)
+        before[:, 0] = head
+        textures = {
+            "program_records": record_texture(np.concatenate([before, records])),
+            "places": texture_2d(np.concatenate([places, np.zeros_like(places)], axis=2)),
+            "corners": record_texture(corner_records(program, tile)),
+        }
+        shader = self._shader(program, instances)
+        target, block = empty_texture(SIDE, SIDE), view_block(self.view)
+        with drawing_state(), frame_buffer(target).bind():
+            set_viewport(0, 0, SIDE, SIDE)
+            shader.bind()
+            if NEEDS_VIEW in program.shape.needs:
+                shader.uniform_block("view", block)
+            for name, texture in textures.items():
+                shader.uniform_sampler(name, texture)
+            instances.bind(shader)
+            if program.images:
+                self.pages.bind(shader)
+            full_screen_triangle().draw(shader)
+        return read_texture(target)[..., :3]
 
-
-@cache
-def _shader(shape: Shape, instance_values: int) -> Any:
-    includes = LIBRARY + "".join(f'#include "{file}"\n' for file in shape.files)
-    return build_shader(
-        "program of a test",
-        FULL_SCREEN,
-        Piece(
-            samplers=named("FLOAT_2D", "program_records", "places", "corners", "instance_table"),
-            outputs={"color": "VEC4"},
-            defines={
-                "ATTRIBUTES": shape.attributes,
-                "INSTANCE_VALUES": INSTANCE_RECORDS + instance_values,
-                "FIRST_RECORD": shape.attributes + instance_values,
-                "SIDE": f"{SIDE}.0",
-                "PLACE": PLACE,
-                "POSITION": POSITION,
-                "NORMAL": NORMAL,
-                "INCOMING": INCOMING,
-                "FIRST_ATTRIBUTE": FIRST_ATTRIBUTE,
-                **flags(*sorted(shape.needs | {"PROGRAM_INSTANCE"})),
-            },
-            fragment=Snippet("program of a test", includes + shape.text + MAIN),
-        ),
-    )
-
-
-def _corner_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
-    """(6 * quantities, 4): of the corners of both triangles."""
-    mesh = tile.data
-    mesh.calc_loop_triangles()
-    loops = np.array([triangle.loops[:] for triangle in mesh.loop_triangles]).ravel()
-    vertices = np.array([loop.vertex_index for loop in mesh.loops])
-    matrix = tile.matrix_world
-    to_normals = matrix.to_3x3().inverted().transposed()
-    quantities = [
-        np.array(CORNERS),
-        np.array([matrix @ vertex.co for vertex in mesh.vertices]),
-        np.array([(to_normals @ normal.vector).normalized() for normal in mesh.corner_normals]),
-        np.tile((*FRAME.col[2], CAMERA_DISTANCE), (4, 1)),
-        *(_of_corners(mesh, attribute, to_normals) for attribute in program.attributes),
-    ]
-    # (The corners of its one face are its vertices, in order.)
-    assert vertices.tolist() == [0, 1, 2, 3]
-    records = np.zeros((len(quantities), 6, 4), np.float32)
-    for row, values in zip(records, quantities, strict=True):
-        row[:, : values.shape[1]] = values[loops]
-    return records.reshape(-1, 4)
-
-
-def _of_corners(mesh: bpy.types.Mesh, attribute: Attribute, to_normals: Any) -> np.ndarray:
-    """(4, 4)"""
-    result = np.zeros((4, 4))
-    result[:, 3] = 1.0
-    if attribute.kind == UV or (attribute.kind == "GEOMETRY" and attribute.name in mesh.uv_layers):
-        layer = mesh.uv_layers[attribute.name or 0]
-        result[:, :2] = [corner.uv for corner in layer.data]
-    elif attribute.kind == "TANGENT":
-        mesh.calc_tangents(uvmap=attribute.name or mesh.uv_layers[0].name)
-        result[:] = [(*loop.tangent, loop.bitangent_sign) for loop in mesh.loops]
-    elif attribute.name in mesh.attributes or (not attribute.name and mesh.color_attributes):
-        found = mesh.attributes[attribute.name or mesh.color_attributes[0].name]
-        for row, value in zip(result, [*found.data] * (4 // len(found.data)), strict=True):
-            parts = getattr(value, "color", None) or getattr(value, "vector", None) or (value.value,) * 3
-            row[: len(parts)] = parts
-    else:
-        result[:] = 0.0
-    return result
+    def _shader(self, program: Program, instances: InstanceTable) -> Any:
+        shape = program.shape
+        pieces = [instances.piece]
+        pieces += [VIEW] if NEEDS_VIEW in shape.needs else []
+        pieces += [self.pages.piece] if program.images else []
+        key = (shape, len(instances.names), *(str(piece.defines) for piece in pieces))
+        if key not in _SHADERS:
+            _SHADERS[key] = build_shader(
+                "program of a test",
+                FULL_SCREEN,
+                *pieces,
+                Piece(
+                    samplers=named("FLOAT_2D", "program_records", "places", "corners"),
+                    outputs={"color": "VEC4"},
+                    defines={
+                        "ATTRIBUTES": shape.attributes,
+                        "FIRST_RECORD": shape.attributes + len(program.instance_attributes),
+                        "SIDE": f"{SIDE}.0",
+                        "PLACE": PLACE,
+                        "POSITION": POSITION,
+                        "NORMAL": NORMAL,
+                        "INCOMING": INCOMING,
+                        "FIRST_ATTRIBUTE": FIRST_ATTRIBUTE,
+                        **{need: "" for need in sorted(shape.needs)},
+                    },
+                    fragment=Snippet(
+                        "program of a test",
+                        LIBRARY + "".join(f'#include "{file}"\n' for file in shape.files) + shape.text + MAIN,
+                    ),
+                ),
+            )
+        return _SHADERS[key]
 
 
-def _instance_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
-    """The tile's row of instance_table (`gpu_shaders/programs/instances.glsl`)."""
-    matrix = np.array(tile.matrix_world)
-    size = np.array(tile.data.texspace_size)
-    scale = 0.5 / np.where(size == 0.0, 0.5, size)
-    offset = 0.5 - np.array(tile.data.texspace_location) * scale
-    values = []
-    for name in program.instance_attributes:
-        value = tile.get(name, 0.0)
-        row = [value] * 3 if isinstance(value, int | float) else [*value, 0.0, 0.0]
-        values.append((*row[:3], 1.0))
-    return np.array(
-        [
-            *matrix[:3],
-            *np.linalg.inv(matrix)[:3],
-            tuple(tile.color),
-            (cycles_random(tile.name), tile.pass_index, 0.0, 0.0),
-            (*scale, 0.0),
-            (*offset, 0.0),
-            (0.0,) * 4,
-            (0.0,) * 4,
-            *values,
-        ],
-        np.float32,
-    )
-
-
-def cycles_random(name: str) -> float:
-    """Object Info's random number of an object that is no instance."""
-    number = 0
-    for letter in name.encode():
-        number = (number * 37 + letter) & 0xFFFFFFFF
-    return _hash(number, 0) / 0xFFFFFFFF
-
-
-def _hash(x: int, y: int) -> int:
-    """hash_uint2 of Cycles."""
-    start = 0xDEADBEEF + (2 << 2) + 13
-    values = [(start + x) & 0xFFFFFFFF, (start + y) & 0xFFFFFFFF, start & 0xFFFFFFFF]
-    for step, bits in enumerate((14, 11, 25, 16, 4, 14, 24)):
-        changed, by = (2 + step) % 3, values[(1 + step) % 3]
-        turned = (by << bits) | (by >> (32 - bits))
-        values[changed] = ((values[changed] ^ by) - turned) & 0xFFFFFFFF
-    return values[2]
+_SHADERS: dict[Any, Any] = {}

@@ -11,7 +11,7 @@ from itertools import batched
 import numpy as np
 from curvrefl.curvrefl_addon.renderer.device.shaders import ShaderError
 
-from .evaluation import compiled, evaluated
+from .evaluation import Board
 from .stage import MOST, MakeTree, columns_for, make_board, render_board, sampled_places
 
 TOLERANCE = 1.0 / 255.0
@@ -63,13 +63,13 @@ def judge_all(trees: Mapping[str, MakeTree], tolerance: float = TOLERANCE) -> di
 def _judged(trees: Sequence[MakeTree], tolerance: float) -> list[Verdict]:
     places = sampled_places(columns_for(len(trees)))
     tiles = make_board(trees)
-    pictures = render_board(len(tiles))
+    pictures, board = render_board(len(tiles)), Board.of_scene()
+    compiled = [board.compiled(tile.material_slots[0].material) for tile in tiles]
+    board.load_images()
     verdicts = []
-    for tile, cycles, where in zip(tiles, pictures, places, strict=False):
-        notes: list[str] = []
+    for (program, notes), tile, cycles, where in zip(compiled, tiles, pictures, places, strict=False):
         try:
-            program, notes = compiled(tile.material_slots[0].material)
-            ours = evaluated(program, tile, where)
+            ours = board.evaluated(program, tile, where)
         except ShaderError as error:
             ours = np.full_like(cycles, np.nan)
             notes = []

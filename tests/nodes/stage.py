@@ -28,8 +28,10 @@ SIZE = 2.0
 """Meters along a tile"""
 MOST = 64
 """Tiles in one picture"""
-CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-CAMERA_DISTANCE = 10.0
+CORNERS = ((-1.03, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+"""Of a tile, in halves of its size; the line between its triangles goes through no pixel's middle"""
+CAMERA_DISTANCE, CLIP_START = 10.0, 0.1
+"""(Rays of the camera begin where it begins to see.)"""
 PASS_INDEX, MATERIAL_INDEX = 3, 5
 OBJECT_COLOR = (0.9, 0.35, 0.15, 0.7)
 PROPERTIES: dict[str, Any] = {"warmth": 0.625, "shade": (0.2, 0.5, 0.8)}
@@ -54,6 +56,12 @@ def tile_center(number: int, columns: int) -> Vector:
     return ORIGIN + FRAME @ Vector(((column - middle) * SIZE, (row - middle) * SIZE, 0.0))
 
 
+def place_on_tile(tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
+    """(n, 2) from -1 to 1, of places (n, 3) in world space."""
+    center = tile.matrix_world.translation - FRAME @ _SHIFT
+    return ((places - np.array(center)) @ np.array(FRAME))[:, :2] / (SIZE / 2.0)
+
+
 def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
     """A scene of nothing else; the tiles. The sockets judged are plugged into `Emission`."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -61,7 +69,7 @@ def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
     columns = columns_for(len(trees))
     _set_up_cycles(scene, columns * SIDE)
     camera = bpy.data.cameras.new("camera")
-    camera.type, camera.ortho_scale = "ORTHO", columns * SIZE
+    camera.type, camera.ortho_scale, camera.clip_start = "ORTHO", columns * SIZE, CLIP_START
     scene.camera = bpy.data.objects.new("camera", camera)
     scene.collection.objects.link(scene.camera)
     scene.camera.matrix_world = Matrix.LocRotScale(ORIGIN + FRAME @ Vector((0.0, 0.0, CAMERA_DISTANCE)), FRAME, None)
@@ -131,6 +139,7 @@ def tile_mesh() -> bpy.types.Mesh:
     mesh.attributes.new("tier", "INT", "FACE").data.foreach_set("value", [2])
     mesh.materials.append(None)
     mesh.update()
+    mesh.polygons[0].use_smooth = True
     # (Normals of a mesh go with the inverse transposed.)
     leaning = [_OWN.transposed() @ Vector((0.5 * x + 0.2, 0.3 * y - 0.2 * x, 1.0)) for x, y in CORNERS]
     mesh.normals_split_custom_set([normal.normalized() for normal in leaning])

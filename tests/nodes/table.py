@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from .cases import colors, converters, inputs, links, textures, vectors
+from .cases import colors, converters, images, inputs, links, textures, vectors
 from .judge import Verdict, judge_all
 from .trees import Row
 
@@ -17,6 +17,7 @@ BATCHES: Mapping[str, list[Row]] = {
     "colors": colors.ROWS,
     "vectors": vectors.ROWS,
     "textures": textures.ROWS,
+    "images": images.ROWS,
     "links": links.ROWS,
 }
 

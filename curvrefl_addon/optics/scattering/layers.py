@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The layers of a material towards n viewers, as `scattering/layers.glsl`, in double precision.
 
-In the order of Cycles' Principled BSDF (Blender 5.2): a coat over metal; of what is no metal, glass; of what is no
-glass, a dielectric over the diffuse base. Metal and glass take their shares, coat and dielectric take their albedo off
-what is below them, so that a white material reflects all light.
+In the order of Cycles' Principled BSDF (Blender 5.2): sheen over a coat over metal; of what is no metal, glass; of what
+is no glass, a dielectric over the diffuse base. Metal and glass take their shares, sheen, coat and dielectric take
+their albedo off what is below them, so that a white material reflects all light.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from .fresnel import (
 from .glass import SMALLEST_ALPHA, Pane, pane_of
 from .material import Material
 from .microfacet import SHARP_ALPHA
+from .sheen import sheen_lobe
 from .tables import average_albedo, lobe_entry, multiple_scattering, slice_of
 
 __all__ = ["Layers", "base_alpha", "coat_of", "layers_of", "specular_fresnel"]
@@ -35,7 +36,7 @@ type Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Coat:
-    """What is above all else."""
+    """What is above all else but sheen."""
 
     weight: Array
     """(n,) share times multiple scattering"""
@@ -44,7 +45,7 @@ class Coat:
     albedo: Array
     """(n,)"""
     passes: Array
-    """(n, 3) that gets through to what is below"""
+    """(n, 3) that gets through it, and through the sheen, to what is below"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +105,8 @@ def base_alpha(m: Material) -> Array:
 def coat_of(m: Material, cos_viewer: Array, table: Array) -> Coat:
     """Its tint is of light that goes straight through: tint^(1 / cos) within, by Beer's law."""
     weight = max(m.coat_weight, 0.0)
+    sheen = max(m.sheen_weight, 0.0) * max(*m.sheen_tint, 0.0) * sheen_lobe(table, m.sheen_roughness, cos_viewer)[1]
+    above = np.clip(1.0 - sheen, 0.0, 1.0)
     roughness = min(max(m.coat_roughness, 0.0), 1.0)
     eta = max(m.coat_ior, 1.0)
     f0 = np.full(3, normal_reflectance(eta))
@@ -111,8 +114,9 @@ def coat_of(m: Material, cos_viewer: Array, table: Array) -> Coat:
     way = 1.0 / np.maximum(refracted_cosine(cos_viewer, eta), 1e-4)
     tint = np.maximum(np.array(m.coat_tint), 1e-10) ** way[:, None]
     share = min(weight, 1.0)
-    passes = np.clip(1.0 - weight * albedo[:, :1], 0.0, 1.0) * (1.0 - share + share * tint)
-    return Coat(weight * scattering[:, 0], roughness * roughness, eta, weight * albedo[:, 0], passes)
+    passes = np.clip(1.0 - weight * albedo[:, :1], 0.0, 1.0) * (1.0 - share + share * tint) * above[:, None]
+    reflects = above * weight
+    return Coat(reflects * scattering[:, 0], roughness * roughness, eta, reflects * albedo[:, 0], passes)
 
 
 def layers_of(m: Material, is_back: bool, cos_viewer: Array, table: Array) -> Layers:

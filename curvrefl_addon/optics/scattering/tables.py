@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["average_albedo", "glass_albedo", "lobe_entry", "multiple_scattering", "slice_of"]
+__all__ = ["average_albedo", "glass_albedo", "lobe_entry", "multiple_scattering", "sheen_entry", "slice_of"]
 
 type Array = NDArray[np.float64]
 
@@ -37,6 +37,11 @@ def slice_of(table: Array, eta: float) -> tuple[int, float]:
 def lobe_entry(table: Array, roughness: float, cosine: Array, place: int) -> Array:
     """Entries of reflecting lobes."""
     return _entry(table, roughness, cosine, place, 0)
+
+
+def sheen_entry(table: Array, roughness: float, cosine: Array) -> Array:
+    """Entries of fibers."""
+    return _entry(table, roughness, cosine, 0, 3 * (table.shape[0] // 4))
 
 
 def glass_albedo(table: Array, roughness: float, cosine: Array, eta: float) -> tuple[Array, float]:

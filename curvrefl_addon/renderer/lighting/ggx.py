@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of the GGX microfacet lobe.
+"""Tables of the GGX microfacet lobe, and of sheen.
 
 The lobe is Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), with the height-correlated
 Smith term; its albedo is the mean of G2 / G1 over visible normals (Heitz, "Sampling the GGX Distribution of Visible
@@ -16,6 +16,7 @@ import numpy as np
 
 from ...optics.scattering.film import FILM_STEPS, LONGEST_PATH, film_sensitivity
 from ...optics.scattering.fresnel import fresnel_dielectric
+from ...optics.scattering.sheen import sheen_table
 from ...scene.arrays import Float32Array, Float64Array
 
 TABLE_SIZE = 32
@@ -37,8 +38,8 @@ TABLE_FILE = Path(__file__).with_name("ggx_table.npy")
 
 @cache
 def ggx_table() -> Float32Array:
-    """(4 * TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): what is stored of `integrate_ggx`, and below it two rows of
-    `film_sensitivity`: real parts of red, green and blue, and imaginary ones.
+    """(4 * TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): what is stored of `integrate_ggx`; below it two rows of
+    `film_sensitivity`: real parts of red, green and blue, and imaginary ones; and in the last quarter sheen.
 
     (Sizes are powers of two along y, so that places there are exact.)
     """
@@ -47,6 +48,7 @@ def ggx_table() -> Float32Array:
     sensitivity = film_sensitivity()
     table[2 * TABLE_SIZE, :FILM_STEPS, :3] = sensitivity.real
     table[2 * TABLE_SIZE + 1, :FILM_STEPS, :3] = sensitivity.imag
+    table[3 * TABLE_SIZE :, :TABLE_SIZE, :3] = sheen_table()
     return table
 
 
@@ -93,7 +95,8 @@ def integrate_lobe(strata: int) -> Float32Array:
     """(TABLE_SIZE, TABLE_SIZE * (IOR_SLICES + 1), 4): rows roughness, columns the viewer's cosine, once per slice.
 
     x: albedo with Fresnel 1; y: mean over the lobe of Schlick's (1 - cos)^5; z: mean over the lobe of
-    (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice.
+    (F - F0) / (1 - F0), not below 0, of the dielectric of this slice's IOR; w: the same of the next slice; of the last
+    one the mean over the lobe of cos (1 - cos)^6, which tints metal at the edge.
     The slice after the last describes the lobe: x: cosine between its mean direction and the normal; y: roughness of
     the lobe about its own normal, seen along it, that is spread as much; z, w: the same of a dielectric's lobe
     (IOR 1.5), whose Fresnel term draws it to the rim.
@@ -114,6 +117,7 @@ def integrate_lobe(strata: int) -> Float32Array:
             table[row, index, :, 2] = (weight * share).sum(axis=1) / total
         table[row, :, :, 1] = (weight * (1.0 - cos_difference) ** 5).sum(axis=1) / total
         table[row, :-2, :, 3] = table[row, 1:-1, :, 2]
+        table[row, -2, :, 3] = (weight * cos_difference * (1.0 - cos_difference) ** 6).sum(axis=1) / total
         for channel, part in ((0, weight), (2, weight * fresnel_dielectric(cos_difference, 1.5))):
             mean = (part[..., None] * light).sum(axis=1) / np.maximum(part.sum(axis=1), 1e-9)[:, None]
             lengths = np.linalg.norm(mean, axis=1)

@@ -33,7 +33,7 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
         for index, material in enumerate(scene.materials)
         if not material.is_seen_through and _shine(material) > SHINY
     }
-    strong = {index for index, material in enumerate(scene.materials) if _emits(material) > STRONG}
+    strong = {index for index, material in enumerate(scene.materials) if material.range_of("emission")[1] > STRONG}
     found = []
     if shiny and len(scene.instances) > 1:
         others = [item for item in scene.instances if item.object_id not in scene.reflectors]
@@ -68,16 +68,17 @@ def is_lit_indirectly(scene: SceneArrays) -> bool:
 
 
 def _shine(material: MaterialArrays) -> float:
-    """See `SHINY`. A texture counts as white."""
-    color = 1.0 if _sets(material, "base_color") else max(material.base_color)
-    roughness = min(max(material.range_of("roughness")[0], 0.0), 1.0)
-    metallic = min(max(material.range_of("metallic")[1], 0.0), 1.0)
-    root = (material.ior - 1.0) / (material.ior + 1.0)
+    """See `SHINY`. What varies counts as the shiniest that it may be."""
+    high = {name: material.range_of(name)[1] for name in ("base_color", "metallic", "ior", "specular_level")}
+    color = min(high["base_color"], max(1.0, *material.base_color))
+    root = 1.0 if np.isinf(high["ior"]) else (high["ior"] - 1.0) / (high["ior"] + 1.0)
+    roughness, emission = material.range_of("roughness")[0], material.range_of("emission")[0]
+    if not material.varies("emission"):
+        emission = max(material.emission)
     # (What very rough dielectrics reflect of all around them hardly differs from place to place.)
-    level = min(max(material.range_of("specular_level")[1], 0.0), 1.0)
-    dielectric = min(2.0 * level * root * root, 0.99) * (1.0 - roughness**3)
-    metal = 1.0 if material.glossy_only else metallic
-    below = ORDINARY_LIGHT * (1.0 - metal) * color + (0.0 if _sets(material, "emission") else max(material.emission))
+    dielectric = min(2.0 * high["specular_level"] * root * root, 0.99) * (1.0 - roughness**3)
+    metal = 1.0 if material.glossy_only else high["metallic"]
+    below = ORDINARY_LIGHT * (1.0 - metal) * color + max(emission, 0.0)
     return _shown(below + ORDINARY_CONTRAST * (metal * color + (1.0 - metal) * dielectric)) - _shown(below)
 
 

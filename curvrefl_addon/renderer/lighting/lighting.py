@@ -18,16 +18,17 @@ from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
-from ..device.textures import texture_2d, texture_layers
+from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from ..surfaces.materials import Materials
 from .caster_images import CasterBake
+from ..paths.surface_features import surface_features
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
-from .programs.textures import seen_texture, world_texture
+from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
@@ -54,14 +55,12 @@ DIRECTIONS_AT_ONCE, DIRECTIONS_ALONE = 8, 16
 """World directions of one sub-frame (each costs a tenth of all other shading), and of a picture of only one"""
 WORLD_MAP_RESOLUTION = 384
 type Features = frozenset[str]
-"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only,
-whether the world shines and whether it is an image"""
+"""Defines of `lighting.glsl`: kinds of lamps, of their shadows, whether lamps or the world light some rays only, what
+the world is; what surfaces have (`surface_features`)"""
 FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
-SEEN = "LIGHTING_SEEN"
-"""The camera sees another world than mirrors do"""
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 
@@ -71,10 +70,9 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
     return Piece(
         samplers={
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
-            "lighting_world_maps": "FLOAT_2D_ARRAY",
-            **named("FLOAT_2D", "lighting_world_image", "lighting_ggx"),
+            "lighting_ggx": "FLOAT_2D",
+            **world_samplers(features),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
-            **({"lighting_world_seen": "FLOAT_2D"} if SEEN in features else {}),
         },
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
@@ -109,6 +107,7 @@ class Lighting:
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
         self._alpha = ShadowAlpha(scene, CasterBake(materials))
+        self._of_surfaces = surface_features(scene)
         self._read_geometry()
         self._read_world()
         self._plan_lamps()
@@ -123,6 +122,7 @@ class Lighting:
             self._oddly_seen = oddly_seen(scene)
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
+            self._of_surfaces = surface_features(scene)
         moved = difference.moved
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
@@ -186,9 +186,8 @@ class Lighting:
 
     def _found_features(self) -> Features:
         kinds = {light.kind for light in self._lights}
-        shadows = {
-            len(layers) for planned in self._lamp_places for _, layers in planned if max(layers, default=-1) >= 0
-        }
+        places = (layers for planned in self._lamp_places for _, layers in planned)
+        shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
         found = {f"LIGHTING_{kind}" for kind in kinds}
         found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
         world = self._world
@@ -197,15 +196,11 @@ class Lighting:
         found |= {"LIGHTING_PARTS" for light in self._lights if not (light.lights_diffuse and light.lights_glossy)}
         if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
             found.add("LIGHTING_PARTS")
-        if world.image is not None:
-            found.add("LIGHTING_IMAGE")
-        if self._world_is_lit:
-            found.add("LIGHTING_WORLD")
+        flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
+        found |= {name for name, is_so in flagged.items() if is_so}
         if self._alpha.materials:
             found.add(ALPHA)
-        if self._world_seen is not None:
-            found.add(SEEN)
-        return frozenset(found)
+        return frozenset(found) | self._world_textures.features | self._of_surfaces
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
@@ -239,25 +234,13 @@ class Lighting:
         shader.uniform_sampler("lighting_world_depth", self._world_maps.texture)
         if ALPHA in self.features:
             self._alpha.bind(shader)
-        shader.uniform_sampler("lighting_world_maps", self._world_textures)
-        shader.uniform_sampler("lighting_world_image", self._world_image)
-        if SEEN in self.features:
-            shader.uniform_sampler("lighting_world_seen", self._world_seen)
+        self._world_textures.bind(shader)
         shader.uniform_sampler("lighting_ggx", self.ggx)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
         self._blocks.clear()
-        for name in (
-            "_bound",
-            "_casters",
-            "_lamp_maps",
-            "_world_maps",
-            "_world_textures",
-            "_world_image",
-            "_world_seen",
-            "ggx",
-        ):
+        for name in ("_bound", "_casters", "_lamp_maps", "_world_maps", "_world_textures", "ggx"):
             self.__dict__.pop(name, None)
 
     @property
@@ -307,10 +290,8 @@ class Lighting:
             self._world_visits = -(-at_once * self.sub_frames // count)
         light = world_light(self._sky.world, max(count, 1), even.world)
         self._world_light, self._world_is_lit = light, lit
-        self._world_textures = texture_layers(light.maps)
-        self._world_image, warnings = world_texture(world)
-        self.world_warnings = baked.warnings + warnings
-        self._world_seen = None if baked.seen is world else seen_texture(baked.seen)
+        self._world_textures = WorldTextures(baked, light.maps)
+        self.world_warnings = self._world_textures.warnings
 
     def _plan_world_shadows(self) -> None:
         """Shadow views of the world's directions."""

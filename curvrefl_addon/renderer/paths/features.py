@@ -11,7 +11,7 @@ from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
 ANISOTROPY, FILM, ABSORPTION, TINT = "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION", "PATHS_TINT"
-VARIES = "PATHS_VARIES"
+SHEEN, VARIES = "PATHS_SHEEN", "PATHS_VARIES"
 """Defines of the shaders of paths"""
 
 
@@ -63,7 +63,7 @@ def has_base(material: MaterialArrays) -> bool:
     """Whether a surface shows something besides what its lobes do, at least at some places."""
     if _varies(material):
         return True
-    shines = max(material.emission) > 0.0
+    shines = max(material.emission) > 0.0 or material.sheen_weight > 0.0
     is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
     return shines or not is_lobe_alone
 
@@ -75,32 +75,24 @@ def _varies(material: MaterialArrays) -> bool:
 
 def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
     """Defines that a path needs which goes on from the material. `is_mirror`: of a chosen mirror."""
-
-    def most(channel: str) -> float:
-        return material.range_of(channel)[1]
-
-    def is_set(channel: str) -> bool:
-        """By a program, from place to place."""
-        return material.program is not None and channel in material.program.shape.channels
-
     # (Lobes of what only lets light straight on are not followed.)
-    is_followed = is_mirror or most("transmission") > 0.0
+    is_followed = is_mirror or material.may_be("transmission")
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
-    is_dielectric = most("specular_level") > 0.0 and (material.ior != 1.0 or is_set("ior"))
-    is_glossy_only = material.glossy_only or is_set("kind")
-    reflects = most("metallic") > 0.0 or is_glossy_only or is_dielectric
-    is_rough = (reflects or most("transmission") > 0.0) and max(most("roughness"), 0.0) ** 2 >= SHARP_ALPHA
-    is_coat_rough = most("coat_weight") > 0.0 and max(most("coat_roughness"), 0.0) ** 2 >= SHARP_ALPHA
-    is_tinted = material.specular_tint != (1.0, 1.0, 1.0) or is_set("specular_tint")
+    is_dielectric = material.may_be("specular_level") and material.range_of("ior") != (1.0, 1.0)
+    reflects = material.may_be("metallic") or material.glossy_only or material.varies("kind") or is_dielectric
+    is_rough = (reflects or material.may_be("transmission")) and material.range_of("roughness")[1] ** 2 >= SHARP_ALPHA
+    has_coat = material.may_be("coat_weight")
+    is_coat_rough = has_coat and material.range_of("coat_roughness")[1] ** 2 >= SHARP_ALPHA
     of_lobes = {
         ROUGH: is_rough or is_coat_rough,
-        COAT: most("coat_weight") > 0.0,
-        GLASS: most("transmission") > 0.0,
-        ANISOTROPY: (material.anisotropy != 0.0 or is_set("anisotropy")) and is_rough,
-        FILM: most("film_thickness") > 0.0,
+        COAT: has_coat,
+        GLASS: material.may_be("transmission"),
+        ANISOTROPY: material.range_of("anisotropy") != (0.0, 0.0) and is_rough,
+        FILM: material.may_be("film_thickness"),
         # (Nothing but paths knows it; they always do.)
-        TINT: is_tinted and reflects and not material.glossy_only,
-        ABSORPTION: most("transmission") > 0.0 and max(material.absorption) > 0.0,
+        TINT: material.range_of("specular_tint") != (1.0, 1.0) and reflects and not material.glossy_only,
+        SHEEN: material.may_be("sheen_weight") and not material.glossy_only,
+        ABSORPTION: material.may_be("transmission") and max(material.absorption) > 0.0,
         VARIES: _varies(material),
     }
     found = {ALPHA: lets_straight_on(material)}

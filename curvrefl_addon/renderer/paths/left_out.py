@@ -7,9 +7,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ...optics.catalog import Method
-from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
+from ...scene.arrays import InstanceArrays, SceneArrays
 from ...scene.remarks import Remark, sentences
-from .features import ALPHA, ANISOTROPY, COAT, FILM, GLASS, ROUGH, TINT, VARIES, features_of, in_use, path_features
+from .features import (
+    ALPHA,
+    ANISOTROPY,
+    COAT,
+    FILM,
+    GLASS,
+    ROUGH,
+    SHEEN,
+    TINT,
+    VARIES,
+    features_of,
+    in_use,
+    path_features,
+)
 
 BUMPS = "BUMPS"
 """Beside the features of paths"""
@@ -18,6 +31,7 @@ KINDS = {
     GLASS: ("The glass {of} is drawn as a plain mirror", "is glass"),
     ALPHA: ("The transparency {of} is left out", "is transparent in part"),
     COAT: ("The coat {of} is left out", "has a coat"),
+    SHEEN: ("The sheen {of} is left out", "has sheen"),
     FILM: ("The thin film {of} is left out", "has a thin film"),
     ROUGH: ("Roughness {of} is left out", "is rough"),
     ANISOTROPY: ("Anisotropy {of} is left out", "is anisotropic"),
@@ -79,15 +93,11 @@ def reasons_for_rays(scene: SceneArrays, mirrors: Iterable[int]) -> dict[str, st
 
 def kinds_of(scene: SceneArrays, mirror: InstanceArrays) -> Iterator[str]:
     """Keys of `KINDS`, in their order."""
-    found = {BUMPS} if any(_is_bent(scene.materials[index]) for index in mirror.materials) else set[str]()
+    found = {BUMPS} if any(scene.materials[index].varies("normal") for index in mirror.materials) else set[str]()
     of = {index: features_of(scene.materials[index], True) for index in mirror.materials}
     for index in in_use(scene, mirror, {index for index, features in of.items() if features}):
         found |= of[index]
     yield from (kind for kind in KINDS if kind in found)
-
-
-def _is_bent(material: MaterialArrays) -> bool:
-    return material.program is not None and "normal" in material.program.shape.channels
 
 
 def lets_light_on(scene: SceneArrays, instance: InstanceArrays) -> bool:

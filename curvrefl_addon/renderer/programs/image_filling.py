@@ -108,11 +108,12 @@ def _halved(pixels: NDArray[Any]) -> NDArray[Any]:
     result = np.empty((tall, wide, 4), pixels.dtype)
     # (Some rows at a time: the sums take more memory than the bytes.)
     for start in range(0, tall, 128):
-        some = part[2 * start : 2 * (start + 128)].astype(np.uint16 if pixels.dtype == np.uint8 else np.float32)
+        some: NDArray[Any] = part[2 * start : 2 * (start + 128)]
+        some = some.astype(np.uint16 if pixels.dtype == np.uint8 else np.float32)
         if height > 1:
-            some = some[0::2] + some[1::2]
+            some = np.add(some[0::2], some[1::2])
         if width > 1:
-            some = some[:, 0::2] + some[:, 1::2]
+            some = np.add(some[:, 0::2], some[:, 1::2])
         count = (2 if height > 1 else 1) * (2 if width > 1 else 1)
-        result[start : start + 128] = some // count if pixels.dtype == np.uint8 else some / count
+        result[start : start + 128] = np.floor_divide(some, count) if pixels.dtype == np.uint8 else some / float(count)
     return result

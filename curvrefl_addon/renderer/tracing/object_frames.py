@@ -34,7 +34,9 @@ def frame_records(scene: SceneArrays) -> Float32Array:
     records = np.zeros((count, FRAME_RECORDS, 4))
     done: set[int] = set()
     for instance in scene.instances:
-        if instance.object_id in done or not any(scene.materials[index].anisotropy for index in instance.materials):
+        if instance.object_id in done or not any(
+            scene.materials[index].range_of("anisotropy") != (0.0, 0.0) for index in instance.materials
+        ):
             continue
         done.add(instance.object_id)
         positions = scene.meshes[instance.mesh].positions

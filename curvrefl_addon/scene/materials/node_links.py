@@ -48,32 +48,36 @@ def find_input(node: Any, name: str) -> Any:
 
 def source_of(socket: Any, groups: Groups = ()) -> Source:
     """Follow the links of an input. (Sockets of groups change nothing, whatever their kind: Cycles has no groups.)"""
-    # The input last gone through, and where: its own value counts if the chain leads nowhere.
-    last, last_groups = socket, groups
+    # Whose own value counts where the chain leads nowhere: the input it starts from, or that of a group it is in.
+    own = Source(socket, groups)
     while not socket.is_output:
-        links = [link for link in socket.links if not link.is_muted and link.is_valid]
-        last, last_groups = socket, groups
+        links = _links_of(socket)
         if not links:
-            break
+            return own
         socket = links[0].from_socket
         node = socket.node
         if node.type == "REROUTE":
             socket = node.inputs[0]
-            if not socket.links:
-                return Source(last, last_groups)
         elif node.mute:
             passed = next((link.from_socket for link in node.internal_links if link.to_socket == socket), None)
-            if passed is None:
-                return Source(last, last_groups)
+            # (Where nothing is plugged in that could pass, it is as if the muted node were not there.)
+            if passed is None or not _links_of(passed):
+                return own
             socket = passed
         elif node.type == "GROUP":
             inside = None if node.node_tree is None else _group_output(node.node_tree)
-            if inside is None:
-                return Source(last, last_groups)
-            socket, groups = find_input(inside, socket.identifier), (*groups, node)
+            if inside is not None:
+                socket, groups = find_input(inside, socket.identifier), (*groups, node)
+                own = Source(socket, groups)
         elif node.type == "GROUP_INPUT" and groups:
             socket, groups = find_input(groups[-1], socket.identifier), groups[:-1]
+            own = Source(socket, groups)
     return Source(socket, groups)
+
+
+def _links_of(socket: Any) -> list[Any]:
+    """Those of an input that count."""
+    return [link for link in socket.links if not link.is_muted and link.is_valid]
 
 
 def output_source(tree: bpy.types.NodeTree | None, name: str) -> Source | None:

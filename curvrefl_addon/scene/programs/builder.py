@@ -98,8 +98,12 @@ class Builder:
             if value.constant is not None and len(set(value.constant)) == 1:
                 return Expression(f"{value.text}.x", "float", value.constant[:1], value.low, value.high)
             weights = self.luminance if value.kind == "color" else (1.0 / 3.0,) * 3
-            text = f"dot({value.text}, vec3({', '.join(map(_number, weights))}))"
-            known = None
+            if value.kind == "color":
+                text = f"dot({value.text}, vec3({', '.join(map(_number, weights))}))"
+            else:
+                # (As Cycles adds, to the last bit: the mean may be hashed.)
+                text = f"(({value.text}.x + {value.text}.y + {value.text}.z) * {_number(weights[0])})"
+            known: tuple[float, ...] | None = None
             if value.constant is not None:
                 known = (float(np.dot(value.constant, weights)),)
             return Expression(text, "float", known, value.low, value.high)

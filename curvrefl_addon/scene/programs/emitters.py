@@ -10,8 +10,9 @@ from typing import Any
 from ..arrays import SunDisc, WorldArrays
 from ..materials.color_spaces import luminance_weights
 from ..materials.node_links import Source
-from .builder import Builder, Images
+from .builder import Builder
 from .expression import Expression
+from .images import ProgramImages
 from .nodes.skies import LEAST_SIZE, is_plain, sun_angles
 from .registry import HANDLERS
 
@@ -19,23 +20,20 @@ EMISSION = "emission"
 """The channel that programs of worlds and lamps set"""
 
 
-class NoImages:
-    """For programs without images."""
-
-    def index_of(self, node: Any, note: Any, splits_alpha: bool) -> int | None:
-        note("Images {of} are not drawn.")
-        return None
-
-
-def world_program(source: Source, images: Images, notes: list[str]) -> WorldArrays:
-    """What the shader at a world's output shines, by a program; `notes` gets causes of remarks."""
+def world_program(source: Source, images: ProgramImages, notes: list[str]) -> WorldArrays:
+    """What the shader at a world's output shines, by a program. `images` lists its images, `notes` gets causes of
+    remarks."""
     b = Builder(HANDLERS, images, notes, tuple(luminance_weights().tolist()), is_world=True)
     value = radiance(b, source)
     if value.constant is not None:
         red, green, blue = value.constant
         return WorldArrays((red, green, blue))
     discs = tuple(disc for sky in _skies(source, set()) if (disc := _disc_of(b, sky)) is not None)
-    return WorldArrays((1.0, 1.0, 1.0), program=b.finished({EMISSION: value}), discs=discs)
+    program = b.finished({EMISSION: value})
+    if "PROGRAM_CAMERA" in program.shape.needs:
+        notes.append("What follows the camera {of} is drawn black.")
+        return WorldArrays()
+    return WorldArrays((1.0, 1.0, 1.0), program=program, discs=discs, program_images=images.sources)
 
 
 def radiance(b: Builder, source: Source) -> Expression:

@@ -48,7 +48,7 @@ def _png(data: bytes) -> Header | None:
 
 def _jpeg(data: bytes) -> Header | None:
     start = 2
-    while start + 9 <= len(data) and data[start] == 0xFF:
+    while start + 10 <= len(data) and data[start] == 0xFF:
         marker = data[start + 1]
         if marker == 0xFF:
             start += 1

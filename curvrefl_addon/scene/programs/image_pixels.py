@@ -12,15 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Float32Array
-from ..camera.srgb import linear_to_srgb
+
+_BRIGHT_SCREENS = {"Rec.2100-PQ": 2.03, "Rec.2100-HLG": 2.03}
+"""Color spaces and Blender's factor on them: white has 203 nits there, not 100"""
 
 type Bytes = NDArray[np.uint8]
 
 LARGEST_HALF = 65504.0
+LEAST_HALF = 2.0**-14
+"""With all of its digits"""
 
 
 def decoded(file: str | bytes) -> Bytes | Float32Array:
-    """(h, w, 1..4) of a file, by its path or all of its bytes, as they are in it. Raises OSError where there are none."""
+    """(h, w, 1..4) of a file, by its path or all of its bytes, as they are in it. Raises OSError if there are none."""
     try:
         loaded = imbuf.load(file) if isinstance(file, str) else imbuf.load_from_buffer(file)
     except (OSError, ValueError) as error:
@@ -65,18 +69,18 @@ def blender_pixels(image: bpy.types.Image) -> Float32Array | None:
     return four_channels(values.reshape(height, width, -1))
 
 
-def pixels_of_file(image: bpy.types.Image, path: str) -> Float32Array | None:
-    """As `blender_pixels` of another file, with the settings of this image."""
+def raw_pixels(path: str) -> Float32Array | None:
+    """(h, w, 4) float32 of a file as they are in it; None: there are none."""
     try:
-        other = bpy.data.images.load(path)
+        image: Any = bpy.data.images.load(path)
     except RuntimeError:
         return None
     try:
-        other.colorspace_settings.name = image.colorspace_settings.name
-        other.alpha_mode = image.alpha_mode
-        return blender_pixels(other)
+        image.colorspace_settings.name = "Non-Color"
+        image.alpha_mode = "CHANNEL_PACKED"
+        return blender_pixels(image)
     finally:
-        bpy.data.images.remove(other)
+        bpy.data.images.remove(image)
 
 
 def four_channels(pixels: NDArray[Any]) -> NDArray[Any]:
@@ -93,21 +97,8 @@ def four_channels(pixels: NDArray[Any]) -> NDArray[Any]:
 
 
 def to_bytes(pixels: Float32Array) -> Bytes:
-    """Blender's 255ths as the bytes that they are of."""
+    """Blender's floats as the bytes that they are made of."""
     return np.rint(pixels * np.float32(255.0)).astype(np.uint8)
-
-
-def encoded(pixels: Float32Array, multiplies: bool) -> Float32Array:
-    """Scene-linear colors (h, w, 4), multiplied with alpha where they have some, in the curve of sRGB: encoded first and
-    then multiplied, if they are at all (`multiplies`)."""
-    result = pixels.copy()
-    alpha = pixels[..., 3:]
-    if multiplies and alpha.min() < 1.0:
-        colors = np.divide(pixels[..., :3], alpha, out=np.zeros_like(pixels[..., :3]), where=alpha > 0.0)
-        result[..., :3] = linear_to_srgb(colors) * alpha
-    else:
-        result[..., :3] = linear_to_srgb(pixels[..., :3])
-    return result
 
 
 def scene_linear(colors: Float32Array, space: str) -> Float32Array:
@@ -126,9 +117,18 @@ def scene_linear(colors: Float32Array, space: str) -> Float32Array:
     finally:
         bpy.data.images.remove(image)
     assert result is not None
-    return result[..., :3]
+    # (Blender, and not Cycles, scales what is made for bright screens.)
+    return result[..., :3] * np.float32(_BRIGHT_SCREENS.get(space, 1.0))
 
 
 def narrowed(pixels: Float32Array) -> NDArray[np.float16] | Float32Array:
     """In half precision, where that holds them."""
     return pixels.astype(np.float16) if np.abs(pixels).max(initial=0.0) <= LARGEST_HALF else pixels
+
+
+def truncated(values: Float32Array) -> Float32Array:
+    """What Cycles' own half floats keep of them: they are rounded towards 0."""
+    bits = np.ascontiguousarray(values, np.float32).view(np.uint32) & np.uint32(0xFFFFE000)
+    result = np.clip(bits.view(np.float32), -LARGEST_HALF, LARGEST_HALF)
+    result[np.abs(result) < LEAST_HALF] = 0.0
+    return result

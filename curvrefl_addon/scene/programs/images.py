@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import ImageSource
+from ..arrays import Float32Array, ImageSource
 from ..finite import usable_pixels
 from ..materials.color_spaces import REC709, working_space
 from ..remarks import Remark
@@ -22,13 +22,13 @@ from .image_headers import HEADER_BYTES, Header, header_of
 from .image_pixels import (
     blender_pixels,
     decoded,
-    encoded,
     four_channels,
     multiplied,
     narrowed,
-    pixels_of_file,
+    raw_pixels,
     scene_linear,
     to_bytes,
+    truncated,
     without_alpha,
 )
 
@@ -37,6 +37,8 @@ DATA = "Non-Color"
 FIRST_TILE = 1001
 _LINEAR = ("Linear", "Raw", "scene_linear")
 """Names of the working space beside its own"""
+
+_FLOAT_FORMATS = ("OPEN_EXR", "OPEN_EXR_MULTILAYER", "HDR")
 
 type _Key = tuple[int, str, int, str, str]
 """Image (session_uid), file shown, frame of a movie, color space, alpha mode"""
@@ -131,7 +133,7 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
     if image.source == "FILE" and image.packed_file is None and not image.is_dirty and image.type == "IMAGE":
         return bpy.path.abspath(image.filepath_from_user(), library=image.library), -1
     if image.source == "MOVIE":
-        note("Movies {of} are not shown: they are drawn magenta.")
+        note("Movies {of} stand still: one frame of them is shown.")
     return "", -1
 
 
@@ -153,8 +155,6 @@ class _Reading:
         image = self._image
         if self._file:
             return self._of_file()
-        if image.source == "MOVIE":
-            return _missing(image.name)
         if image.type != "IMAGE" and image.type != "UV_TEST":
             self._remark("Renders and layers {of} are not read: drawn magenta.")
             return _missing(image.name)
@@ -177,9 +177,8 @@ class _Reading:
                     height, width = values.shape[:2]
                     header = Header(width, height, values.shape[2] != 4 or bool(values[..., 3].min() == 255))
         except OSError:
-            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
-            return _missing(self._image.name)
-        return self._of_blender() if header is None else self._of_bytes(self._file, header)
+            return self._lost()
+        return self._of_float_file() if header is None else self._of_bytes(self._file, header)
 
     def _of_bytes(self, file: str | bytes, header: Header) -> ImageSource:
         """A file of bytes, or all of its bytes."""
@@ -192,49 +191,70 @@ class _Reading:
         if self._is_linear or self._is_srgb:
             return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, read)
         try:
-            straight = _read_bytes(file, (header.height, header.width), False, image.alpha_mode == "NONE")
+            return self._of_values(_read_bytes(file, (header.height, header.width), False, False), multiplies)
         except OSError:
-            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
-            return _missing(image.name)
-        return self._converted(straight, multiplies)
+            return self._lost()
 
     def _of_blender(self) -> ImageSource:
-        """What is painted, generated, of floats."""
+        """What is generated, painted, or packed and more than bytes."""
         image = self._image
-        # (Of several files Blender holds the one that is on the screen.)
-        several = image.source in ("SEQUENCE", "TILED")
-        pixels = pixels_of_file(image, self._file) if self._file and several else blender_pixels(image)
+        pixels = blender_pixels(image)
         if pixels is None:
-            self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
-            return _missing(image.name)
-        is_straight, is_own = image.alpha_mode == "STRAIGHT", not self._file
+            return self._lost()
+        multiplies = image.alpha_mode == "STRAIGHT" and not self._is_data
+        if not image.is_float:
+            return self._of_values(to_bytes(pixels), multiplies)
         if image.alpha_mode == "NONE":
             without_alpha(pixels)
-        if not image.is_float:
-            values = to_bytes(pixels)
-            multiplies = uses_alpha(image) and (is_straight or not is_own)
-            if self._is_linear or self._is_srgb:
-                return self._of_array(multiplied(values) if multiplies else values, self._is_srgb)
+        pixels = self._usable(pixels)
+        if multiplies:
+            pixels[..., :3] *= pixels[..., 3:]
+        return self._of_array(pixels, False)
+
+    def _of_float_file(self) -> ImageSource:
+        pixels = raw_pixels(self._file)
+        if pixels is None:
+            return self._lost()
+        return self._of_values(self._usable(pixels), self._image.alpha_mode == "STRAIGHT" and not self._is_data)
+
+    def _of_values(self, values: NDArray[Any], multiplies: bool) -> ImageSource:
+        """Of bytes or floats as they are in a file."""
+        if self._image.alpha_mode == "NONE":
+            without_alpha(values)
+        if not self._is_linear and not self._is_srgb:
             return self._converted(values, multiplies)
+        if multiplies and values.dtype == np.uint8:
+            multiplied(values)
+        elif multiplies:
+            values[..., :3] *= values[..., 3:]
+        return self._of_array(values, self._is_srgb)
+
+    def _converted(self, values: NDArray[Any], multiplies: bool) -> ImageSource:
+        """Of any other color space; Cycles converts whole numbers in half precision."""
+        is_half = values.dtype == np.uint8 or self._image.file_format not in _FLOAT_FORMATS
+        pixels = values.astype(np.float32) / np.float32(255.0 if values.dtype == np.uint8 else 1.0)
+        if is_half:
+            pixels = pixels.astype(np.float16).astype(np.float32)
+        alpha = pixels[..., 3:]
+        if multiplies:
+            pixels[..., :3] *= alpha
+            if is_half:
+                pixels = truncated(pixels)
+        # (Cycles divides and multiplies for the conversion, but where alpha is 0.)
+        factor = np.where(alpha > 0.0, alpha, np.float32(1.0)) if uses_alpha(self._image) else np.float32(1.0)
+        colors = scene_linear(pixels[..., :3] / factor, self._image.colorspace_settings.name)
+        pixels[..., :3] = colors * factor
+        return self._of_array(truncated(pixels) if is_half else self._usable(pixels), False)
+
+    def _usable(self, pixels: Float32Array) -> Float32Array:
         pixels, count = usable_pixels(pixels)
         if count:
             self._remark(f"Pixels {{of}} that are not usable numbers ({count}) are drawn black.")
-        if uses_alpha(image) and is_straight and is_own:
-            pixels[..., :3] *= pixels[..., 3:]
-        elif not is_own and self._is_srgb:
-            return self._of_array(encoded(pixels, uses_alpha(image)), True)
-        return self._of_array(pixels, False)
+        return pixels
 
-    def _converted(self, values: NDArray[np.uint8], multiplies: bool) -> ImageSource:
-        """Of bytes of any other color space."""
-        pixels = values.astype(np.float32) / np.float32(255.0)
-        alpha = pixels[..., 3:]
-        if uses_alpha(self._image) and not multiplies and alpha.min() < 1.0:
-            np.divide(pixels[..., :3], alpha, out=pixels[..., :3], where=alpha > 0.0)
-        pixels[..., :3] = scene_linear(pixels[..., :3], self._image.colorspace_settings.name)
-        if uses_alpha(self._image):
-            pixels[..., :3] *= alpha
-        return self._of_array(pixels, False)
+    def _lost(self) -> ImageSource:
+        self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
+        return _missing(self._image.name)
 
     def _of_array(self, values: NDArray[Any], is_srgb: bool) -> ImageSource:
         kept = values if values.dtype == np.uint8 else narrowed(values)

@@ -82,6 +82,8 @@ class MaterialReader:
     def forget_all(self) -> None:
         """Any may have changed, or the images they show."""
         self._read.clear()
+        # (Those that no object shows any more are not read again, and may not ask for images that are gone.)
+        self.materials = [replace(arrays, program=None, ranges=()) for arrays in self.materials]
 
     def _read_anew(self, material: bpy.types.Material, key: int) -> ReadMaterial:
         notes: list[str] = []

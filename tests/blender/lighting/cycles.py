@@ -101,12 +101,35 @@ def _blender_material(material: MaterialArrays, images: tuple[ImageArrays, ...])
         node.inputs["Emission Color"].default_value = (*material.emission, 1.0)
         node.inputs["Emission Strength"].default_value = 1.0
         node.inputs["Alpha"].default_value = material.alpha
+        _set_layers(node, material)
+    if material.translucency:
+        node = _mixed_with_translucent(tree, material, node)
     if material.scalars is not None:
         _link_alpha(tree, images[material.scalars.image], material.alpha_threshold, node.inputs["Alpha"])
     if material.transparent_tint != (1.0, 1.0, 1.0):
         node = _mixed_with_transparent(tree, material, node)
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     return made
+
+
+def _set_layers(node: Any, material: MaterialArrays) -> None:
+    node.inputs["Specular Tint"].default_value = (*material.specular_tint, 1.0)
+    node.inputs["Diffuse Roughness"].default_value = material.diffuse_roughness
+    for layer in ("sheen", "coat"):
+        for part in ("weight", "roughness"):
+            node.inputs[f"{layer} {part}".title()].default_value = getattr(material, f"{layer}_{part}")
+        node.inputs[f"{layer} tint".title()].default_value = (*getattr(material, f"{layer}_tint"), 1.0)
+    node.inputs["Coat IOR"].default_value = material.coat_ior
+
+
+def _mixed_with_translucent(tree: Any, material: MaterialArrays, node: Any) -> Any:
+    """Of a material that is all base."""
+    mix, through = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBsdfTranslucent")
+    through.inputs["Color"].default_value = (*material.base_color, 1.0)
+    mix.inputs[0].default_value = material.translucency
+    tree.links.new(node.outputs[0], mix.inputs[1])
+    tree.links.new(through.outputs[0], mix.inputs[2])
+    return mix
 
 
 def _link_alpha(tree: Any, image: ImageArrays, threshold: float, to: Any) -> None:

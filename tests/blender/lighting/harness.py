@@ -91,6 +91,10 @@ class Harness:
         base = np.array([m.base_color for m in materials])[number]
         gloss = np.array([[m.metallic, m.roughness, m.ior, m.specular_level] for m in materials])[number]
         extra = np.array([[*m.emission, float(m.glossy_only)] for m in materials])[number]
+        sheen = np.array([[m.sheen_weight * part for part in m.sheen_tint] for m in materials])[number]
+        coat = np.array([[m.coat_weight, m.coat_roughness, m.coat_ior, m.sheen_roughness] for m in materials])[number]
+        coat_tint = np.array([[*m.coat_tint, m.translucency] for m in materials])[number]
+        tint = np.array([[*m.specular_tint, m.diffuse_roughness] for m in materials])[number]
         self.textures = {
             "position": texture(np.concatenate([positions, number[..., None] + 1.0], axis=-1)),
             "normal": texture(normals),
@@ -98,6 +102,10 @@ class Harness:
             "base": texture(base),
             "gloss": texture(gloss),
             "extra": texture(extra),
+            "sheen": texture(sheen),
+            "coat": texture(coat),
+            "coat_tint": texture(coat_tint),
+            "tint": texture(tint),
         }
         self.shader = build_shader(
             "lighting test",
@@ -129,6 +137,7 @@ class Harness:
 
 _MAIN = """
 #include "lighting/lighting.glsl"
+#include "programs/layers.glsl"
 
 vec3 mirror_at(Surface s, vec3 to_viewer)
 {
@@ -169,6 +178,22 @@ void main()
   s.specular_level = gloss.w;
   s.emission = extra.rgb;
   s.glossy_only = extra.w > 0.5;
+  Material m;
+  vec4 coat = texelFetch(buffer_coat, pixel, 0);
+  vec4 coat_tint = texelFetch(buffer_coat_tint, pixel, 0);
+  vec4 tint = texelFetch(buffer_tint, pixel, 0);
+  m.sheen_tint = texelFetch(buffer_sheen, pixel, 0).rgb;
+  m.sheen_weight = 1.0;
+  m.coat_weight = coat.x;
+  m.coat_roughness = coat.y;
+  m.coat_ior = coat.z;
+  m.sheen_roughness = coat.w;
+  m.coat_tint = coat_tint.rgb;
+  m.translucency = coat_tint.w;
+  m.specular_tint = tint.rgb;
+  m.diffuse_roughness = tint.w;
+  m.subsurface = 0.0;
+  add_layers(s, m);
   color = vec4(world_radiance(-to_viewer), 1.0);
   if (position.w > 0.5) {
     color.rgb = FUNCTION(s, to_viewer);

@@ -56,4 +56,4 @@ def all_directions_by_cycles(width: int = WIDTH) -> np.ndarray:
 def all_directions(world: WorldArrays, width: int = WIDTH, rays: int = CAMERA) -> np.ndarray:
     """The same by the world's program."""
     assert world.program is not None
-    return Baker(world.program).bake(sky_directions(width), rays)
+    return Baker(world.program, world.program_images).bake(sky_directions(width), rays)

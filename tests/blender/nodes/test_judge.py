@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from nodes.evaluation import cycles_random
 from nodes.judge import compared, judge_all
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -38,7 +37,3 @@ def test_edges_may_be_a_pixel_off_and_slopes_may_not() -> None:
     assert not compared(x / 48.0, (x + 0.4) / 48.0).is_right
     assert not compared(edge, edge + 0.01).is_right
     assert compared(edge, edge + 0.003).is_right
-
-
-def test_random_numbers_of_objects() -> None:
-    assert cycles_random("tile 20") == pytest.approx(0.742251, abs=1e-6)

@@ -19,7 +19,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.materials import TABLE, Materials
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays, WorldArrays
 from curvrefl.gpu_shaders.loader import Snippet
 
-FEATURES = ("ROUGH", "COAT", "GLASS", "ALPHA", "ANISOTROPY", "FILM")
+FEATURES = ("ROUGH", "COAT", "GLASS", "ALPHA", "ANISOTROPY", "FILM", "SHEEN")
 INPUTS = ("viewers", "lights", "randoms", "tangents")
 OUTPUTS = ("direction_out", "weight_out", "value_out", "base_out")
 MAIN = """
@@ -59,7 +59,7 @@ class Answers:
     coat_passes: np.ndarray
 
 
-def scatter_program(features: tuple[str, ...] = FEATURES, main: str = MAIN) -> Any:
+def scatter_program(features: tuple[str, ...] = FEATURES, main: str = MAIN, of_surfaces: tuple[str, ...] = ()) -> Any:
     return build_shader(
         "scatter of a test",
         FULL_SCREEN,
@@ -68,7 +68,7 @@ def scatter_program(features: tuple[str, ...] = FEATURES, main: str = MAIN) -> A
             samplers=named("FLOAT_2D", "lighting_ggx", "colors", *INPUTS),
             constants={"normal": "VEC3"},
             outputs=named("VEC4", *OUTPUTS),
-            defines={**GGX_DEFINES, **flags(*(f"PATHS_{name}" for name in features))},
+            defines={**GGX_DEFINES, **flags(*(f"PATHS_{name}" for name in features), *of_surfaces)},
             fragment=Snippet("scatter of a test", main),
         ),
     )

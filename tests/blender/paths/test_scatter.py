@@ -111,8 +111,6 @@ def test_nothing_is_no_number(program: Any) -> None:
 
 OF_TODAY = """
 #include "common/records.glsl"
-struct Surface { vec3 position; vec3 normal; vec3 base_color; float metallic; float roughness; float ior;
-  float specular_level; vec3 emission; bool glossy_only; };
 #include "lighting/ggx.glsl"
 #include "lighting/mirror_tint.glsl"
 #include "paths/scatter.glsl"

@@ -14,7 +14,6 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import WorldArrays
 from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
-from curvrefl.curvrefl_addon.scene.world import SKY_COLORS
 from extraction import cycles_picture, empty_scene, extracted, link
 
 SIZE = 24
@@ -138,36 +137,29 @@ def test_colors(world: bpy.types.World) -> None:
     assert extracted().world.color == (0.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("kind", list(SKY_COLORS))
-def test_a_sky_gets_its_mean_and_a_warning(world: bpy.types.World, kind: str) -> None:
-    world.cycles.sampling_method = "NONE"
+def test_what_is_no_image_is_a_program(world: bpy.types.World) -> None:
     tree = world.node_tree
     sky: Any = tree.nodes.new("ShaderNodeTexSky")
-    sky.sky_type, sky.sun_disc, sky.sun_elevation = kind, False, 0.8
-    sky.sun_direction = (0.0, math.cos(0.8), math.sin(0.8))
     tree.links.new(sky.outputs["Color"], tree.nodes["Background"].inputs["Color"])
     read = extracted()
-    (warning,) = read.warnings
-    assert '"world"' in warning and "sky" in warning
-    camera = bpy.data.cameras.new("camera")
-    camera.type, camera.panorama_type = "PANO", "EQUIRECTANGULAR"
-    bpy.context.scene.camera = link(bpy.data.objects.new("camera", camera))
-    bpy.context.scene.camera.rotation_euler = (math.pi / 2.0, 0.0, 0.0)
-    weights = np.cos((np.arange(16) + 0.5) / 16 * np.pi - 0.5 * np.pi)[:, None, None]
-    mean = (cycles_picture(32, 16, 8) * weights).sum(axis=(0, 1)) / weights.sum() / 32
-    np.testing.assert_allclose(read.world.color, mean, rtol=0.1)
+    assert not read.warnings and read.world.image is None and read.world.program is not None
+    (disc,) = read.world.discs
+    up = float(sky.sun_elevation)
+    np.testing.assert_allclose(disc.direction, (0.0, math.cos(up), math.sin(up)), atol=1e-9)
+    sky.sun_disc = False
+    assert extracted().world.discs == ()
 
 
-def test_two_backgrounds(world: bpy.types.World) -> None:
+def test_mixed_constants_are_a_constant(world: bpy.types.World) -> None:
     tree = world.node_tree
     mix, other = tree.nodes.new("ShaderNodeMixShader"), tree.nodes.new("ShaderNodeBackground")
-    other.inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
+    other.inputs["Color"].default_value = (1.0, 0.0, 0.5, 1.0)
     mix.inputs["Fac"].default_value = 0.75
     tree.links.new(tree.nodes["Background"].outputs[0], mix.inputs[1])
     tree.links.new(other.outputs[0], mix.inputs[2])
     tree.links.new(mix.outputs[0], tree.nodes["World Output"].inputs["Surface"])
     read = extracted()
-    assert read.world.color == (1.0, 0.0, 0.0) and len(read.warnings) == 1
+    assert read.world.color == (0.75, 0.0, 0.375) and not read.warnings
 
 
 def of_pixels(world: bpy.types.World, *pixels: tuple[float, float, float]) -> Any:

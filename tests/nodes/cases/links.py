@@ -108,6 +108,20 @@ def muted_without_way(tree: Any) -> Any:
     return _sum(tree, socket, ACROSS(tree))
 
 
+def muted_without_link(tree: Any) -> Any:
+    """Its own value does not pass."""
+    socket = shader_node("Math", {0: 0.8, 1: 3.0}, operation="MULTIPLY")(tree)
+    socket.node.mute = True
+    return _sum(tree, socket, ACROSS(tree))
+
+
+def muted_group_without_link(tree: Any) -> Any:
+    node = _placed_group(tree, _group(_sum))
+    node.inputs["In"].default_value = 0.3
+    node.mute = True
+    return _sum(tree, node.outputs["Sum"], ACROSS(tree))
+
+
 def muted_link(tree: Any) -> Any:
     socket = shader_node("Math", {0: ACROSS, 1: 0.4})(tree)
     socket.node.inputs[0].default_value = 0.25
@@ -135,6 +149,7 @@ ROWS: list[Row] = [
         ("Twice", same_group_twice),
         ("With nothing plugged in", empty_group),
         ("Muted", muted_group),
+        ("Muted, with nothing plugged in", muted_group_without_link),
     ),
     *rows("Reroute", ("", reroutes), ("With nothing plugged in", loose_reroute)),
     *rows("Frame", ("", framed)),
@@ -143,6 +158,7 @@ ROWS: list[Row] = [
         ("", muted_node),
         ("Mix", muted_mix),
         ("Without a way through", muted_without_way),
+        ("With nothing plugged in", muted_without_link),
         ("Muted links", muted_link),
     ),
     *rows("Several outputs", ("", several_outputs)),

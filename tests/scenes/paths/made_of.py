@@ -15,10 +15,18 @@ from curvrefl.curvrefl_addon.scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
+from curvrefl.curvrefl_addon.scene.programs.program import Program, Shape
 
 CHROME = MaterialArrays("chrome", metallic=1.0, roughness=0.0)
 ROUGH_METAL = MaterialArrays("rough", metallic=1.0, roughness=0.3)
 LEAF = MaterialArrays("leaf", alpha=0.5, specular_level=0.0)
+
+
+def varying(material: MaterialArrays, **ranges: tuple[float, float]) -> MaterialArrays:
+    """With channels that a program sets, from a lowest to a highest value."""
+    text = "void material_program(ShadingPoint s, inout Material m)\n{\n}\n"
+    program = Program(Shape(text, channels=tuple(ranges)), np.zeros((0, 4), np.float32))
+    return replace(material, program=program, ranges=tuple((name, *ends) for name, ends in ranges.items()))
 
 
 def scene_of(

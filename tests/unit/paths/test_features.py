@@ -19,8 +19,8 @@ from curvrefl.curvrefl_addon.renderer.paths.features import (
     TINT,
     path_features,
 )
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ScalarsArrays
-from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays
+from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of, varying
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,19 @@ from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
         (MaterialArrays("glass", roughness=0.0, transmission=1.0), {GLASS}),
         (MaterialArrays("green", roughness=0.0, transmission=1.0, absorption=(1.0, 0.0, 1.0)), {GLASS, ABSORPTION}),
         (replace(CHROME, alpha=0.9), {ALPHA}),
-        (replace(CHROME, scalars=ScalarsArrays(0)), {ROUGH, SCALARS}),
+        (varying(CHROME, roughness=(0.0, 1.0)), {ROUGH, SCALARS}),
+        (varying(CHROME, roughness=(0.0, 0.02)), {SCALARS}),
+        (varying(CHROME, metallic=(0.0, 1.0)), {SCALARS}),
+        (varying(CHROME, alpha=(0.5, 1.0)), {ALPHA, SCALARS}),
+        (
+            varying(CHROME, transmission=(0.0, 1.0), coat_weight=(0.0, 1.0), coat_roughness=(0.0, 0.0)),
+            {GLASS, COAT, SCALARS},
+        ),
+        (varying(CHROME, film_thickness=(0.0, 0.0), specular_tint=(1.0, 1.0), anisotropy=(0.0, 0.0)), set()),
+        (
+            varying(ROUGH_METAL, film_thickness=(0.0, 300.0), specular_tint=(0.0, 1.0), anisotropy=(0.0, 1.0)),
+            {FILM, TINT, ANISOTROPY, ROUGH},
+        ),
     ],
     ids=lambda value: value.name if isinstance(value, MaterialArrays) else "-".join(sorted(value)),
 )

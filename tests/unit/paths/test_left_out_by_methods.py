@@ -9,11 +9,11 @@ from dataclasses import replace
 import pytest
 from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.renderer.paths.left_out import left_out_by, reasons_for_rays
-from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, ReliefArrays, ScalarsArrays, SceneArrays
-from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays
+from scenes.paths.made_of import CHROME, LEAF, ROUGH_METAL, scene_of, varying
 
 SEE_IT = ": choose Automatic or Exact to see it."
-BUMPY = replace(CHROME, relief=ReliefArrays(0, is_bump=True))
+BUMPY = varying(CHROME, normal=(-1.0, 1.0))
 OPAQUE = MaterialArrays("opaque")
 
 
@@ -40,7 +40,7 @@ OPAQUE = MaterialArrays("opaque")
         ),
         (replace(CHROME, film_thickness=300.0), ['The thin film of mirror "mirror" is left out'], "has a thin film"),
         (
-            replace(CHROME, scalars=ScalarsArrays(0)),
+            varying(CHROME, roughness=(0.0, 1.0)),
             [
                 'Textures of roughness, metallic and alpha of mirror "mirror" are their means',
                 'Roughness of mirror "mirror" is left out',

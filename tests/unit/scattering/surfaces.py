@@ -39,6 +39,14 @@ MATERIALS = {
     ),
     "soap": material(base_color=(1.0, 1.0, 1.0), transmission=1.0, thin_wall=True, ior=1.1, film_thickness=500.0),
     "filmed glass": material(transmission=0.6, film_thickness=300.0, film_ior=2.0),
+    "velvet": material(
+        base_color=(0.8, 0.4, 0.1),
+        sheen_weight=0.9,
+        sheen_roughness=0.3,
+        sheen_tint=(0.9, 0.5, 0.7),
+        coat_weight=0.5,
+        coat_roughness=0.2,
+    ),
     "all at once": material(
         base_color=(0.8, 0.4, 0.1),
         metallic=0.3,

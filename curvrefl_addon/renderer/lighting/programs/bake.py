@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from .....gpu_shaders.loader import Snippet
-from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array
-from ....scene.programs.program import Program
+from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, ImageSource
+from ....scene.programs.program import IMAGE_RECORDS, Program
 from ....scene.programs.program import Shape as ProgramShape
 from ...device.batches import full_screen_triangle
 from ...device.context import gpu_cache
@@ -20,14 +20,14 @@ from ...device.records import record_texture
 from ...device.shaders import FULL_SCREEN, Block, Piece, build_shader, flags, named, uniform_block
 from ...device.state import drawing_state, set_viewport
 from ...device.textures import empty_texture, read_texture
+from ...programs.image_pages import ImagePages
+from ...programs.instance_table import NEED, PLAIN_VALUES, instance_piece
 
 SKY, DISC, LAMP = 0, 1, 2
 """Shapes of directions: an equirectangular image, a disc of the sky, all about a lamp (octahedral)"""
 CAMERA, GLOSSY, DIFFUSE, TRANSMISSION, LIGHTING = 1, 2 + 16 + 32, 2 + 8, 4, 0
 """Rays, as bits of `shading_point.glsl`; LIGHTING: Cycles tells shaders of light nothing of the rays that ask it"""
 BAKE_RECORDS = 6
-INSTANCE_VALUES = 12
-"""Records of a lamp in the table of instances: it has no values by name"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Directions:
     width: int
     height: int
     frame: Float64Array
-    """(3, 3) rows: see `bake_program.frag.glsl`"""
+    """(3, 3) rows: see `programs/bake.frag.glsl`"""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
@@ -50,24 +50,37 @@ def sky_directions(width: int) -> Directions:
 class Baker:
     """Bakes one program."""
 
-    def __init__(self, program: Program, instance: Float64Array | None = None) -> None:
-        """`instance`: records (INSTANCE_VALUES, 4) of the lamp that it is on."""
+    def __init__(
+        self, program: Program, images: tuple[ImageSource, ...] = (), instance: Float64Array | None = None
+    ) -> None:
+        """`images`: those of the program's own list; `instance`: records (PLAIN_VALUES, 4) of the lamp that it is
+        on."""
         self._shape = program.shape
-        # Before the parameters lie the numbers of attributes, of which worlds and lamps have none.
+        self._pages = ImagePages()
+        self._pages.follow(images)
+        self._pages.fill()
+        self.warnings = self._pages.warnings
+        # Before the parameters lie the numbers of attributes and values of instances: 0, of which there is no value.
         self._first = program.shape.attributes + len(program.instance_attributes)
-        self._records = record_texture(np.vstack([np.zeros((self._first, 4), np.float32), program.records]))
-        self._instance = record_texture(np.zeros((INSTANCE_VALUES, 4)) if instance is None else instance)
+        records = np.vstack([np.zeros((self._first, 4), np.float32), program.records])
+        for use in program.images:
+            start = self._first + use.record
+            records[start : start + IMAGE_RECORDS] = self._pages.records(use.image)
+        self._records = record_texture(records)
+        self._instance = record_texture(np.zeros((PLAIN_VALUES + 1, 4)) if instance is None else instance)
 
     def bake(self, directions: Directions, rays: int, without_suns: bool = False) -> Float32Array:
         """(height, width, 3) radiance, row 0 lowest; what is no usable number is black."""
-        shader = _shader(self._shape, without_suns)
+        pages = self._pages.piece
+        shader = _shader(self._shape, without_suns, tuple(pages.samplers), tuple(pages.defines.items()))
         target = empty_texture(directions.width, directions.height)
         buffer = frame_buffer(target)
         with drawing_state(), buffer.bind():
             set_viewport(0, 0, directions.width, directions.height)
             shader.bind()
             shader.uniform_sampler("program_records", self._records)
-            if "PROGRAM_INSTANCE" in self._shape.needs:
+            self._pages.bind(shader)
+            if NEED in self._shape.needs:
                 shader.uniform_sampler("instance_table", self._instance)
             block = uniform_block(self._numbers(directions, rays).ravel())
             shader.uniform_block("bake", block)
@@ -92,8 +105,9 @@ def _depths(rays: int) -> tuple[float, float, float]:
 
 
 @gpu_cache
-def _shader(shape: ProgramShape, without_suns: bool) -> Any:
-    has_instance = "PROGRAM_INSTANCE" in shape.needs
+def _shader(
+    shape: ProgramShape, without_suns: bool, images: tuple[str, ...], image_defines: tuple[tuple[str, Any], ...]
+) -> Any:
     text = "\n".join(
         (
             '#include "programs/shading_point.glsl"',
@@ -106,18 +120,19 @@ def _shader(shape: ProgramShape, without_suns: bool) -> Any:
         "emitting program",
         FULL_SCREEN,
         Piece(
-            samplers=named("FLOAT_2D", "program_records", *(("instance_table",) if has_instance else ())),
+            samplers={"program_records": "FLOAT_2D", **named("FLOAT_2D_ARRAY", *images)},
             blocks={"bake": Block("vec4", length=BAKE_RECORDS)},
             outputs={"color": "VEC4"},
             defines={
                 **flags(*sorted(shape.needs), *(("PROGRAM_WITHOUT_SUNS",) if without_suns else ())),
+                **dict(image_defines),
                 "ATTRIBUTES": shape.attributes,
-                "INSTANCE_VALUES": INSTANCE_VALUES,
                 "SHAPE_SKY": SKY,
                 "SHAPE_DISC": DISC,
                 "SHAPE_LAMP": LAMP,
             },
             fragment=Snippet("emitting program", text),
         ),
-        Piece(fragment="lighting/bake_program.frag.glsl"),
+        instance_piece(("",)) if NEED in shape.needs else Piece(),
+        Piece(fragment="programs/bake.frag.glsl"),
     )

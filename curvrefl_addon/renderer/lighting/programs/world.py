@@ -13,6 +13,8 @@ from .bake import CAMERA, DIFFUSE, DISC, GLOSSY, TRANSMISSION, Baker, Directions
 
 WIDTH = 2048
 """Pixels around of the image of a program"""
+MOST_WIDTH = 4096
+"""Where its own images have more"""
 EVEN_WIDTH = 64
 """Of one whose color is the same everywhere"""
 PROBE_WIDTH = 128
@@ -54,15 +56,18 @@ def baked_world(world: WorldArrays) -> BakedWorld:
 def _bake(world: WorldArrays) -> BakedWorld:
     program = world.program
     assert program is not None
-    baker = Baker(program)
+    baker = Baker(program, world.program_images)
     probe = sky_directions(PROBE_WIDTH)
     is_by_ray = "ray" in program.sampled
     kinds = (GLOSSY, CAMERA, DIFFUSE, TRANSMISSION)
     probed = {kind: baker.bake(probe, kind) for kind in (kinds if is_by_ray else kinds[:1])}
-    same = {kind: is_by_ray and not _is_same(probed[kind], probed[GLOSSY]) for kind in probed}
-    differs = [kind for kind in (CAMERA, DIFFUSE) if same.get(kind, False)]
-    plain = replace(world, program=None, discs=())
-    images = {kind: _image(baker, probed[kind], kind) for kind in (GLOSSY, *differs)}
+    others = {kind for kind in probed if not _is_same(probed[kind], probed[GLOSSY])}
+    differs = [kind for kind in (CAMERA, DIFFUSE) if kind in others]
+    plain = replace(world, program=None, discs=(), program_images=())
+    width = max([WIDTH, *(min(2 * (image.width // 2), MOST_WIDTH) for image in world.program_images)])
+    if "position" not in program.sampled and not program.images:
+        width = 2
+    images = {kind: _image(baker, width, kind) for kind in (GLOSSY, *differs)}
     needs_image = [kind for kind in (GLOSSY, DIFFUSE) if kind in images and len(images[kind]) > 1]
     worlds = {}
     for kind, image in images.items():
@@ -73,9 +78,9 @@ def _bake(world: WorldArrays) -> BakedWorld:
             size = (EVEN_WIDTH // 2, EVEN_WIDTH, 3)
             worlds[kind] = replace(plain, image=np.broadcast_to(image, size).copy() if len(image) == 1 else image)
     suns = [sun for disc in world.discs for sun in _suns(world, baker, disc, (GLOSSY, *differs))]
-    warnings = ()
-    if same.get(TRANSMISSION, False):
-        warnings = ("Through glass the world is drawn as mirrors show it.",)
+    warnings = baker.warnings
+    if TRANSMISSION in others:
+        warnings += ("Through glass the world is drawn as mirrors show it.",)
     return BakedWorld(
         worlds.get(CAMERA, worlds[GLOSSY]), worlds[GLOSSY], worlds.get(DIFFUSE, worlds[GLOSSY]), tuple(suns), warnings
     )
@@ -86,13 +91,10 @@ def _is_same(one: Float32Array, other: Float32Array) -> bool:
     return bool(np.abs(one - other).max() <= SMALLEST_DIFFERENCE * scale)
 
 
-def _image(baker: Baker, probed: Float32Array, kind: int) -> Float32Array:
+def _image(baker: Baker, width: int, kind: int) -> Float32Array:
     """(height, width, 3), of one pixel where all are the same."""
-    if np.ptp(probed, axis=(0, 1)).max() == 0.0:
-        coarse = baker.bake(sky_directions(2 * PROBE_WIDTH + 2), kind, without_suns=True)
-        if np.ptp(coarse, axis=(0, 1)).max() == 0.0:
-            return coarse[:1, :1]
-    return baker.bake(sky_directions(WIDTH), kind, without_suns=True)
+    pixels = baker.bake(sky_directions(width), kind, without_suns=True)
+    return pixels[:1, :1] if (pixels == pixels[0, 0]).all() else pixels
 
 
 def _suns(world: WorldArrays, baker: Baker, disc: SunDisc, kinds: tuple[int, ...]) -> list[LightArrays]:

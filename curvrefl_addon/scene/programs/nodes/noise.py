@@ -15,6 +15,11 @@ _NOISE = "nodes/noise.glsl"
 _GABOR = "nodes/gabor.glsl"
 _HASH = "nodes/texture_hash.glsl"
 
+_KINDS_WITH = {
+    "Offset": ("HYBRID_MULTIFRACTAL", "RIDGED_MULTIFRACTAL", "HETERO_TERRAIN"),
+    "Gain": ("HYBRID_MULTIFRACTAL", "RIDGED_MULTIFRACTAL"),
+}
+"""Inputs that not all kinds of noise have"""
 _COLOR_SEEDS = {
     1: ("NOISE_LINE_SEEDS.y", "NOISE_LINE_SEEDS.z"),
     2: ("NOISE_SEED_2", "NOISE_SEED_3"),
@@ -51,10 +56,12 @@ def _noise_octaves(b: Builder, source: Source) -> tuple[Expression, str]:
         return b.call("vec4", "noise_distorted", start, dimensions, b.input(source, "Distortion", "float"))
 
     where = b.shared(node_key(source, "place"), at).text
+    kind = node.noise_type
     detail, roughness, lacunarity, offset, gain = (
-        b.input(source, name, "float").text for name in ("Detail", "Roughness", "Lacunarity", "Offset", "Gain")
+        b.input(source, name, "float").text if kind in _KINDS_WITH.get(name, (kind,)) else "0.0"
+        for name in ("Detail", "Roughness", "Lacunarity", "Offset", "Gain")
     )
-    name = f"noise_{node.noise_type.lower()}{'_normalized' if node.noise_type == 'FBM' and node.normalize else ''}"
+    name = f"noise_{kind.lower()}{'_normalized' if kind == 'FBM' and node.normalize else ''}"
     numbers = f"clamp({detail}, 0.0, 15.0), max({roughness}, 0.0), {lacunarity}, {offset}, {gain}"
     call = f"{name}({where}{{}}, {dimensions}, {numbers})"
     return b.shared(node_key(source, "factor"), lambda: b.made("float", call.format(""))), call

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Float64Array
-from ...materials.color_spaces import xyz_to_scene_matrix
+from ...materials.color_spaces import xyz_to_scene
 from ...materials.node_links import Source
 from ..builder import Builder, Handler
 from ..expression import Expression
@@ -28,7 +28,7 @@ def sky_texture(b: Builder, source: Source) -> Expression:
     assert node is not None
     vector = texture_vector(b, source)
     apart = b.is_world and is_plain(b, source)
-    first = b.table(xyz_to_scene_matrix())
+    first = b.table(xyz_to_scene(np.eye(3)).T)
     kind = node.sky_type
     if kind in ("PREETHAM", "HOSEK_WILKIE"):
         x, y, z = node.sun_direction.normalized()

@@ -6,12 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from ...materials.node_links import Source
 from ..builder import Builder, Handler
-from ..expression import Expression
+from ..expression import Expression, Kind
 from .coordinates import node_key, place, texture_vector
 
 _FILE = "nodes/voronoi.glsl"
+_KINDS: Mapping[str, Kind] = {"Color": "color", "Position": "vector"}
+"""Of outputs; others are numbers"""
 
 
 def _voronoi(b: Builder, source: Source) -> Expression:
@@ -27,8 +31,7 @@ def _voronoi(b: Builder, source: Source) -> Expression:
         # What the node does not give with these settings is 0.
         return b.as_kind(Expression("0.0", "float", (0.0,), 0.0, 0.0), "vector" if output == "Position" else "float")
     point = b.shared(node_key(source, "point"), lambda: _point(b, source, dimensions)).text
-    kind = {"Color": "color", "Position": "vector"}.get(output, "float")
-    return Expression(text.format(point), kind)
+    return Expression(text.format(point), _KINDS.get(output, "float"))
 
 
 def _output(dimensions: int, output: str) -> str:
@@ -46,16 +49,21 @@ def _point(b: Builder, source: Source, dimensions: int) -> Expression:
     feature, metric = node.feature, "MANHATTAN" if dimensions == 1 else node.distance
     if feature == "SMOOTH_F1" and b.constant_of(source, "Smoothness") == (0.0,):
         feature = "F1"
+    smoothness = exponent = "1.0"
+    if feature == "SMOOTH_F1":
+        smoothness = f"clamp({b.input(source, 'Smoothness', 'float').text} / 2.0, 0.0, 0.5)"
+    if metric == "MINKOWSKI":
+        exponent = b.input(source, "Exponent", "float").text
     arguments = [
         _where(b, source, dimensions),
         f"VORONOI_{feature}",
         str(dimensions),
         f"VORONOI_{metric}",
         "true" if node.normalize else "false",
-        *_numbers(b, source, "Scale"),
+        _reciprocal(b, source, "Scale"),
         *_octaves(b, source),
-        f"clamp({b.input(source, 'Smoothness', 'float').text} / 2.0, 0.0, 0.5)",
-        *_numbers(b, source, "Exponent"),
+        smoothness,
+        exponent,
         _randomness(b, source),
     ]
     return Expression(b.made_as("VoronoiPoint", f"voronoi_octaves({', '.join(arguments)})"), "float")
@@ -81,6 +89,16 @@ def _where(b: Builder, source: Source, dimensions: int) -> str:
 def _octaves(b: Builder, source: Source) -> list[str]:
     detail, roughness, lacunarity = _numbers(b, source, "Detail", "Roughness", "Lacunarity")
     return [f"clamp({detail}, 0.0, 15.0)", f"clamp({roughness}, 0.0, 1.0)", lacunarity]
+
+
+def _reciprocal(b: Builder, source: Source, name: str) -> str:
+    """Of an input, 0 of 0; where it is known, to the last bit, as Cycles' factor: positions may be hashed."""
+    known = b.constant_of(source, name)
+    if known is not None and len(known) == 1:
+        value = np.float32(known[0])
+        return b.parameter(float(np.float32(1.0) / value) if value else 0.0).text
+    text = b.input(source, name, "float").text
+    return f"({text} != 0.0 ? 1.0 / {text} : 0.0)"
 
 
 def _randomness(b: Builder, source: Source) -> str:

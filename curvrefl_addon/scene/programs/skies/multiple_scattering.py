@@ -131,7 +131,8 @@ def _transmittances(amounts: tuple[float, float, float]) -> Array:
     """(_ROWS, _COLUMNS, 4) by height and by the sun's cosine to the zenith."""
     cosine = np.arange(_COLUMNS) / (_COLUMNS - 1.0) * 2.0 - 1.0
     radius = _EARTH_RADIUS + np.arange(_ROWS) / (_ROWS - 1.0) * _THICKNESS
-    return _transmittance(*np.broadcast_arrays(radius[:, None], cosine), amounts)
+    radii, cosines = np.broadcast_arrays(radius[:, None], cosine)
+    return _transmittance(radii, cosines, amounts)
 
 
 def _looked_up(table: np.ndarray, sun: np.ndarray, height: Array) -> np.ndarray:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-FileCopyrightText: Blender Foundation and contributors (Apache-2.0)
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What constants give in the nodes of colors: (..., 3), as the GLSL of `gpu_shaders/values`."""
+"""What constants give in the nodes of colors, (3,) each: the GLSL of `gpu_shaders/values` in numpy."""
 
 from __future__ import annotations
 
@@ -12,51 +12,50 @@ import numpy as np
 from .folding import Values, divided, power
 
 
-def rgb_to_hsv(colors: Values) -> Values:
-    high, low = colors.max(axis=-1), colors.min(axis=-1)
+def rgb_to_hsv(color: Values) -> Values:
+    high, low = color.max(), color.min()
     saturation = divided(high - low, high)
-    return np.stack([_hue(colors), saturation, high], axis=-1)
+    hue = _hue(color) / 6.0 if saturation != 0.0 else 0.0
+    return np.array([hue + 1.0 if hue < 0.0 else hue, saturation, high])
 
 
 def hsv_to_rgb(hsv: Values) -> Values:
-    h, s, v = (hsv[..., k] for k in range(3))
-    return np.stack([v * (1.0 - s * (1.0 - part)) for part in _wheel(h)], axis=-1)
+    """(Hues beyond a turn are those of the last sextant, as in Cycles.)"""
+    h, s, v = hsv
+    place = 0.0 if h == 1.0 else h * 6.0
+    sextant = np.floor(place)
+    part = place - sextant
+    p, q, t = v * (1.0 - s), v * (1.0 - s * part), v * (1.0 - s * (1.0 - part))
+    colors = ((v, t, p), (q, v, p), (p, v, t), (p, q, v), (t, p, v), (v, p, q))
+    return np.array(colors[int(sextant)] if 0 <= sextant < 5 else colors[5])
 
 
-def rgb_to_hsl(colors: Values) -> Values:
-    high, low = colors.max(axis=-1), colors.min(axis=-1)
-    lightness = np.minimum(0.5 * (high + low), 1.0)
+def rgb_to_hsl(color: Values) -> Values:
+    high, low = color.max(), color.min()
+    lightness = min(0.5 * (high + low), 1.0)
     span = high - low
-    saturation = np.where(lightness > 0.5, divided(span, 2.0 - high - low), divided(span, high + low))
-    return np.stack([_hue(colors), saturation, lightness], axis=-1)
+    saturation = divided(span, 2.0 - high - low) if lightness > 0.5 else divided(span, high + low)
+    hue = _hue(color) / 6.0 if span != 0.0 else 0.0
+    return np.array([hue + 1.0 if hue < 0.0 else hue, saturation, lightness])
 
 
 def hsl_to_rgb(hsl: Values) -> Values:
-    h, s, lightness = (hsl[..., k] for k in range(3))
-    chroma = (1.0 - np.abs(2.0 * lightness - 1.0)) * s
-    return np.stack([(part - 0.5) * chroma + lightness for part in _wheel(h)], axis=-1)
+    h, s, lightness = hsl
+    place = h * 6.0
+    pure = np.array([np.abs(place - 3.0) - 1.0, 2.0 - np.abs(place - 2.0), 2.0 - np.abs(place - 4.0)])
+    return (np.clip(pure, 0.0, 1.0) - 0.5) * (1.0 - np.abs(2.0 * lightness - 1.0)) * s + lightness
+
+
+def _hue(color: Values) -> float:
+    """In sextants, from red."""
+    r, g, b = color
+    span = color.max() - color.min()
+    turn = (g - b) if r == color.max() else (2.0 * span + b - r) if g == color.max() else (4.0 * span + r - g)
+    return float(turn / span)
 
 
 FROM_RGB: Mapping[str, Callable[[Values], Values]] = {"HSV": rgb_to_hsv, "HSL": rgb_to_hsl}
 TO_RGB: Mapping[str, Callable[[Values], Values]] = {"HSV": hsv_to_rgb, "HSL": hsl_to_rgb}
-
-
-def _hue(colors: Values) -> Values:
-    high, low = colors.max(axis=-1), colors.min(axis=-1)
-    span = high - low
-    r, g, b = (colors[..., k] for k in range(3))
-    turn = np.where(
-        r == high,
-        divided(g - b, span),
-        np.where(g == high, 2.0 + divided(b - r, span), 4.0 + divided(r - g, span)),
-    )
-    return np.mod(np.where(span > 0.0, turn, 0.0) / 6.0, 1.0)
-
-
-def _wheel(hue: Values) -> list[Values]:
-    """Red, green and blue, 0..1, of a full color of this hue."""
-    places = [np.mod(hue + offset, 1.0) * 6.0 for offset in (0.0, 2.0 / 3.0, 1.0 / 3.0)]
-    return [np.clip(np.abs(place - 3.0) - 1.0, 0.0, 1.0) for place in places]
 
 
 def hue_saturation(color: Values, hue: Values, saturation: Values, value: Values, factor: Values) -> Values:
@@ -107,16 +106,15 @@ def _hsv_blend(channels: tuple[int, ...]) -> Callable[[Values, Values, Values], 
     """Some of hue, saturation and value from the second color."""
 
     def blend(a: Values, b: Values, f: Values) -> Values:
-        a, b, f = np.broadcast_arrays(a, b, f)
-        first, second = rgb_to_hsv(a), rgb_to_hsv(b)
-        taken = first.copy()
+        taken, second = rgb_to_hsv(a), rgb_to_hsv(b)
         if 0 in channels:
             # Hues are not mixed: the colors are.
-            taken[..., channels] = second[..., channels]
-            return np.where(second[..., 1:2] != 0.0, _mixed(a, hsv_to_rgb(taken), f), a)
-        taken[..., channels] = _mixed(first, second, f)[..., channels]
-        changed = hsv_to_rgb(taken)
-        return np.where(first[..., 1:2] != 0.0, changed, a) if channels == (1,) else changed
+            taken[list(channels)] = second[list(channels)]
+            return _mixed(a, hsv_to_rgb(taken), f) if second[1] != 0.0 else a
+        if channels == (1,) and taken[1] == 0.0:
+            return a
+        taken[channels[0]] = _mixed(taken[channels[0]], second[channels[0]], f)
+        return hsv_to_rgb(taken)
 
     return blend
 

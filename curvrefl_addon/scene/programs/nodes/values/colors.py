@@ -57,11 +57,12 @@ def _mix_rgb(b: Builder, source: Source) -> Expression:
 
 
 def _blended(b: Builder, source: Source, blend: str, factor: Expression, names: tuple[str, str]) -> Expression:
-    if factor.constant == (0.0,):
-        return b.input(source, names[0], "color")
     if factor.constant == (1.0,) and blend == "MIX":
         return b.input(source, names[1], "color")
-    a, z = (b.input(source, name, "color") for name in names)
+    a = b.input(source, names[0], "color")
+    if factor.constant == (0.0,) and (blend == "MIX" or not a.is_constant):
+        return a
+    z = b.input(source, names[1], "color")
     if blend == "MIX":
         return _between(b, "color", factor, a, z)
     known = folded(b, "color", color_formulas.BLENDS[blend], a, z, factor)

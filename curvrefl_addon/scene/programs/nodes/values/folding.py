@@ -8,18 +8,19 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....materials.node_links import Source
 from ...builder import Builder
 from ...expression import Expression, Kind
 
-type Values = NDArray[Any]
+type Values = Any
+"""A number or an array"""
 type Formula = Callable[..., Any]
 
 
 def folded(b: Builder, kind: Kind, formula: Formula | None, *inputs: Expression) -> Expression | None:
     """The value of a node whose inputs are all known; None where one is not, or where the formula gives no number.
-    (A float is a number for `formula`, anything else (3,).)"""
+    (A float is a number for `formula`, anything else (3,), in single precision: steps are where Blender has them.)"""
     if formula is None or not all(value.is_constant for value in inputs):
         return None
     with np.errstate(all="ignore"):
@@ -32,9 +33,14 @@ def folded(b: Builder, kind: Kind, formula: Formula | None, *inputs: Expression)
     return Expression(made.text, kind, made.constant, made.low, made.high)
 
 
+def node_key(source: Source, name: str) -> tuple[Any, ...]:
+    """For `Builder.shared`: what all outputs of a node share."""
+    return (name, source.node.as_pointer(), tuple(group.as_pointer() for group in source.groups))
+
+
 def _array(value: Expression) -> Any:
     numbers = value.constant or ()
-    return np.float64(numbers[0]) if value.kind == "float" else np.array(numbers, np.float64)
+    return np.float32(numbers[0]) if value.kind == "float" else np.array(numbers, np.float32)
 
 
 def divided(a: Values, b: Values) -> Values:

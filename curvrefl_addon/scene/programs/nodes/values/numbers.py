@@ -181,9 +181,8 @@ def _map_range(b: Builder, source: Source) -> Expression | None:
             place = np.where(steps > 0.0, divided(np.floor(place * (steps + 1.0)), steps), 0.0)
         elif interpolation != "LINEAR":
             place = (smooth if interpolation == "SMOOTHSTEP" else smoother)(place)
+        # (Blender computes what is known before Cycles sees it: an empty range is its beginning there, 0 in Cycles.)
         result = to_a + place * (to_z - to_a)
-        if not is_vector:
-            result = np.where(a != z, result, 0.0)
         return np.clip(result, np.minimum(to_a, to_z), np.maximum(to_a, to_z)) if clamps else result
 
     known = folded(b, kind, formula, *inputs)

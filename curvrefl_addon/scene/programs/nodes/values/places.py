@@ -13,7 +13,7 @@ import numpy as np
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
-from ...program import GEOMETRY, TANGENT, UV
+from ...program import FACTOR, GEOMETRY, TANGENT, UV
 from ..coordinates import generated, uv
 
 CAMERA_FILE, NORMALS_FILE, INSTANCES_FILE = "values/camera.glsl", "values/normals.glsl", "programs/instances.glsl"
@@ -104,19 +104,24 @@ def _uv_map(b: Builder, source: Source) -> Expression:
 
 
 def _attribute(b: Builder, source: Source) -> Expression:
-    """(Attributes are four numbers: of those with one (n, n, n, 1), with two (u, v, 0, 1), with three (x, y, z, 1).)"""
     node: Any = source.node
     output, name = source.socket.identifier, node.attribute_name
     kind: Any = {"Color": "color", "Vector": "vector"}.get(output, "float")
+    is_of_mesh = node.attribute_type == "GEOMETRY"
     if b.is_world and node.attribute_type != "VIEW_LAYER":
-        return zero(b, kind)
-    if node.attribute_type == "GEOMETRY":
+        return b.parameter(1.0) if output == "Alpha" else zero(b, kind)
+    if is_of_mesh and output == "Fac":
+        return Expression(f"{b.attribute(FACTOR, name).text}.x", "float")
+    if is_of_mesh:
         found = b.attribute(GEOMETRY, name)
     else:
         needs_instance(b)
         found = b.instance_attribute(f"{node.attribute_type}:{name}")
+    if output == "Alpha" and is_of_mesh:
+        return Expression(f"{found.text}.w", "float")
     if output == "Alpha":
-        return Expression(f"{found.text}.w", "float", None, 0.0, 1.0)
+        # (Zeros: no object has it, and what is not there is opaque.)
+        return b.made("float", f"{found.text} == vec4(0.0) ? 1.0 : {found.text}.w")
     if output == "Fac":
         return b.made("float", f"dot({found.text}.xyz, vec3(1.0 / 3.0))")
     return Expression(f"{found.text}.xyz", kind)

@@ -14,31 +14,11 @@ from ....materials.color_spaces import xyz_to_scene
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
-from .folding import folded
+from .folding import folded, node_key
 from .tables import RAMP_ROWS, SPECTRUM, SPECTRUM_SCALE, SPECTRUM_START, SPECTRUM_STEP
 
 _FILE = "values/ramps.glsl"
 type _Rows = NDArray[np.float64]
-
-
-def node_key(source: Source, name: str) -> tuple[Any, ...]:
-    """For `Builder.shared`: what all outputs of a node share."""
-    return (name, source.node.as_pointer(), tuple(group.as_pointer() for group in source.groups))
-
-
-def _looked_up(place: Any, rows: _Rows, interpolates: bool = True, extends: bool = False) -> Any:
-    """A table (RAMP_ROWS,) or (RAMP_ROWS, n) at one place, as ramps.glsl."""
-    last = len(rows) - 1
-    where = float(place) * last
-    if extends and not 0.0 <= place <= 1.0:
-        end, inner, beyond = (0, 1, -where) if place < 0.0 else (last, last - 1, where - last)
-        return rows[end] + (rows[end] - rows[inner]) * beyond
-    where = min(max(where, 0.0), float(last))
-    row = int(where)
-    part = where - row
-    if not interpolates or part <= 0.0:
-        return rows[row]
-    return (1.0 - part) * rows[row] + part * rows[row + 1]
 
 
 def _ramp(b: Builder, source: Source) -> Expression:
@@ -50,7 +30,10 @@ def _ramp(b: Builder, source: Source) -> Expression:
     is_alpha = source.socket.identifier == "Alpha"
     part = rows[:, 3] if is_alpha else rows[:, :3]
     kind: Any = "float" if is_alpha else "color"
-    known = folded(b, kind, lambda place: _looked_up(place, part, interpolates), factor)
+    # (Blender computes what is known before Cycles sees it: by the ramp itself, not by its table.)
+    known = folded(
+        b, kind, lambda place: ramp.evaluate(min(max(float(place), 0.0), 1.0))[3 if is_alpha else slice(3)], factor
+    )
     if known is not None:
         return known
 
@@ -84,9 +67,17 @@ def _curves(b: Builder, source: Source) -> Expression:
     rows = np.array([[mapping.evaluate(curve, place) for curve in curves[:3]] for place in places], np.float64)
     extends = mapping.extend == "EXTRAPOLATED"
 
+    def bent(curve: Any, place: float) -> float:
+        """Of a known value, by Blender: not by the table, and numbers are clipped."""
+        found = mapping.evaluate(curve, place)
+        clips = kind == "float" and mapping.use_clip
+        return min(max(found, mapping.clip_min_y), mapping.clip_max_y) if clips else found
+
     def formula(v: Any, f: Any) -> Any:
-        relative = np.atleast_1d((v - low) / (high - low))
-        found = np.array([_looked_up(place, rows[:, k], True, extends) for k, place in enumerate(relative)])
+        values = np.ravel(v).tolist()
+        if kind == "color":
+            values = [bent(curves[3], part) for part in values]
+        found = np.array([bent(curve, part) for curve, part in zip(curves, values, strict=False)])
         return (1.0 - f) * v + f * (found[0] if kind == "float" else found)
 
     known = folded(b, kind, formula, value, factor)

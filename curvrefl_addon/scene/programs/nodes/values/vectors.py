@@ -12,9 +12,10 @@ import numpy as np
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
-from .folding import OPERATIONS, divided, folded
+from .folding import OPERATIONS, divided, folded, node_key
 from .numbers import MATH_FILE, TEXTS, operated, used_inputs
 
+_TILING_FILE = "values/radial_tiling.glsl"
 _ROTATION_FILE = "values/rotation.glsl"
 _PARTS = ("x", "y", "z")
 
@@ -124,10 +125,28 @@ def _rotate(b: Builder, source: Source) -> Expression:
     return b.call("vector", "rotation_about_axis", vector, center, axis, turn, file=_ROTATION_FILE)
 
 
+def _radial_tiling(b: Builder, source: Source) -> Expression:
+    node: Any = source.node
+    vector, sides = b.input(source, "Vector", "vector"), b.input(source, "Sides", "float")
+    output = source.socket.identifier
+    if output == "Segment ID":
+        return b.call("float", "radial_segment", vector, sides, file=_TILING_FILE)
+    roundness = b.input(source, "Roundness", "float")
+
+    def tiled() -> Expression:
+        return b.call("vec4", "radial_tiling", vector, sides, roundness, bool(node.normalize), file=_TILING_FILE)
+
+    whole = b.shared(node_key(source, "tiling"), tiled).text
+    if output == "Segment Coordinates":
+        return b.made("vector", f"vec3({whole}.yx, 0.0)")
+    return Expression(f"{whole}.{'z' if output == 'Segment Width' else 'w'}", "float")
+
+
 NODES: Mapping[str, Handler] = {
     "VECT_MATH": _vector_math,
     "COMBXYZ": _combine,
     "SEPXYZ": _separate,
     "MAPPING": _mapping,
     "VECTOR_ROTATE": _rotate,
+    "ShaderNodeRadialTiling": _radial_tiling,
 }
