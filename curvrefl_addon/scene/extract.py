@@ -42,12 +42,16 @@ from .reads import (
     with_kept,
 )
 from .remarks import Remark, sentences
+from .strands.particles import HairSystem, hair_systems
+from .strands.reading import has_no_faces
 from .unseen import of_view_layer, unseen
 from .visibility import rays_of
 from .world import read_world
 
-SHOWN = ("LIGHT", "MESH")
+SHOWN = ("LIGHT", "MESH", "CURVES", "POINTCLOUD")
 """Curves, texts, surfaces, metaballs and what geometry nodes make come as instances of meshes, too"""
+HAIR = 1 << 32
+"""What numbers of objects are followed by for their hair: (1 + number of the system) times that"""
 
 
 def extract_scene(
@@ -168,8 +172,8 @@ class SceneReader:
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
         """What these objects (session_uid) show of the scene last read, themselves or by instancing."""
-        kept = {id(item.instance) for key, item in self._shown.items() if (key[1] or key[0]) in objects}
-        lights = {id(item.light) for key, item in self._shown.items() if (key[1] or key[0]) in objects}
+        shown = [item for key, item in self._shown.items() if (key[1] or key[0] % HAIR) in objects]
+        kept, lights = {id(item.instance) for item in shown}, {id(item.light) for item in shown}
         instances = tuple(instance for instance in scene.instances if id(instance) in kept)
         ids = {instance.object_id for instance in instances}
         return replace(
@@ -181,7 +185,7 @@ class SceneReader:
 
     def uid_of(self, object_id: int) -> int | None:
         """The `session_uid` of an object by its number in the scenes that were read; None where there is none."""
-        return next((uid for uid, number in self._ids.items() if number == object_id), None)
+        return next((uid % HAIR for uid, number in self._ids.items() if number == object_id), None)
 
     def _id(self, uid: int) -> int:
         """The number of an object, from 1; it stays the same in all that is read."""
@@ -210,19 +214,25 @@ class SceneReader:
         self._instancers = set()
         self._unseen = list(of_view_layer(view_layer))
         counts: dict[tuple[int, int], int] = {}
+        is_render = depsgraph.mode == "RENDER"
         for instance in depsgraph.object_instances:
-            self._unseen += unseen(instance, view_layer, depsgraph.mode == "RENDER")
-            if instance.object.type not in SHOWN or not instance.show_self:
-                continue
-            uid = instance.object.original.session_uid
+            self._unseen += unseen(instance, view_layer)
+            obj = instance.object
             parent = 0
             if instance.is_instance:
                 parent = instance.parent.original.session_uid
-                self._instancers.add(parent)
-            number = counts.get((uid, parent), 0)
-            counts[uid, parent] = number + 1
-            key = (uid, parent, number)
-            self._shown[key] = self._read_instance(instance, uid, parent, view_layer, before.get(key))
+            uid = obj.original.session_uid
+            parts: list[tuple[int, HairSystem | None]] = [(uid, None)] * (obj.type in SHOWN and instance.show_self)
+            for hair in hair_systems(instance, view_layer, is_render):
+                parts.append((uid + HAIR * (1 + hair.number), hair))
+                self._instancers.add(uid)
+            for own, hair in parts:
+                if parent:
+                    self._instancers.add(parent)
+                number = counts.get((own, parent), 0)
+                counts[own, parent] = number + 1
+                key = (own, parent, number)
+                self._shown[key] = self._read_instance(instance, own, parent, view_layer, before.get(key), hair)
         self._meshes.end()
 
     def _read_instance(
@@ -232,11 +242,12 @@ class SceneReader:
         parent: int,
         view_layer: bpy.types.ViewLayer,
         before: ShownInstance | None,
+        hair: HairSystem | None = None,
     ) -> ShownInstance:
         self.counters["objects read"] += 1
-        if instance.object.type == "LIGHT":
+        if instance.object.type == "LIGHT" and hair is None:
             return self._read_light(instance, view_layer, before)
-        return self._read_surface(instance, uid, parent, view_layer, before)
+        return self._read_surface(instance, uid, parent, view_layer, before, hair)
 
     def _read_light(
         self, instance: Any, view_layer: bpy.types.ViewLayer, before: ShownInstance | None
@@ -256,22 +267,25 @@ class SceneReader:
         parent: int,
         view_layer: bpy.types.ViewLayer,
         before: ShownInstance | None,
+        hair: HairSystem | None,
     ) -> ShownInstance:
         obj = instance.object
         rays = rays_of(instance, view_layer)
-        if len(obj.data.polygons) == 0 and not obj.data.is_editmode:
+        if hair is None and has_no_faces(obj.data):
             return ShownInstance(has_faces=False)
         name = obj.original.name
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         if (nowhere := unplaced(name, matrix, rays.any)) is not None:
             return nowhere
         slots = self._slots(obj, uid, view_layer.material_override)
+        if hair is not None:
+            slots = [slots[min(hair.slot, len(slots) - 1)]]
         is_mirror = uid in self._mapped
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
         found = (self._materials.materials[slot.index].program for slot in slots)
         programs = tuple(program for program in found if program is not None)
         needs = needs_of(obj, slots, programs, is_mirror, warnings)
-        stored = self._meshes.read(obj, parent or uid, needs, instance.matrix_world.determinant() < 0.0)
+        stored = self._meshes.read(hair or obj, parent or uid % HAIR, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
         error = ""
         if stored.dropped:
@@ -285,7 +299,7 @@ class SceneReader:
             if any(needs.hidden_slots):
                 error = f'"{name}" has no surface that could reflect: choose another reflector or give it a material.'
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
-        if is_diced(obj):
+        if is_diced(obj) and hair is None:
             warnings.append(
                 f'"{name}" is drawn as finely as its levels of subdivision say: adaptive ones are Cycles\' own.'
             )

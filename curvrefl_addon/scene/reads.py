@@ -149,8 +149,8 @@ def layer_flags(layer: bpy.types.LayerCollection) -> Iterable[tuple[bool, ...]]:
 
 def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -> list[bpy.types.Material | None]:
     """What each slot shows; one empty slot where there are none."""
-    assert isinstance(obj.data, bpy.types.Mesh)
-    materials = list(obj.data.materials)
+    data: Any = obj.data
+    materials = list(data.materials)
     for index, slot in enumerate(obj.material_slots):
         if index >= len(materials):
             materials.append(slot.material)
@@ -175,8 +175,8 @@ def needs_of(
     warnings: list[Remark | str],
 ) -> MeshNeeds:
     """What programs of its materials read, and of a mirror the UV map, which methods search in."""
-    mesh = obj.data
-    assert isinstance(mesh, bpy.types.Mesh)
+    # (Hair and points have none.)
+    layers = obj.data.uv_layers if isinstance(obj.data, bpy.types.Mesh) else ()
     deforms = any(modifier.type in DEFORMING for modifier in obj.original.modifiers)
     if deforms and any("generated" in program.sampled for program in programs):
         warnings.append(
@@ -184,7 +184,7 @@ def needs_of(
         )
     hidden = tuple(slot.is_hidden for slot in slots)
     return MeshNeeds(
-        "" if is_mirror and len(mesh.uv_layers) else None,
+        "" if is_mirror and len(layers) else None,
         None,
         hidden if any(hidden) else (),
         tuple(sorted({attribute for program in programs for attribute in program.attributes})),

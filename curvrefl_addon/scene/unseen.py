@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is in a scene and not in its arrays: hair, points, volumes, strokes."""
+"""What is in a scene and not in its arrays: volumes, strokes."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from .remarks import Remark
 from .visibility import rays_of
 
 UNSEEN = {
-    "CURVES": "Hair {of} is not shown.",
-    "POINTCLOUD": "Point clouds {of} are not shown.",
     "VOLUME": "Volumes {of} are not shown.",
     "GREASEPENCIL": "Grease pencil strokes {of} are not shown.",
 }
@@ -35,14 +33,8 @@ def of_view_layer(view_layer: bpy.types.ViewLayer) -> Iterator[Remark | str]:
         yield f"The pixel filter of {cycles.filter_width:.3g} pixels is not followed: pictures are sharper than that."
 
 
-def unseen(instance: Any, view_layer: bpy.types.ViewLayer, is_render: bool) -> Iterator[Remark]:
-    """Of a `DepsgraphObjectInstance`; `is_render`: of a depsgraph for renders."""
+def unseen(instance: Any, view_layer: bpy.types.ViewLayer) -> Iterator[Remark]:
+    """Of a `DepsgraphObjectInstance`."""
     obj = instance.object
     if instance.show_self and obj.type in UNSEEN and rays_of(instance, view_layer).any:
         yield Remark(UNSEEN[obj.type], "object", obj.original.name)
-    if instance.show_particles and len(obj.particle_systems) and rays_of(instance, view_layer).any:
-        shown = "show_render" if is_render else "show_viewport"
-        modifiers = (item for item in obj.modifiers if item.type == "PARTICLE_SYSTEM" and getattr(item, shown))
-        systems = [modifier.particle_system for modifier in modifiers]
-        if any(system.settings.type == "HAIR" and system.settings.render_type == "PATH" for system in systems):
-            yield Remark(UNSEEN["CURVES"], "object", obj.original.name)

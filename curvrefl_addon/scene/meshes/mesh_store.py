@@ -12,6 +12,8 @@ import numpy as np
 
 from ..arrays import MeshArrays
 from ..remarks import Remark
+from ..strands.particles import HairSystem
+from ..strands.reading import is_strands_or_points, read_strands
 from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
 
 EMPTY = MeshArrays(
@@ -26,6 +28,7 @@ EMPTY = MeshArrays(
 )
 """At the numbers of meshes that are gone: those of the others stay"""
 
+type Source = bpy.types.Object | HairSystem
 type _Key = tuple[int, MeshNeeds, bool]
 """Address of the evaluated mesh, what is read of it, whether wound the other way round"""
 
@@ -80,24 +83,27 @@ class MeshStore:
             if not stored.owners.isdisjoint(owners):
                 self._drop(key)
 
-    def read(self, obj: bpy.types.Object, owner: int, needs: MeshNeeds, is_mirrored: bool) -> StoredMesh:
-        """The mesh of an evaluated object, which the data-block `owner` (session_uid) makes or instances."""
+    def read(self, source: Source, owner: int, needs: MeshNeeds, is_mirrored: bool) -> StoredMesh:
+        """The mesh of an evaluated object or of its hair, which the data-block `owner` (session_uid) makes or
+        instances."""
+        obj = source.obj if isinstance(source, HairSystem) else source
         assert obj.data is not None
-        key = (obj.data.as_pointer(), needs, is_mirrored)
+        key = (source.address if isinstance(source, HairSystem) else obj.data.as_pointer(), needs, is_mirrored)
         self._used.add(key)
         if key not in self._stored:
             owners = frozenset((owner, obj.original.session_uid, obj.data.original.session_uid))
             if is_mirrored:
-                plain = self.read(obj, owner, needs, is_mirrored=False)
+                plain = self.read(source, owner, needs, is_mirrored=False)
                 arrays, dropped, remarks = mirrored(self.meshes[plain.number]), plain.dropped, plain.remarks
             else:
-                arrays, dropped, remarks = self._read(obj, needs)
+                arrays, dropped, remarks = self._read(source, needs)
             reach = 2.0 * float(np.abs(arrays.positions).max(initial=0.0))
             self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach)
         return self._stored[key]
 
-    def _read(self, obj: bpy.types.Object, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
-        reading = _read_surface(obj, needs)
+    def _read(self, source: Source, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
+        reading = _read_surface(source, needs)
+        obj = source.obj if isinstance(source, HairSystem) else source
         self.reads += 1
         remarks: list[Remark | str] = []
         if reading.dropped:
@@ -128,7 +134,9 @@ class MeshStore:
         heappush(self._free, stored.number)
 
 
-def _read_surface(obj: bpy.types.Object, needs: MeshNeeds) -> MeshReading:
+def _read_surface(obj: Source, needs: MeshNeeds) -> MeshReading:
+    if isinstance(obj, HairSystem) or is_strands_or_points(obj.data):
+        return read_strands(obj, needs)
     assert isinstance(obj.data, bpy.types.Mesh)
     if not obj.data.is_editmode:
         return read_mesh(obj.data, needs)
