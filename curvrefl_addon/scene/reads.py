@@ -190,11 +190,7 @@ def needs_of(
         )
     hidden = tuple(slot.is_hidden for slot in slots)
     attributes = {attribute for program in programs for attribute in program.attributes}
-    if (
-        Attribute(UV, UV_MAP) in attributes
-        and isinstance(obj.data, bpy.types.Mesh)
-        and UV_MAP not in obj.data.uv_layers
-    ):
+    if Attribute(UV, UV_MAP) in attributes and UV_MAP not in (layer.name for layer in layers):
         warnings.append(Remark(NO_UV_MAP, "object", obj.name))
     return MeshNeeds(
         "" if is_mirror and len(layers) else None,
