@@ -320,6 +320,14 @@ class OwnPreferences:
         unit="MB",
         preference=True,
     )
+    image_memory: int = setting(
+        1024,
+        label="Image Memory",
+        text="GPU memory in MB that a scene's images may take; the largest are drawn with fewer pixels until they do",
+        hard=(64, 1 << 20),
+        unit="MB",
+        preference=True,
+    )
 
 
 RENDERER = settings_in(Settings)

@@ -29,6 +29,7 @@ from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
+from .programs.image_pages import DEFAULT_CAP
 from .rays.ray_scene import RayScene
 from .reflection import Diagnostic, Reflection
 from .seen import draw_seen
@@ -52,8 +53,15 @@ class Renderer:
     Of a view it keeps nothing but targets of its size: what was chosen and solved for it is its `Reflection`'s.
     """
 
-    def __init__(self, scene: SceneArrays, settings: Settings | None = None) -> None:
-        """Upload the scene and bake its reflectors.
+    def __init__(
+        self,
+        scene: SceneArrays,
+        settings: Settings | None = None,
+        image_memory: int = DEFAULT_CAP,
+        is_gradual: bool = False,
+    ) -> None:
+        """Upload the scene and bake its reflectors. `image_memory`: bytes that images of materials may take on the GPU.
+        With `is_gradual` materials and images get there by and by: `load_some`.
 
         Raises InputError for settings out of range and for reflectors that no map can hold, GpuUnavailableError
         without a GPU context.
@@ -76,8 +84,8 @@ class Renderer:
         self._placement = Placement(self.geometry.facts)
         self._given = scene
         self._follow_scene(self._placement.placed(scene))
-        self._materials = Materials(self.scene)
-        self._lighting = Lighting(self.scene, self.geometry, self.settings.samples)
+        self._materials = Materials(self.scene, image_memory, is_gradual, self.geometry)
+        self._lighting = Lighting(self.scene, self.geometry, self._materials, self.settings.samples)
         self._shade = ShadePass(self.scene, self._lighting, self._materials)
         self._tracer: PathTracer | None = None
         self._follow_paths()
@@ -118,6 +126,8 @@ class Renderer:
         difference = self._follow_scene(scene, anew)
         if scene.materials is not before.materials or scene.images is not before.images:
             self._materials.follow(scene)
+        elif difference.moved or difference.structure:
+            self._materials.move(scene)
         self._lighting.follow(scene, difference)
         self._shade.follow(scene)
         if difference.structure or not same_for_paths(before, scene):
@@ -135,7 +145,7 @@ class Renderer:
         if settings.samples != before.samples:
             self._jitter = offsets(settings.samples)
             self._lighting.free()
-            self._lighting = Lighting(self.scene, self.geometry, settings.samples)
+            self._lighting = Lighting(self.scene, self.geometry, self._materials, settings.samples)
             self._shade = ShadePass(self.scene, self._lighting, self._materials)
             self._tracer = self._new_tracer()
             self._preparation.forget_cubes()
@@ -317,6 +327,16 @@ class Renderer:
         """Do at once all that `improve` would do."""
         if self._rays is not None:
             self._rays.finish()
+
+    @property
+    def is_loading(self) -> bool:
+        """Some materials or images are not drawn as they are yet."""
+        return self._materials.is_loading
+
+    def load_some(self, seconds: float) -> None:
+        """Go on with that: a program, or images for about so long."""
+        if self._materials.load_some(seconds):
+            self.revision += 1
 
     @property
     def ray_counters(self) -> dict[str, int]:

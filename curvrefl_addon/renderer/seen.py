@@ -33,6 +33,8 @@ def draw_seen(
     if not reflection.shown and not settings.entry.solves_vertices:
         mirrors = list(stage.mirrors)
     followed = {id(geometry.of_instance(mirror.index)[0]) for mirror in mirrors}
+    # (Reflection points are those of the smooth surface.)
+    smooth = {id(geometry.of_instance(mirror.index)[0]) for mirror in stage.mirrors} - followed
     draw_primary(
         targets.seen,
         geometry.seen(view),
@@ -41,9 +43,10 @@ def draw_seen(
         None if everywhere else window,
         lambda chunk: geometry.hidden_faces(chunk, view),
         is_followed=lambda chunk: id(chunk) in followed,
+        is_smooth=lambda chunk: id(chunk) in smooth,
         depths=depths_of(view),
         mirrored=view.is_mirrored,
         has_paths=stage.tracer is not None,
-        has_scalars=stage.tracer is not None and stage.tracer.has_scalars,
+        sub_frame=index,
     )
     return sub_frame

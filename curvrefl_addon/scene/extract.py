@@ -30,18 +30,18 @@ from .reads import (
     PlainObject,
     ShownInstance,
     bounces_of,
-    is_diced,
     is_same_light,
     listing_of,
     needs_of,
     object_of,
+    oddities,
     require_reflectors,
     slot_materials,
     uid_of_block,
     unplaced,
     with_kept,
 )
-from .remarks import Remark, sentences
+from .remarks import Remark, of_kind, sentences
 from .strands.particles import HairSystem, hair_systems
 from .strands.reading import has_no_faces
 from .unseen import of_view_layer, unseen
@@ -299,12 +299,7 @@ class SceneReader:
             if any(needs.hidden_slots):
                 error = f'"{name}" has no surface that could reflect: choose another reflector or give it a material.'
             return ShownInstance(warnings=tuple(warnings), has_faces=False, error=error)
-        if is_diced(obj) and hair is None:
-            warnings.append(
-                f'"{name}" is drawn as finely as its levels of subdivision say: adaptive ones are Cycles\' own.'
-            )
-        if obj.original.is_shadow_catcher:
-            warnings.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
+        warnings += oddities(obj, hair is not None)
         materials = tuple(slot.index for slot in slots)
         asked = values_of_instance(instance, programs, view_layer)
         made_of = (name, stored.number, matrix.tobytes(), materials, rays, comparable(asked))
@@ -335,6 +330,11 @@ class SceneReader:
         self.counters["worlds read"] += 1
         self._world_uid, self._world_warnings, self._world_images = uid_of_block(world), [], ProgramImages()
         self._world = read_world(world, self._images, self._world_warnings, self._world_images)
+
+    @property
+    def material_remarks(self) -> tuple[Remark, ...]:
+        """What is not drawn of materials, each once."""
+        return of_kind("material", (warning for item in self._shown.values() for warning in item.warnings))
 
     def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}

@@ -16,8 +16,9 @@ from ..errors import InputError
 from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .finite import problem_of_place
 from .meshes.meshes import MeshNeeds
+from .programs.looks import NO_UV_MAP, UV_MAP
 from .programs.material_reader import ReadMaterial
-from .programs.program import Program
+from .programs.program import UV, Attribute, Program
 from .remarks import Remark
 
 SMALLEST_STRETCH = 1e-6
@@ -161,10 +162,15 @@ def slot_materials(obj: bpy.types.Object, override: bpy.types.Material | None) -
     return materials or [None]
 
 
-def is_diced(obj: bpy.types.Object) -> bool:
-    """Whether Cycles subdivides an object as finely as its pixels ask for."""
-    modifier = obj.original.modifiers[-1] if obj.original.modifiers else None
-    return isinstance(modifier, bpy.types.SubsurfModifier) and modifier.use_adaptive_subdivision
+def oddities(obj: bpy.types.Object, is_hair: bool) -> list[str]:
+    """What is not drawn of an object's own settings (or of its hair's), one sentence each."""
+    name, last = obj.original.name, obj.original.modifiers[-1] if obj.original.modifiers else None
+    found = []
+    if not is_hair and isinstance(last, bpy.types.SubsurfModifier) and last.use_adaptive_subdivision:
+        found.append(f'"{name}" is drawn as finely as its levels of subdivision say: adaptive ones are Cycles\' own.')
+    if obj.original.is_shadow_catcher:
+        found.append(f'Shadow catcher "{name}" is drawn as an ordinary object.')
+    return found
 
 
 def needs_of(
@@ -183,11 +189,14 @@ def needs_of(
             Remark("Generated coordinates {of} are taken of its deformed shape, not of its own.", "object", obj.name)
         )
     hidden = tuple(slot.is_hidden for slot in slots)
+    attributes = {attribute for program in programs for attribute in program.attributes}
+    if Attribute(UV, UV_MAP) in attributes and UV_MAP not in (layer.name for layer in layers):
+        warnings.append(Remark(NO_UV_MAP, "object", obj.name))
     return MeshNeeds(
         "" if is_mirror and len(layers) else None,
         None,
         hidden if any(hidden) else (),
-        tuple(sorted({attribute for program in programs for attribute in program.attributes})),
+        tuple(sorted(attributes)),
     )
 
 

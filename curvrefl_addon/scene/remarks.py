@@ -32,6 +32,17 @@ def sentences(remarks: Iterable[Remark | str]) -> tuple[str, ...]:
     return tuple(key if isinstance(key, str) else _sentence(*key, list(names)) for key, names in concerned.items())
 
 
+def of_kind(kind: str, remarks: Iterable[Remark | str]) -> tuple[Remark, ...]:
+    """Those that concern such things, each once."""
+    return tuple(dict.fromkeys(one for one in remarks if isinstance(one, Remark) and one.kind == kind))
+
+
+def of_one(cause: str, name: str) -> str:
+    """Under the name of what it concerns: "Rust: volumes are not shown."."""
+    # (Names of Blender's nodes keep their capitals.)
+    return f"{name}: {cause.replace(' {of}', '')}"
+
+
 def _sentence(cause: str, kind: str, names: list[str]) -> str:
     of = f"of {kind} {listed(names)}" if len(names) == 1 else f"of {len(names)} {kind}s ({listed(names)})"
     # (Not str.format: names of nodes in a cause may have braces.)

@@ -11,8 +11,10 @@ import bpy
 from ..diagnostic_colors import SOLVED_MODES
 from ..options import marked_mirrors, newer_settings
 from ..scene.opened.blend_file import SURFACE_TYPES
+from ..scene.remarks import Remark, sentences
 from ..settings_table import OF_SCENES
 from .choices import PRESETS, active_preset
+from .looks import draw_looks
 from .messages import draw_message, draw_rows
 
 MOST_LISTED = 12
@@ -63,8 +65,14 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         else:
             draw_message(layout, "No object is marked as a mirror", context, "INFO")
         newer = newer_settings(scene)
+        of_materials = viewport.material_remarks()
+        # (Each once: with the material that it concerns.)
+        remarks = (Remark(cause, "material", name) for name, causes in of_materials.items() for cause in causes)
+        told = frozenset(sentences(remarks))
         for message in dict.fromkeys([*([newer] if newer else []), *viewport.messages()]):
-            draw_message(layout, message, context)
+            if message not in told:
+                draw_message(layout, message, context)
+        draw_looks(layout, of_materials, context)
         if mirrors and not context.window_manager.curvrefl_enabled and not viewport.messages():
             draw_message(layout, "Switched off: tick the box in this panel's header", context, "INFO")
 

@@ -80,6 +80,17 @@ def messages() -> list[str]:
     return list(dict.fromkeys(found))
 
 
+def material_remarks() -> dict[str, list[str]]:
+    """Causes of remarks (`scene/remarks.py`) by the name of the material that they concern."""
+    found: dict[str, list[str]] = {}
+    for scene in _state.scenes.values():
+        for remark in scene.material_remarks:
+            causes = found.setdefault(remark.name, [])
+            if remark.cause not in causes:
+                causes.append(remark.cause)
+    return found
+
+
 def counters() -> dict[str, int]:
     """How often what was read, made and drawn since the extension was enabled: what tests of laziness count."""
     total = dict(_state.counters)

@@ -19,6 +19,7 @@ from ..renderer.settings import Settings
 from ..scene.arrays import SceneArrays
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
+from ..scene.remarks import Remark
 from .light import LightReader, ViewportLight, light_of
 
 MOST_RENDERERS = 3
@@ -53,6 +54,11 @@ class ViewportScene:
         self._shown: dict[Look, SceneArrays] = {}
         self._dropped: Counter[str] = Counter()
         """Counts of renderers that are gone"""
+
+    @property
+    def material_remarks(self) -> tuple[Remark, ...]:
+        """What is not drawn of materials."""
+        return self._reader.material_remarks if self._arrays is not None else ()
 
     @property
     def counters(self) -> dict[str, int]:

@@ -7,6 +7,8 @@
 // for nothing, the rest for more. LEVEL_CASES is a CASE of each of the LEVELS textures (renderer/shading/calm.py).
 #include "calm/calm_level.glsl"
 #include "calm/calm_tint.glsl"
+#include "surfaces/material_at.glsl"
+#include "surfaces/material_number.glsl"
 #define CASE(index, texels) if (level == index) { found = bilinear(texels, level, place, number); }
 
 vec4 one_mirror(vec4 texel, float number)
@@ -47,7 +49,7 @@ void main()
   }
   float number = texelFetch(seen_color, pixel, 0).w;
   vec4 facing = texelFetch(seen_normal, pixel, 0);
-  float roughness = fetch_record(materials, MATERIAL_RECORDS * int(floor(facing.w + 0.5))).y;
+  float roughness = material_at(pixel, material_number(facing.w), vec3(0.0)).roughness;
   mat2 root = mat2(ellipse.x, ellipse.y, ellipse.y, ellipse.z);
   float extent = sqrt(max(determinant(root), 0.0));
   vec2 size = vec2(textureSize(seen_color, 0));

@@ -9,7 +9,7 @@
 // `reach`: xx, xy and yy of the root, 0 where no mirror is rough; and one over how far behind the mirror the image of
 // what it shows stands, which is 1 / t + 2 c on a mirror of curvature c (as on axis).
 #from optics.scattering.microfacet import SHARP_ALPHA
-#include "surfaces/material_records.glsl"
+#include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
 
 vec3 reflected_at(ivec2 pixel, vec3 position)
@@ -55,7 +55,7 @@ void main()
   }
   vec4 place = texelFetch(seen_position, pixel, 0);
   vec4 facing = texelFetch(seen_normal, pixel, 0);
-  float roughness = fetch_record(materials, MATERIAL_RECORDS * material_number(facing.w)).y;
+  float roughness = material_at(pixel, material_number(facing.w), vec3(0.0)).roughness;
   float alpha = roughness * roughness;
   if (alpha < SHARP_ALPHA) {
     return;

@@ -42,7 +42,7 @@ void main()
   vec4 base = texelFetch(seen_color, pixel, 0);
 #ifdef SHADES_SURFACE
   world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
-  vec3 radiance = shade_surface(surface_of(position, normal, base.rgb), -direction);
+  vec3 radiance = shade_surface(surface_of(pixel, position, normal, base.rgb), -direction);
 #else
 #ifdef ENVIRONMENT
   // One pass per mirror.
@@ -66,7 +66,7 @@ void main()
   base = texelFetch(reflected_color, pixel, 0);
   // What is shown stands where it is, not where this pixel's own ray would have met it.
   direction = normalize(position.xyz - origin);
-  Surface shown = surface_of(position, normal, base.rgb);
+  Surface shown = surface_of(pixel, position, normal, base.rgb);
 #if defined(MIRRORS_END)
   vec3 radiance = shown.emission;
 #elif defined(SHADES_MIRROR_OF_MIRROR)

@@ -20,7 +20,7 @@ void main()
 #ifdef MIRROR_BASE
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
-  radiance += shade_under_mirror(surface_of(position, normal, base.rgb), -direction);
+  radiance += shade_under_mirror(surface_of(pixel, position, normal, base.rgb), -direction);
 #endif
   color = vec4(radiance * weight, 0.0);
 }

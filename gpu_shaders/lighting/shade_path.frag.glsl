@@ -20,7 +20,7 @@ void main()
   }
   else {
     vec4 base = texelFetch(reflected_color, pixel, 0);
-    Surface surface = surface_of(position, texelFetch(reflected_normal, pixel, 0), base.rgb);
+    Surface surface = surface_of(pixel, position, texelFetch(reflected_normal, pixel, 0), base.rgb);
 #if defined(MIRRORS_END)
     radiance = surface.emission;
 #elif defined(GOES_ON)

@@ -3,13 +3,16 @@
 #include "common/records.glsl"
 #ifdef HASHED
 #include "common/geometry.glsl"
+#include "common/corner_attributes.glsl"
+#include "rays/light_through.glsl"
 #endif
 
 void main()
 {
 #ifdef HASHED
   Corner corner = fetch_corner(gl_VertexID);
-  uv = corner.uv;
+  int attribute = light_through_attribute(material);
+  uv = attribute < 0 ? vec2(0.0) : corner_attribute(gl_VertexID, attribute).xy;
   // (Of a triangle's corners one stands for it.)
   surface = ivec2(gl_VertexID, int(corner.object_id));
   gl_Position = world_to_clip * vec4(corner.position, 1.0);

@@ -60,7 +60,7 @@ void main()
   vec4 normal = texelFetch(vertex_normal, pixel, 0);
   vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
 #ifdef LIGHTS_STOPS
-  Surface surface = surface_of(position, normal, base);
+  Surface surface = surface_of(pixel, position, normal, base);
 #ifdef QUADS
   // (Of other pixels a quad may have what an older step has met.)
   float met_now = texelFetch(classes_before, pixel, 0).x;
@@ -78,7 +78,7 @@ void main()
   radiance = shade_surface(surface, -direction);
 #endif
 #else
-  radiance = light_of_vertex(surface_of(position, normal, base), vertex_at(pixel), -direction);
+  radiance = light_of_vertex(surface_of(pixel, position, normal, base), vertex_at(pixel), -direction);
 #endif
 #endif
 #if defined(LIGHTS_MISSES) || defined(LIGHTING_NEAR_LAMPS)

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A vertex of a path out of surface buffers: its material, how it faces the ray, whether the path goes on there. Needs
-// the samplers `vertex_position`, `vertex_normal`, `vertex_color`, with PATHS_SCALARS `vertex_scalars`, and with
+// the samplers `vertex_position`, `vertex_normal`, `vertex_color`, those of material_at.glsl, and with
 // PATHS_ANISOTROPY `object_frames` (renderer/paths/object_frames.py).
-#include "paths/path_material.glsl"
+#include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
 #include "paths/scatter.glsl"
 
@@ -11,7 +11,7 @@ struct PathVertex {
   vec3 position;
   float object_id;
   int index;        // of the material
-  PathMaterial material;
+  Material material;
   Facing facing;
   bool follows;     // all its lobes are followed; else light only goes straight on where it is not there
 };
@@ -40,11 +40,7 @@ PathVertex vertex_at(ivec2 pixel)
   v.position = place.xyz;
   v.object_id = place.w;
   v.index = material_number(normal.w);
-#ifdef PATHS_SCALARS
-  v.material = path_material(v.index, color.rgb, texelFetch(vertex_scalars, pixel, 0));
-#else
-  v.material = path_material(v.index, color.rgb, vec4(0.0));
-#endif
+  v.material = material_at(pixel, v.index, color.rgb);
   v.facing.normal = normal.xyz;
   v.facing.tangent = vec3(0.0);
 #ifdef PATHS_ANISOTROPY

@@ -37,7 +37,7 @@ vec3 layer_chances(Layers layers)
   return sum > 0.0 ? shares / sum : vec3(0.0);
 }
 
-mat3 frame_of(PathMaterial m, Facing f)
+mat3 frame_of(Material m, Facing f)
 {
 #ifdef PATHS_ANISOTROPY
   mat3 frame = surface_frame(f.normal, f.tangent);
@@ -117,7 +117,7 @@ vec3 viewer_in(mat3 frame, vec3 to_viewer)
   return normalize(local);
 }
 
-Scatter scatter(PathMaterial m, Facing f, vec3 to_viewer, vec4 random)
+Scatter scatter(Material m, Facing f, vec3 to_viewer, vec4 random)
 {
   Scatter s = Scatter(-to_viewer, vec3(0.0), 0.0, SCATTER_ENDS);
 #ifdef PATHS_ALPHA
@@ -219,7 +219,7 @@ Scatter scatter(PathMaterial m, Facing f, vec3 to_viewer, vec4 random)
 }
 
 // Value of the lobes that scatter() chooses among, those that are sharp left out, times the cosine to the light.
-vec3 scattered(PathMaterial m, Facing f, vec3 to_viewer, vec3 to_light, out float pdf)
+vec3 scattered(Material m, Facing f, vec3 to_viewer, vec3 to_light, out float pdf)
 {
   Layers layers = layers_of(m, f.is_back, dot(f.normal, to_viewer));
   mat3 frame = frame_of(m, f);
@@ -234,13 +234,13 @@ vec3 scattered(PathMaterial m, Facing f, vec3 to_viewer, vec3 to_light, out floa
 }
 
 // Albedo of the diffuse base under all lobes.
-vec3 base_share(PathMaterial m, Facing f, float cos_viewer)
+vec3 base_share(Material m, Facing f, float cos_viewer)
 {
   return layers_of(m, f.is_back, cos_viewer).base;
 }
 
 // What the coat lets through of what is below it, as of emission.
-vec3 coat_passes(PathMaterial m, float cos_viewer)
+vec3 coat_passes(Material m, float cos_viewer)
 {
   Layers layers;
   layers.cos_viewer = clamp(cos_viewer, 1e-4, 1.0);

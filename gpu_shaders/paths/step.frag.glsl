@@ -82,8 +82,8 @@ void main()
   throughput_out = vec4(throughput, pack_state(state));
   surface_position = vec4(next.direction, 0.0);
   surface_normal = surface_color_out = vec4(0.0);
-#ifdef WITH_IMAGES
-  uv_out = vec4(0.0);
+#ifdef WITH_HITS
+  hit_out = vec4(0.0);
 #endif
   bool is_hole = hit.instance >= 0 && state.kind == RAY_CAMERA &&
                  (int(fetch_record(rays, hit.instance + 3).z) & HOLDS_OUT) != 0;
@@ -93,13 +93,13 @@ void main()
   else if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, v.position, next.direction);
     vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
-    bool is_seen_through = fetch_record(materials, MATERIAL_RECORDS * surface.material + 12).w > 0.5;
+    bool is_seen_through = fetch_record(materials, MATERIAL_RECORDS * surface.material + 6).w > 0.5;
     surface_position = vec4(surface.position, surface.object_id);
     surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
     float shows = surface.mirror > 0.5 ? surface.mirror : (is_seen_through ? SEEN_THROUGH : -1.0);
-    surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, shows);
-#ifdef WITH_IMAGES
-    uv_out = vec4(surface.uv, 1.0, 1.0);
+    surface_color_out = vec4(base.rgb, shows);
+#ifdef WITH_HITS
+    hit_out = packed_hit(hit);
 #endif
   }
 }

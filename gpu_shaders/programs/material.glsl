@@ -28,10 +28,15 @@ struct Material {
   float diffuse_roughness;
   float subsurface;           // share of the diffuse part that goes below the surface
   float translucency;         // share of the diffuse part that comes out on the other side
-  float kind;                 // a number of flags: KIND_ bits
+  float kind;                 // KIND_ bits, which programs set
+  // The same told apart, by settled() (surfaces/material_at.glsl):
+  bool glossy_only;           // reflects the base color at all angles
+  bool thin_wall;
+  int glass;                  // scene/arrays.py, Glass: GLASS_PRINCIPLED, GLASS_GLASS, GLASS_REFRACTION
+  vec3 absorption;            // per meter, inside
 };
 
-#define KIND_GLOSSY_ONLY 1    // reflects the base color at all angles
+#define KIND_GLOSSY_ONLY 1
 #define KIND_THIN_WALL 2
 #define KIND_GLASS 4          // Glass in place of Principled
 #define KIND_REFRACTION 8

@@ -58,3 +58,9 @@ ShadingPoint point_up(ShadingPoint s)
   return s;
 }
 #endif
+
+// Before a program's parameters lie, backwards, the numbers of its attributes in the scene's list of attributes.
+int attribute_number(ShadingPoint s, int number)
+{
+  return int(fetch_record(program_records, s.records - 1 - number).x + 0.5);
+}

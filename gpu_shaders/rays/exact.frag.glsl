@@ -45,8 +45,8 @@ void main()
     surface_position = vec4(direction, 0.0);
     surface_normal = vec4(0.0);
     surface_color_out = vec4(0.0);
-#ifdef WITH_IMAGES
-    uv_out = vec4(0.0, 0.0, -1.0, 0.0);
+#ifdef WITH_HITS
+    hit_out = vec4(0.0);
 #endif
     return;
   }
@@ -57,13 +57,10 @@ void main()
     throughput_out.rgb = vec3(0.0);
   }
 #endif
-  vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
   surface_position = vec4(surface.position, surface.object_id);
   surface_normal = vec4(surface.normal, float(surface.material));
-  surface_color_out = vec4(base.w > 0.5 ? base.rgb * surface.color : base.rgb, surface.mirror);
-#ifdef WITH_IMAGES
-  vec4 transform = fetch_record(materials, MATERIAL_RECORDS * surface.material + 3);
-  vec4 image = fetch_record(materials, MATERIAL_RECORDS * surface.material + 4);
-  uv_out = vec4(surface.uv * transform.xy + transform.zw + image.yz * surface.uv.yx, image.x, 0.0);
+  surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, surface.mirror);
+#ifdef WITH_HITS
+  hit_out = packed_hit(hit);
 #endif
 }

@@ -48,7 +48,7 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   surface.material = int(fetch_record(rays, materials_of_slots + slot / 4)[slot % 4]);
   bool is_followed = about.y > 0.5;
 #ifdef PATH_STEP
-  is_followed = is_followed || fetch_record(materials, MATERIAL_RECORDS * surface.material + 12).w > 0.5;
+  is_followed = is_followed || fetch_record(materials, MATERIAL_RECORDS * surface.material + 6).w > 0.5;
 #endif
   if (is_followed) {
     vec3 facet = normalize(outward) * (dot(outward, direction) < 0.0 ? 1.0 : -1.0);
@@ -61,3 +61,24 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   surface.is_back = !is_front;
   return surface;
 }
+
+#ifdef WITH_HITS
+// Number of the instance among those that rays know, of the triangle in its mesh, and the place on it.
+vec4 packed_hit(Hit hit)
+{
+  int first = REGION_UNIT * int(fetch_record(rays, hit.instance + 4).y);
+  return vec4(float((hit.instance - rays_top.y) / INSTANCE_RECORDS), float((hit.triangle - first) / TRIANGLE_RECORDS),
+              hit.place);
+}
+
+Hit unpacked_hit(vec4 held)
+{
+  Hit hit;
+  hit.instance = rays_top.y + INSTANCE_RECORDS * int(held.x + 0.5);
+  int first = REGION_UNIT * int(fetch_record(rays, hit.instance + 4).y);
+  hit.triangle = first + TRIANGLE_RECORDS * int(held.y + 0.5);
+  hit.place = held.zw;
+  hit.range = 0.0;
+  return hit;
+}
+#endif

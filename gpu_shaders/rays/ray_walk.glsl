@@ -12,6 +12,7 @@
 // none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of
 // materials, first record of attributes over REGION_UNIT, first of their places, row of instance_table).
 #include "common/records.glsl"
+#include "rays/hit_attributes.glsl"
 
 // What the walk is at: no node, so that it takes the next of its stack; at its end.
 #define NOWHERE -1
@@ -88,15 +89,12 @@ vec3 walked_light = vec3(1.0);
 // Of a triangle of an instance, records both, at this place on it.
 vec3 light_through_triangle(int instance, int triangle, vec2 place)
 {
-  vec4 regions = fetch_record(rays, instance + 4);
-  vec4 numbers = fetch_record(rays, triangle + 3);
   vec3 weights = vec3(1.0 - place.x - place.y, place);
-  vec2 uv = vec2(0.0);
-  for (int k = 0; k < 3; k++) {
-    uv += weights[k] * fetch_record(rays, REGION_UNIT * int(regions.z) + 2 * int(numbers[k]) + 1).xy;
-  }
-  int slot = min(int(numbers.w), int(fetch_record(rays, instance + 5).x) - 1);
-  return light_through(int(fetch_record(rays, rays_top.z + int(regions.w) + slot / 4)[slot % 4]), uv);
+  int slot = min(int(fetch_record(rays, triangle + 3).w), int(fetch_record(rays, instance + 5).x) - 1);
+  int first = rays_top.z + int(fetch_record(rays, instance + 4).w);
+  int material = int(fetch_record(rays, first + slot / 4)[slot % 4]);
+  int attribute = light_through_attribute(material);
+  return light_through(material, attribute < 0 ? vec2(0.0) : hit_attribute(instance, triangle, weights, attribute).xy);
 }
 #endif
 

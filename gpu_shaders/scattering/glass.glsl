@@ -3,7 +3,6 @@
 // An interface that lets light through, solid or thin, as optics/scattering/glass.py. Rough refraction: Walter et al.,
 // "Microfacet Models for Refraction through Rough Surfaces" (2007). A thin wall: both interfaces of a pane at once,
 // with what goes back and forth between them, as OpenPBR's.
-#include "paths/path_material.glsl"
 #include "scattering/fresnel_layers.glsl"
 #include "scattering/microfacet.glsl"
 #include "common/ggx_table.glsl"
@@ -63,7 +62,7 @@ void thin_shares(Pane pane, vec3 tint, float cosine, out vec3 reflectance, out v
   reflectance = reflects + transmittance * again;
 }
 
-Pane pane_of(PathMaterial m, bool is_back, float cosine, vec3 share)
+Pane pane_of(Material m, bool is_back, float cosine, vec3 share)
 {
   Pane pane;
   float ior = max(m.ior, 1e-5);

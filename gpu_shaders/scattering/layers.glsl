@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The layers of a material towards one viewer, in the order of Cycles' Principled BSDF (Blender 5.2): sheen, coat,
 // metal, glass, dielectric, diffuse base; as optics/scattering/layers.py.
-#include "paths/path_material.glsl"
+#include "surfaces/material_at.glsl"
 #include "scattering/dielectric.glsl"
 #include "scattering/sheen.glsl"
 #include "scattering/microfacet.glsl"
@@ -46,7 +46,7 @@ vec3 metal_fresnel(Layers layers, float cosine)
   return tinted_metal(layers.metal_f0, layers.metal_dip, cosine);
 }
 
-vec2 base_alpha(PathMaterial m, float roughness)
+vec2 base_alpha(Material m, float roughness)
 {
   vec2 alpha = vec2(roughness * roughness);
 #ifdef PATHS_ANISOTROPY
@@ -64,11 +64,11 @@ vec2 base_alpha(PathMaterial m, float roughness)
 }
 
 // Sheen and coat: what is above all else. (Sheen has no lobe here: it is as wide as the diffuse base, and is shaded.)
-void add_coat(PathMaterial m, inout Layers layers)
+void add_coat(Material m, inout Layers layers)
 {
   layers.above = vec3(1.0);
 #ifdef PATHS_SHEEN
-  layers.above *= clamp(1.0 - largest(m.sheen) * sheen_lobe(m.sheen_roughness, layers.cos_viewer).z, 0.0, 1.0);
+  layers.above *= clamp(1.0 - (m.sheen_weight * largest(m.sheen_tint)) * sheen_lobe(m.sheen_roughness, layers.cos_viewer).z, 0.0, 1.0);
 #endif
 #ifdef PATHS_COAT
   float weight = max(m.coat_weight, 0.0);
@@ -85,7 +85,7 @@ void add_coat(PathMaterial m, inout Layers layers)
 #endif
 }
 
-Layers layers_of(PathMaterial m, bool is_back, float cos_viewer)
+Layers layers_of(Material m, bool is_back, float cos_viewer)
 {
   Layers layers;
   layers.cos_viewer = clamp(cos_viewer, 1e-4, 1.0);

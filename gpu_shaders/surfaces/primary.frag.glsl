@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surfaces/surface_color.glsl"
+// With PROGRAM what the material's program makes of the surface, else its constants. With FOLLOWED rays go on from
+// here; with SMOOTH the normal stays that of the mesh.
+#include "surfaces/material_records.glsl"
 #ifdef FOLLOWED
 #include "surfaces/raised_normal.glsl"
-#ifdef RELIEF
-#include "surfaces/relief.glsl"
 #endif
+#ifdef PROGRAM
+#include "surfaces/material_at.glsl"
+#include "programs/point_of_fragment.glsl"
 #endif
 
 void main()
@@ -19,9 +22,19 @@ void main()
   gl_FragDepth = distance_ahead / depths.z;
 #endif
   vec3 normal = normalize(world_normal);
-#if defined(RELIEF)
-  normal = bent_normal(normal);
-#elif defined(FOLLOWED)
+#ifdef PROGRAM
+  Material m = material_constants(int(material));
+  ShadingPoint s = point_of_fragment(normal);
+  m.normal = s.normal;
+  material_program(s, m);
+  vec3 color = m.base_color;
+#ifndef SMOOTH
+  normal = gl_FrontFacing ? m.normal : -m.normal;
+#endif
+#else
+  vec3 color = base_color;
+#endif
+#ifdef FOLLOWED
   normal = raised_normal(normal);
 #endif
   surface_position = vec4(world_position, ids.x);
@@ -33,11 +46,27 @@ void main()
   surface_normal.w += gl_FrontFacing ? 0.0 : 0.25;
   shows = shows == -1.0 && seen_through > 0.5 ? SEEN_THROUGH : shows;
 #endif
-  surface_color_out = vec4(surface_color(), shows);
-#ifdef WITH_SCALARS
-  surface_scalars = texture(scalars_image, uv * scalars_transform.xy + scalars_transform.zw + scalars_turn * uv.yx);
+  surface_color_out = vec4(color, shows);
+#ifdef PROGRAM
+#ifdef PROGRAM_SCALARS
+  scalars_out = packed_scalars(m);
 #endif
-#ifdef NO_SCALARS
-  surface_scalars = vec4(0.0);
+#ifdef PROGRAM_SHINE
+  shine_out = packed_shine(m);
+#endif
+#ifdef PROGRAM_LAYERS
+  layers_out = packed_layers(m);
+#endif
+#else
+  // (Nobody looks at them.)
+#ifdef PROGRAM_SCALARS
+  scalars_out = vec4(0.0);
+#endif
+#ifdef PROGRAM_SHINE
+  shine_out = vec4(0.0);
+#endif
+#ifdef PROGRAM_LAYERS
+  layers_out = uvec4(0u);
+#endif
 #endif
 }

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the eye sees directly.
 #include "common/geometry.glsl"
+#ifdef PROGRAM
+#include "programs/vertex_attributes.glsl"
+#endif
 
 void main()
 {
   Corner corner = fetch_corner(gl_VertexID);
   world_position = corner.position;
   world_normal = corner.normal;
-#ifndef PLAIN
-  uv = corner.uv;
-  vertex_color = corner.color;
+#ifdef PROGRAM
+  set_program_inputs(gl_VertexID);
 #endif
   ids = vec2(corner.object_id, corner.mirror);
   // Multiplied in this order: a product made beforehand rounds differently from other passes' depths.

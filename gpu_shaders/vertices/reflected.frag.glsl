@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hidden surfaces of the reflected scene, three ways, without a stencil (Roger & Holzschuch 2006, section 3.3.6).
-#include "surfaces/surface_color.glsl"
+#include "surfaces/material_records.glsl"
+#ifdef PROGRAM
+#include "surfaces/material_at.glsl"
+#include "programs/point_of_fragment.glsl"
+#endif
 
 vec3 towards_eye(vec3 point)
 {
@@ -47,7 +51,45 @@ void main()
   gl_FragDepth = vertex_distance / (vertex_distance + depth_scale);
 
   vec3 surface = normalize(world_normal);
+  surface = dot(surface, to_vertex) > 0.0 ? -surface : surface;
+#ifdef PROGRAM
+  Material m = material_constants(int(material));
+  ShadingPoint s = point_of_fragment(surface);
+  // What sees it is the mirror.
+  s.incoming = -to_vertex / vertex_distance;
+  s.ray_length = vertex_distance;
+  s.ray = RAY_IS_REFLECTION | RAY_IS_GLOSSY | RAY_IS_SINGULAR;
+  s.depths = vec3(1.0, 0.0, 1.0);
+  s.is_back = dot(normalize(world_normal), to_vertex) > 0.0;
+  s.normal = surface;
+  vec3 facing = dot(s.true_normal, to_vertex) > 0.0 ? -s.true_normal : s.true_normal;
+  s.true_normal = facing;
+  m.normal = surface;
+  material_program(s, m);
+  surface = m.normal;
+  vec3 color = m.base_color;
+#ifdef PROGRAM_SCALARS
+  scalars_out = packed_scalars(m);
+#endif
+#ifdef PROGRAM_SHINE
+  shine_out = packed_shine(m);
+#endif
+#ifdef PROGRAM_LAYERS
+  layers_out = packed_layers(m);
+#endif
+#else
+  vec3 color = base_color;
+#ifdef PROGRAM_SCALARS
+  scalars_out = vec4(0.0);
+#endif
+#ifdef PROGRAM_SHINE
+  shine_out = vec4(0.0);
+#endif
+#ifdef PROGRAM_LAYERS
+  layers_out = uvec4(0u);
+#endif
+#endif
   surface_position = vec4(world_position, object_id);
-  surface_normal = vec4(dot(surface, to_vertex) > 0.0 ? -surface : surface, material);
-  surface_color_out = vec4(surface_color(), iterations);
+  surface_normal = vec4(surface, material);
+  surface_color_out = vec4(color, iterations);
 }

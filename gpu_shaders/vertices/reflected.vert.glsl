@@ -3,6 +3,9 @@
 // The scene as the reflector shows it: every vertex where it seems to be (Roger & Holzschuch 2006, section 3.3.5).
 #include "common/status.glsl"
 #include "common/geometry.glsl"
+#ifdef PROGRAM
+#include "programs/vertex_attributes.glsl"
+#endif
 
 void main()
 {
@@ -13,9 +16,8 @@ void main()
   int status = code & 3;
   world_position = corner.position;
   world_normal = corner.normal;
-#ifndef PLAIN
-  uv = corner.uv;
-  vertex_color = corner.color;
+#ifdef PROGRAM
+  set_program_inputs(gl_VertexID);
 #endif
   object_id = corner.object_id;
   iterations = float(code >> 2);

@@ -100,6 +100,15 @@ def set_matrix(shader: Any, name: str, matrix: np.ndarray) -> None:
     shader.uniform_float(name, Matrix(matrix.tolist()))
 
 
+def knows(shader: Any, constant: str) -> bool:
+    """Whether a shader has a push constant: drivers drop those that do nothing in it."""
+    try:
+        shader.uniform_from_name(constant)
+    except ValueError:
+        return False
+    return True
+
+
 def build_shader(label: str, *pieces: Piece) -> Any:
     """Compile the shader of these pieces, whose GLSL follows in their order. `label`: a name for error messages.
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,21 @@ class Placed:
     """(triangles of `drawn`,) which piece of the mesh each is in (see `mesh_pieces`)"""
     mirror: int = 0
     """1, 2, ... for a reflector"""
+
+
+class Triangles(Protocol):
+    """What passes over triangles draw: a chunk, or parts of one."""
+
+    positions: Any
+    corners: Any
+
+    @property
+    def attributes(self) -> CornerAttributes: ...
+
+    @property
+    def placed_chunk(self) -> Chunk:
+        """Whose instances they are of."""
+        ...
 
 
 class Chunk:
@@ -107,6 +122,11 @@ class Chunk:
         self._table = np.zeros((len(meshes), INSTANCE_RECORDS, 4), np.float32)
         self._fill_table(range(len(meshes)))
         self._place(((0, self.position_count, 0, corner_count),))
+
+    @property
+    def placed_chunk(self) -> Chunk:
+        """Itself (see `Triangles`)."""
+        return self
 
     @cached_property
     def attributes(self) -> CornerAttributes:

@@ -20,6 +20,8 @@ from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
+from ..surfaces.materials import Materials
+from .caster_images import CasterBake
 from ..paths.surface_features import surface_features
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
@@ -91,7 +93,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
 class Lighting:
     """GPU resources that light one scene; `free()` when done."""
 
-    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, sub_frames: int = 16) -> None:
+    def __init__(self, scene: SceneArrays, geometry: SceneGeometry, materials: Materials, sub_frames: int = 16) -> None:
         """`geometry`: all that may cast or receive shadows. `sub_frames`: how many shadings make one picture."""
         self.sub_frames = max(sub_frames, 1)
         self._geometry = geometry
@@ -108,7 +110,7 @@ class Lighting:
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
         self._left_out, self._oddly_seen = left_out(scene), oddly_seen(scene)
-        self._alpha = ShadowAlpha(scene)
+        self._alpha = ShadowAlpha(scene, CasterBake(materials))
         self._of_surfaces = surface_features(scene)
         self._read_geometry()
         self._read_world()

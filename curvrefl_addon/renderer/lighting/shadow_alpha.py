@@ -10,6 +10,7 @@ its share of them, to one.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,12 +21,19 @@ from ...scene.remarks import Remark, sentences
 from ..device.records import TEXTURE_WIDTH, padded_count, record_texture
 from ..device.shaders import Piece
 from ..device.textures import largest_texture
+from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..paths.features import lets_straight_on
+from .caster_images import CasterImage
 
 ALPHA = "LIGHTING_ALPHA"
 """Define of the shaders that light a scene with such casters"""
-ALPHA_RECORDS = 4
-SHADOW_ALPHA = Piece(samplers={"caster_alphas": "FLOAT_2D"}, defines={"ALPHA_RECORDS": ALPHA_RECORDS})
+ALPHA_RECORDS = 3
+SIDE = 4096
+"""More than any image has texels along a side"""
+SHADOW_ALPHA = Piece(
+    samplers={"caster_alphas": "FLOAT_2D"},
+    defines={"ALPHA_RECORDS": ALPHA_RECORDS, "SIDE": SIDE, "LACKING_BY_NAME": LACKING_BY_NAME},
+)
 """What `light_through.glsl` needs"""
 ROW_TEXELS = 4 * TEXTURE_WIDTH
 """Alphas of an image in one row of the texture"""
@@ -34,26 +42,33 @@ HASHED_SAMPLES, MOST_KEPT = 8, 16
 are not kept anyway, have one for each"""
 GRAY = 0.02
 """A tint's channels differ by no more"""
-EXTENSIONS = {"REPEAT": 0, "EXTEND": 1, "MIRROR": 2, "CLIP": 3}
-IS_NEAREST = 4
+
+type Bake = Callable[[SceneArrays, int], CasterImage]
+"""Of a material whose alpha differs from place to place"""
 
 
 class ShadowAlpha:
     """Of one scene."""
 
-    def __init__(self, scene: SceneArrays) -> None:
+    def __init__(self, scene: SceneArrays, bake: Bake) -> None:
+        """`bake`: see `CasterBake`."""
+        self._bake = bake
         self._materials: tuple[MaterialArrays, ...] = ()
         self._images: tuple[ImageArrays, ...] = ()
+        self._baked: dict[int, tuple[object, CasterImage]] = {}
+        """By material, with what it was made of"""
         self.materials: frozenset[int] = frozenset()
         """Indices of those that are no opaque casters"""
         self.hashed: frozenset[int] = frozenset()
         """Those of them that cast a shadow at all"""
-        self.warnings: tuple[str, ...] = ()
         self._texture: Any = None
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> bool:
         """Know another state of the scene; whether shadows differ by it."""
+        self._scene = scene
+        self.attributes = attributes_of(scene)
+        """What programs read of meshes, in the order of their numbers"""
         if scene.materials is self._materials and scene.images is self._images:
             return False
         before = (self.materials, [self._key(index) for index in sorted(self.materials)])
@@ -61,21 +76,29 @@ class ShadowAlpha:
         through = [self._passes(index) for index in range(len(scene.materials))]
         self.materials = frozenset(index for index, share in enumerate(through) if share > 0.0)
         self.hashed = frozenset(index for index in self.materials if through[index] < 1.0)
-        cause = "Shadows {of} are gray where shadow maps serve: its tint is left out."
-        tinted = [self._materials[index] for index in sorted(self.materials)]
-        self.warnings = sentences(
-            Remark(cause, "material", item.name) for item in tinted if np.ptp(item.transparent_tint) > GRAY
-        )
         if before == (self.materials, [self._key(index) for index in sorted(self.materials)]):
             return False
         self._texture = None
         return True
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """One sentence each."""
+        cause = "Shadows {of} are gray where shadow maps serve: its tint is left out."
+        tinted = [self._materials[index] for index in sorted(self.materials)]
+        found = [Remark(cause, "material", item.name) for item in tinted if np.ptp(item.transparent_tint) > GRAY]
+        cause = "Shadows {of} let light through everywhere alike: its transparency is on no UV map."
+        for index in sorted(self.hashed):
+            if self._varies(index) and self._image_of(index).attribute < 0:
+                found.append(Remark(cause, "material", self._materials[index].name))
+        return sentences(found)
+
+    @property
     def is_hashed(self) -> bool:
-        """Whether maps of one point differ, in what is there by chance: not so where thresholds decide."""
+        """Whether maps of one point differ, in what is there by chance: not so where all is there or not."""
         return any(
-            self._materials[index].alpha_threshold < 0.0 or np.mean(self._materials[index].transparent_tint) < 1.0
+            np.mean(self._materials[index].transparent_tint) < 1.0
+            or not (self._varies(index) and self._image_of(index).is_binary)
             for index in self.hashed
         )
 
@@ -91,64 +114,70 @@ class ShadowAlpha:
             self._texture = self._uploaded()
         shader.uniform_sampler("caster_alphas", self._texture)
 
-    def _image_of(self, index: int) -> ImageArrays | None:
-        """In whose alpha a material has its own."""
-        scalars = self._materials[index].scalars
-        return None if scalars is None else self._images[scalars.image]
+    def _varies(self, index: int) -> bool:
+        """Whether alpha differs from place to place."""
+        low, high = self._materials[index].range_of("alpha")
+        return low < high
+
+    def _image_of(self, index: int) -> CasterImage:
+        """The alpha of a material for which it `_varies`."""
+        key = self._key(index)
+        if index not in self._baked or self._baked[index][0] != key:
+            self._baked[index] = (key, self._bake(self._scene, index))
+        return self._baked[index][1]
 
     def _key(self, index: int) -> tuple[object, ...]:
         """What shadows depend on."""
-        item, image = self._materials[index], self._image_of(index)
-        return (item.alpha, item.alpha_threshold, item.alpha_inverted, item.transparent_tint, item.scalars, id(image))
+        item = self._materials[index]
+        if item.program is None or not self._varies(index):
+            return (item.alpha, item.transparent_tint)
+        images = [id(self._images[use.image]) for use in item.program.images]
+        return (item.transparent_tint, item.program.shape, item.program.records.tobytes(), images)
 
     def _passes(self, index: int) -> float:
-        """Share of light that gets through; of a material with an image between 0 and 1."""
+        """Share of light that gets through; of a material whose alpha differs between 0 and 1."""
         item = self._materials[index]
         if not lets_straight_on(item):
             return 0.0
         tint = float(np.mean(item.transparent_tint))
-        if item.scalars is not None:
+        if self._varies(index):
             return 0.5 * min(tint, 1.0)
-        alpha = item.alpha
-        if item.alpha_threshold >= 0.0:
-            alpha = float((alpha > item.alpha_threshold) != item.alpha_inverted)
-        return (1.0 - alpha) * tint
+        return (1.0 - item.range_of("alpha")[0]) * tint
 
     def _uploaded(self) -> Any:
         """Records of all materials, then the alphas of their images, each from a row of its own, four to a record (see
         `light_through.glsl`)."""
         records = np.zeros((padded_count(len(self._materials) * ALPHA_RECORDS), 4), np.float32)
         rows = [records.reshape(-1, ROW_TEXELS)]
-        starts: dict[int, tuple[int, int, int]] = {}
-        images = {id(image): image for index in self.hashed if (image := self._image_of(index)) is not None}
+        images = {index: self._image_of(index) for index in sorted(self.materials) if self._varies(index)}
         # (Fewer texels of each where all would not fit.)
         room = ((largest_texture() - len(rows[0])) // max(len(images), 1) - 1) * ROW_TEXELS
-        for key, image in images.items():
-            alpha = _shrunk(image.pixels[..., 3:], room)
-            height, width = alpha.shape[:2]
-            starts[key] = (sum(len(part) for part in rows), width, height)
+        for index in self.materials:
+            item, record = self._materials[index], records[ALPHA_RECORDS * index :]
+            record[0] = (item.range_of("alpha")[0], 0.0, -1.0, 0.0)
+            record[2, :3] = item.transparent_tint
+            image = images.get(index)
+            if image is None:
+                continue
+            if image.attribute < 0:
+                record[0, 0] = image.alpha.mean()
+                continue
+            alpha = _shrunk(image.alpha, room)
+            height, width = alpha.shape
+            record[0] = (-1.0, sum(len(part) for part in rows), image.attribute, float(image.is_binary))
+            record[1] = (*image.low, *image.size)
+            record[2, 3] = width + SIDE * height
             texels = np.zeros(-(-width * height // ROW_TEXELS) * ROW_TEXELS, np.float32)
             texels[: width * height] = alpha.ravel()
             rows.append(texels.reshape(-1, ROW_TEXELS))
-        for index in self.materials:
-            item, record = self._materials[index], records[ALPHA_RECORDS * index :]
-            record[0] = (item.alpha, item.alpha_threshold, float(item.alpha_inverted), 0.0)
-            record[3, :3] = item.transparent_tint
-            image = self._image_of(index)
-            if image is None or item.scalars is None:
-                continue
-            start, width, height = starts[id(image)]
-            record[0, 0], record[0, 3] = -1.0, start
-            record[1] = (*item.scalars.uv_scale, *item.scalars.uv_offset)
-            record[2] = (*item.scalars.uv_turn, width, height)
-            record[3, 3] = EXTENSIONS[image.extension] + IS_NEAREST * image.nearest
         return record_texture(np.concatenate(rows).reshape(-1, 4))
 
 
 def _shrunk(alpha: Float32Array, room: int) -> Float32Array:
-    """(height, width, 1) of no more texels than there is `room` for."""
-    height, width = alpha.shape[:2]
+    """(height, width) of no more texels than there is `room` for."""
+    height, width = alpha.shape
     if width * height <= room:
         return alpha
     share = np.sqrt(room / (width * height))
-    return np.asarray(averaged(alpha, max(int(height * share), 1), max(int(width * share), 1)), np.float32)
+    shrunk = averaged(alpha[..., None], max(int(height * share), 1), max(int(width * share), 1))
+    return np.asarray(shrunk[..., 0], np.float32)

@@ -20,6 +20,7 @@ from ..device.shaders import Piece, build_shader, flags, set_matrix
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import depth_layers
 from ..geometry.chunk import CHUNK, Chunk, Pieces
+from ..geometry.chunk_attributes import CORNER_ATTRIBUTES
 from ..geometry.scene_geometry import SceneGeometry
 from .shadow_alpha import SHADOW_ALPHA, ShadowAlpha
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
@@ -65,6 +66,7 @@ class ShadowCasters:
             for material, batch in chunk.casters_of(idle, self._alpha.hashed):
                 shader.uniform_sampler("positions", chunk.positions)
                 shader.uniform_sampler("corners", chunk.corners)
+                shader.uniform_sampler("corner_attribute_records", chunk.attributes.texture(self._alpha.attributes))
                 shader.uniform_int("material", material)
                 batch.draw(shader)
 
@@ -211,6 +213,7 @@ def _hashed_depth_shader() -> Any:
         "hashed shadow depth",
         _DEPTH,
         CHUNK,
+        CORNER_ATTRIBUTES,
         SHADOW_ALPHA,
         Piece(
             constants={"material": "INT", "turn": "IVEC2"},

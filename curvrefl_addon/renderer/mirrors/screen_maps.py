@@ -38,7 +38,15 @@ class ScreenMaps:
             self._target = SurfaceBuffer(view.width, view.height)
         # Bound by reference only until the draw is done.
         uniforms = view_block(view)
-        draw_primary(self._target, [surface], materials, uniforms, depths=depths_of(view), mirrored=view.is_mirrored)
+        draw_primary(
+            self._target,
+            [surface],
+            materials,
+            uniforms,
+            is_smooth=lambda _chunk: True,
+            depths=depths_of(view),
+            mirrored=view.is_mirrored,
+        )
         return {"screen_position": self._target.position, "screen_normal": self._target.normal}
 
 

@@ -10,8 +10,8 @@ from ...optics.scattering.microfacet import SHARP_ALPHA
 from ...scene.arrays import InstanceArrays, MaterialArrays, SceneArrays
 
 ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_ALPHA"
-SCALARS, ANISOTROPY, FILM, ABSORPTION = "PATHS_SCALARS", "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION"
-TINT, SHEEN = "PATHS_TINT", "PATHS_SHEEN"
+ANISOTROPY, FILM, ABSORPTION, TINT = "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION", "PATHS_TINT"
+SHEEN, VARIES = "PATHS_SHEEN", "PATHS_VARIES"
 """Defines of the shaders of paths"""
 
 
@@ -59,14 +59,27 @@ def lets_straight_on(material: MaterialArrays) -> bool:
     return material.range_of("alpha")[0] < 1.0
 
 
+def has_base(material: MaterialArrays) -> bool:
+    """Whether a surface shows something besides what its lobes do, at least at some places."""
+    if _varies(material):
+        return True
+    shines = max(material.emission) > 0.0 or material.sheen_weight > 0.0
+    is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
+    return shines or not is_lobe_alone
+
+
+def _varies(material: MaterialArrays) -> bool:
+    """Whether more than its base color and its normal differs from place to place."""
+    return material.program is not None and not {"base_color", "normal"}.issuperset(material.program.shape.channels)
+
+
 def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
     """Defines that a path needs which goes on from the material. `is_mirror`: of a chosen mirror."""
     # (Lobes of what only lets light straight on are not followed.)
     is_followed = is_mirror or material.may_be("transmission")
     # (A color over a surface that reflects nothing has no lobe, whatever its roughness.)
     is_dielectric = material.may_be("specular_level") and material.range_of("ior") != (1.0, 1.0)
-    reflects = material.may_be("metallic") or material.glossy_only or is_dielectric
-    has_scalars = material.varies("roughness", "metallic", "transmission", "alpha")
+    reflects = material.may_be("metallic") or material.glossy_only or material.varies("kind") or is_dielectric
     is_rough = (reflects or material.may_be("transmission")) and material.range_of("roughness")[1] ** 2 >= SHARP_ALPHA
     has_coat = material.may_be("coat_weight")
     is_coat_rough = has_coat and material.range_of("coat_roughness")[1] ** 2 >= SHARP_ALPHA
@@ -80,8 +93,9 @@ def features_of(material: MaterialArrays, is_mirror: bool) -> frozenset[str]:
         TINT: material.range_of("specular_tint") != (1.0, 1.0) and reflects and not material.glossy_only,
         SHEEN: material.may_be("sheen_weight") and not material.glossy_only,
         ABSORPTION: material.may_be("transmission") and max(material.absorption) > 0.0,
+        VARIES: _varies(material),
     }
-    found = {ALPHA: lets_straight_on(material), SCALARS: has_scalars}
+    found = {ALPHA: lets_straight_on(material)}
     needed = found | of_lobes if is_followed else found
     return frozenset(name for name, is_needed in needed.items() if is_needed)
 

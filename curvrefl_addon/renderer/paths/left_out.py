@@ -16,9 +16,9 @@ from .features import (
     FILM,
     GLASS,
     ROUGH,
-    SCALARS,
     SHEEN,
     TINT,
+    VARIES,
     features_of,
     in_use,
     path_features,
@@ -33,10 +33,10 @@ KINDS = {
     COAT: ("The coat {of} is left out", "has a coat"),
     SHEEN: ("The sheen {of} is left out", "has sheen"),
     FILM: ("The thin film {of} is left out", "has a thin film"),
-    SCALARS: ("Textures of roughness, metallic and alpha {of} are their means", "has a texture of its gloss"),
     ROUGH: ("Roughness {of} is left out", "is rough"),
     ANISOTROPY: ("Anisotropy {of} is left out", "is anisotropic"),
     TINT: ("The tint of edges {of} is left out", "has tinted edges"),
+    VARIES: ("Textures of more than its color {of} are left out", "has textures of its gloss"),
 }
 """What is left out, and why `auto` follows rays: the first that there is"""
 SCENERY = "The transparency {of} is left out in mirrors"

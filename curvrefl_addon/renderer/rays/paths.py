@@ -17,12 +17,12 @@ from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import empty_texture
-from ..surfaces.image_groups import IMAGE_GROUP, draw_groups
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CHOSEN_MIRRORS
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
+from .material_pass import Hits, MaterialPass
 from .ray_scene import RAYS, RayScene
 
 PATH_DEPTH = 0.5
@@ -45,11 +45,11 @@ class PathBuffer(SurfaceBuffer):
         self.throughput = empty_texture(width, height, "RGBA16F")
         """Product of the mirrors' reflectance on the way"""
         self._mask = frame_buffer(depth=self.depth)
-        self._uv: Any = None
-        """uv of the base color image and its number, -1 for none; made where there are images"""
+        self._hits: Any = None
+        """What was hit, for programs of materials (`ray_surface.glsl`); made where there are some"""
         self._frame_buffers: dict[bool, Any] = {}
         """With direction and throughput, or without"""
-        self._color_alone = frame_buffer(self.color, depth=self.depth)
+        self._pass = MaterialPass(width, height)
 
     def follow(
         self,
@@ -62,6 +62,7 @@ class PathBuffer(SurfaceBuffer):
         goes_on: bool = True,
         with_counts: bool = False,
         chosen: Any = None,
+        turn: tuple[int, int] = (0, 0),
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
@@ -69,17 +70,18 @@ class PathBuffer(SurfaceBuffer):
         anything in the other textures; in `direction` and `throughput` only if it `goes_on` from here, or has come from
         a PathBuffer. `with_counts`: `direction` gets what each ray was tested against in place of its direction: nodes,
         triangles, instances, and 1 where there is a ray. `chosen`: record texture by mirrors' numbers, 1 of those whose
-        rays are followed; None is all. `enclosing`: the mirror in which all rays are, if any.
+        rays are followed; None is all. `enclosing`: the mirror in which all rays are, if any. `turn`: numbers of
+        the sub-frame and of the bounce.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
-        if materials.images and self._uv is None:
-            self._uv = empty_texture(self.width, self.height)
+        if materials.has_programs and self._hits is None:
+            self._hits = empty_texture(self.width, self.height)
             self._frame_buffers = {}
         if window[2] <= 0 or window[3] <= 0:
             return
         self._find_mirrors(mirrors, window, chosen)
         keeps_way = goes_on or with_counts or path is not None
-        shader = _exact_shader(path is not None, self._uv is not None, keeps_way, with_counts)
+        shader = _exact_shader(path is not None, self._hits is not None, keeps_way, with_counts)
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
@@ -95,12 +97,15 @@ class PathBuffer(SurfaceBuffer):
                 shader.uniform_sampler("path_direction", path.direction)
                 shader.uniform_sampler("path_throughput", path.throughput)
             full_screen_triangle().draw(shader)
-        self._look_up_images(materials.images, window)
+        if materials.has_programs:
+            followed = (self.depth, PATH_DEPTH)
+            hits = Hits(self.position, self.normal, self.color, self._hits, mirrors.position)
+            self._pass.draw(hits, self.made, followed, rays, materials, view_uniforms, window, turn)
 
     def _frame_buffer_for(self, keeps_way: bool) -> Any:
         if keeps_way not in self._frame_buffers:
             textures = [self.position, self.normal, self.color]
-            textures += [self._uv] if self._uv is not None else []
+            textures += [self._hits] if self._hits is not None else []
             textures += [self.direction, self.throughput] if keeps_way else []
             self._frame_buffers[keeps_way] = frame_buffer(*textures, depth=self.depth)
         return self._frame_buffers[keeps_way]
@@ -117,17 +122,6 @@ class PathBuffer(SurfaceBuffer):
             if chosen is not None:
                 shader.uniform_sampler("chosen_mirrors", chosen)
             full_screen_triangle().draw(shader)
-
-    def _look_up_images(self, images: list[Any], window: Window) -> None:
-        """Multiply the base colors by their images."""
-        if not images:
-            return
-        shader = _images_shader()
-        with drawing_state("EQUAL", blend="MULTIPLY"), self._color_alone.bind(), scissored(window):
-            set_viewport(0, 0, self.width, self.height)
-            shader.bind()
-            shader.uniform_sampler("path_uv", self._uv)
-            draw_groups(shader, images)
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,9 +164,9 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
 
 
 @gpu_cache
-def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts: bool) -> Any:
+def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
-    images = Piece(outputs={"uv_out": "VEC4"}, defines=flags("WITH_IMAGES"))
+    hits = Piece(outputs={"hit_out": "VEC4"}, defines=flags("WITH_HITS"))
     kept = Piece(outputs=named("VEC4", "direction_out", "throughput_out"), defines=flags("KEEPS_WAY"))
     return build_shader(
         "exact",
@@ -187,16 +181,6 @@ def _exact_shader(on_path: bool, with_images: bool, keeps_way: bool, with_counts
         ),
         way if on_path else VIEW,
         SURFACE_OUTPUTS,
-        *((images,) if with_images else ()),
+        *((hits,) if with_hits else ()),
         *((kept,) if keeps_way else ()),
-    )
-
-
-@gpu_cache
-def _images_shader() -> Any:
-    return build_shader(
-        "exact images",
-        ON_PATHS,
-        IMAGE_GROUP,
-        Piece(samplers={"path_uv": "FLOAT_2D"}, fragment="rays/exact_images.frag.glsl"),
     )

@@ -18,6 +18,7 @@ from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, named, set_matrix
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import empty_texture
+from ..programs.buffers import Buffers, reads
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.surface_buffer import SurfaceBuffer
@@ -82,11 +83,12 @@ class CalmMirrors:
         """Forget the last picture. `path`: PathBuffer of the first rays off the mirrors that `seen` sees, all of them
         in the `window`."""
         self.sharp.clear()
-        shader = _reach_shader()
+        shader = _reach_shader(materials.buffers)
         with drawing_state(), self._reach_buffer.bind(), scissored(window):
             set_viewport(0, 0, seen.width, seen.height)
             shader.bind()
             _bind(shader, seen, materials, view_uniforms)
+            seen.made.bind(shader, materials.buffers)
             shader.uniform_sampler("path_position", path.position)
             full_screen_triangle().draw(shader)
 
@@ -121,12 +123,13 @@ class CalmMirrors:
                 shader.bind()
                 shader.uniform_sampler("finer", finer)
                 full_screen_triangle().draw(shader)
-        shader = _blur_shader()
+        shader = _blur_shader(materials.buffers)
         self._blurred.clear()
         with drawing_state(), self._blurred.frame_buffer.bind(), scissored(window):
             set_viewport(0, 0, seen.width, seen.height)
             shader.bind()
             _bind(shader, seen, materials, view_uniforms)
+            seen.made.bind(shader, materials.buffers)
             shader.uniform_sampler("sharp_picture", self.sharp.texture)
             shader.uniform_sampler("calm_reach", self._reach)
             for number, (level, _) in enumerate(self._levels):
@@ -177,10 +180,11 @@ _OF_MIRRORS = (FULL_SCREEN, VIEW, TABLE, Piece(samplers=named("FLOAT_2D", *_SEEN
 
 
 @gpu_cache
-def _reach_shader() -> Any:
+def _reach_shader(buffers: Buffers) -> Any:
     return build_shader(
         "calm reach",
         *_OF_MIRRORS,
+        reads(buffers),
         Piece(
             samplers={"path_position": "FLOAT_2D"},
             defines={
@@ -219,11 +223,12 @@ def _next_shader() -> Any:
 
 
 @gpu_cache
-def _blur_shader() -> Any:
+def _blur_shader(buffers: Buffers) -> Any:
     names = [f"level_{number}" for number in range(LEVELS)]
     return build_shader(
         "calm blur",
         *_OF_MIRRORS,
+        reads(buffers),
         Piece(
             samplers=named("FLOAT_2D", "sharp_picture", "calm_reach", *names),
             defines={

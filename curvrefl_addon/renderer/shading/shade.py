@@ -14,6 +14,8 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..paths.features import has_base
+from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
 from ..rays.paths import ON_PATHS, Bounce
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.canvas import Canvas
@@ -70,8 +72,7 @@ class ShadePass:
         }
         """Lamps that the camera sees, and those that mirrors do"""
         self._has_base = any(
-            not scene.materials[index].glossy_only
-            and (scene.materials[index].metallic < 1.0 or max(scene.materials[index].emission) > 0.0)
+            has_base(scene.materials[index])
             for instance in scene.instances
             if instance.object_id in scene.reflectors
             for index in instance.materials
@@ -143,7 +144,9 @@ class ShadePass:
                 features |= {FILM_TRANSPARENT}
             as_camera = by_camera or kind != PixelClass.BACKGROUND
             rays = rays_of(features, shadows)
-            self._draw(_shade_shader(kind, features, as_camera), kind, seen, view_uniforms, weight, rays)
+            buffers = self._materials.buffers if kind is PixelClass.SURFACE else NONE
+            shader = _shade_shader(kind, features, buffers, as_camera)
+            self._draw(shader, kind, seen, view_uniforms, weight, rays, seen.made if buffers else None)
 
     def _add_shown(
         self,
@@ -155,17 +158,18 @@ class ShadePass:
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
-            shader = _shade_shader(PixelClass.MIRROR, self._lighting.features)
+            shader = _shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0)
-                shader = _shade_shader(kind, features)
+                shader = _shade_shader(kind, features, self._materials.buffers)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
-                self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows))
+                rays = rays_of(features, shadows)
+                self._draw(shader, kind, seen, view_uniforms, weight, rays, reflected.made)
             return
         for environment in reflected or ():
             shader = _environment_shader(environment.lookup, self._lighting.features)
@@ -188,8 +192,8 @@ class ShadePass:
         if self._has_base:
             for kind in mirrors:
                 features = features_for(self._lighting, shadows, is_seen=True)
-                shader = _front_shader(True, features, by_camera)
-                self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows))
+                shader = _front_shader(True, features, self._materials.buffers, by_camera)
+                self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows), seen.made)
         if mirrors_only:
             return
         kinds: list[PixelClass] = []
@@ -198,7 +202,7 @@ class ShadePass:
             others = {PixelClass.BACKGROUND, *(mirrors if self._has_base else ())}
             kinds = [kind for kind in PixelClass if kind not in others]
         for kind in kinds:
-            shader = _front_shader(False, self._lighting.features, by_camera)
+            shader = _front_shader(False, self._lighting.features, NONE, by_camera)
             self._draw(shader, kind, seen, view_uniforms, weight)
 
     def _add_path(
@@ -206,7 +210,7 @@ class ShadePass:
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = features_for(self._lighting, shadows, ends=bounce.ends)
-        shader = _path_shader(bounce.goes_on, features)
+        shader = _path_shader(bounce.goes_on, features, self._materials.buffers)
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
@@ -222,6 +226,7 @@ class ShadePass:
                 shader.uniform_sampler(name, texture)
             for name, texture in zip(_REFLECTED, (path.position, path.normal, path.color), strict=True):
                 shader.uniform_sampler(name, texture)
+            path.made.bind(shader, self._materials.buffers)
             self._lighting.bind(shader)
             full_screen_triangle().draw(shader)
 
@@ -233,8 +238,10 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         rays: RayScene | None = None,
+        made: MaterialBuffers | None = None,
     ) -> None:
-        """A full-screen triangle for the pixels of one class; `rays` where the shader follows some."""
+        """A full-screen triangle for the pixels of one class; `rays` where the shader follows some; `made`: of the
+        surfaces that it lights."""
         shader.bind()
         if rays is not None:
             rays.bind(shader)
@@ -244,6 +251,8 @@ class ShadePass:
         shader.uniform_sampler("materials", self._materials.table)
         for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
             shader.uniform_sampler(name, texture)
+        if made is not None:
+            made.bind(shader, self._materials.buffers)
         self._lighting.bind(shader)
         full_screen_triangle().draw(shader)
 
@@ -288,12 +297,13 @@ def rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
 
 
 @gpu_cache
-def _shade_shader(kind: PixelClass, features: Features, by_camera: bool = True) -> Any:
+def _shade_shader(kind: PixelClass, features: Features, buffers: Buffers, by_camera: bool = True) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
     return build_shader(
         f"shade {kind.name}",
         *_OF_SEEN,
+        reads(buffers),
         *((_OF_REFLECTED,) if shows_surface else ()),
         *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
@@ -314,12 +324,13 @@ def _environment_shader(lookup: str, features: Features) -> Any:
 
 
 @gpu_cache
-def _path_shader(goes_on: bool, features: Features) -> Any:
+def _path_shader(goes_on: bool, features: Features, buffers: Buffers) -> Any:
     return build_shader(
         "shade path",
         ON_PATHS,
         VIEW,
         TABLE,
+        reads(buffers),
         Piece(samplers=named("FLOAT_2D", *_PATH)),
         _OF_REFLECTED,
         _LIGHT,
@@ -329,10 +340,11 @@ def _path_shader(goes_on: bool, features: Features) -> Any:
 
 
 @gpu_cache
-def _front_shader(has_base: bool, features: Features, by_camera: bool) -> Any:
+def _front_shader(has_base: bool, features: Features, buffers: Buffers, by_camera: bool) -> Any:
     return build_shader(
         "shade front",
         *_OF_SEEN,
+        reads(buffers),
         *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
         Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),

@@ -185,6 +185,7 @@ def _bounces(
             enclosing,
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
+            turn=(sub_frame.index, number + 1),
         )
         yield Bounce(seen, path, window, goes_on, number >= _followed(members, sub_frame))
         seen = path

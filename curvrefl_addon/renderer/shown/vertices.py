@@ -67,6 +67,7 @@ class ShownVertices(Shown):
                 sub_frame.uniforms,
                 depth_scale=shown.shape.bound,
                 window=mirror.window(sub_frame.view),
+                sub_frame=sub_frame.index,
             )
         return targets.reflected
 

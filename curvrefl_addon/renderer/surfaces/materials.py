@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials on the GPU: base colors per batch, the rest as a record texture that the shade pass looks up."""
+"""Materials on the GPU: their constants as a record texture, and their programs."""
 
 from __future__ import annotations
 
@@ -8,167 +8,189 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, Glass, ImageArrays, MaterialArrays, SceneArrays
-from ...scene.materials.pixels import averaged
-from ...scene.remarks import Remark, sentences
+from ...scene.arrays import Glass, MaterialArrays, SceneArrays
+from ...scene.programs.program import Shape
 from ..device.records import record_texture
-from ..device.shaders import Piece, flags, named
-from ..device.textures import largest_texture, texture_2d
-from ..geometry.chunk import HOLDOUT
+from ..device.shaders import Piece, knows, named
+from ..geometry.chunk import HOLDOUT, Triangles
+from ..geometry.chunk_attributes import CORNER_ATTRIBUTES, CORNER_INSTANCES
+from ..geometry.scene_geometry import SceneGeometry
+from ..programs.buffers import Buffers, buffers_for, varies_bits
+from ..programs.image_pages import DEFAULT_CAP
+from ..programs.programs import Programs, Surroundings, program_piece
 from .surface_buffer import SEEN_THROUGH
 
-RECORDS = 15
+RECORDS = 11
 """Per material"""
 TABLE = Piece(
     samplers={"materials": "FLOAT_2D"},
     defines={"MATERIAL_RECORDS": RECORDS, **{f"GLASS_{kind.name}": int(kind) for kind in Glass}},
 )
 """What `material_records.glsl` needs: `Materials.table`"""
-PLAIN = Piece(constants={"base_color": "VEC3", "material": "FLOAT"}, defines=flags("PLAIN"))
-"""What `surface_color.glsl` needs for materials without an image, UV and vertex color to interpolate"""
-TEXTURED = Piece(
-    constants={
-        "base_color": "VEC3",
-        "material": "FLOAT",
-        "uv_transform": "VEC4",
-        "uv_turn": "VEC2",
-        "uses_vertex_color": "FLOAT",
-    },
-    samplers={"base_image": "FLOAT_2D"},
-    smooth={"uv": "VEC2", "vertex_color": "VEC3"},
-)
-"""The same for the others"""
-RELIEF = Piece(
-    constants={**named("VEC4", "relief", "relief_transform"), "relief_turn": "VEC2"},
-    samplers={"relief_image": "FLOAT_2D"},
-    defines=flags("RELIEF"),
-)
-"""What `relief.glsl` needs"""
+DRAWN = Piece(constants={"material": "FLOAT"})
+PLAIN = Piece(constants={"base_color": "VEC3", **DRAWN.constants})
+"""What passes over triangles need of each material, of one without a program: `Materials.bind`"""
 OF_PATHS = Piece(constants={"seen_through": "FLOAT"}, defines={"PATHS": "", "SEEN_THROUGH": SEEN_THROUGH})
 """What the primary pass needs in scenes with paths"""
-NO_SCALARS = Piece(outputs={"surface_scalars": "VEC4"}, defines=flags("NO_SCALARS"))
-"""Of materials without an image of scalars, in scenes with some"""
-WITH_SCALARS = Piece(
-    constants={"scalars_transform": "VEC4", "scalars_turn": "VEC2"},
-    samplers={"scalars_image": "FLOAT_2D"},
-    outputs={"surface_scalars": "VEC4"},
-    defines=flags("WITH_SCALARS"),
-)
-"""Of materials with one; beside `TEXTURED`"""
+GLOSSY_ONLY, THIN_WALL, GLASS, REFRACTION = 1, 2, 4, 8
+"""KIND_ bits of `programs/material.glsl`"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
 
 
 class Materials:
     """GPU side of `SceneArrays.materials` and `.images`."""
 
-    def __init__(self, scene: SceneArrays) -> None:
-        self._white = texture_2d(np.ones((1, 1, 4), np.float32))
-        self._images: list[tuple[ImageArrays, Any]] = []
+    def __init__(
+        self,
+        scene: SceneArrays,
+        image_memory: int = DEFAULT_CAP,
+        is_gradual: bool = False,
+        geometry: SceneGeometry | None = None,
+    ) -> None:
+        """`image_memory`: bytes that images may take; `is_gradual`: see `Programs`. `geometry`: whose chunks are drawn."""
+        self._image_memory, self._is_gradual, self._geometry = image_memory, is_gradual, geometry
+        self._programs: Programs | None = None
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> None:
         """Take over the materials of another state of the scene; images that were there are not uploaded again."""
-        known = {id(image): texture for image, texture in self._images}
-        self._images = [(image, known.get(id(image)) or _texture(image)) for image in scene.images]
         self._materials = scene.materials
-        records = np.zeros((len(scene.materials), RECORDS, 4), np.float32)
-        for record, material in zip(records, scene.materials, strict=True):
+        if self._programs is not None:
+            self._programs.follow(scene)
+        elif any(item.program is not None for item in scene.materials):
+            self._programs = Programs(scene, self._image_memory, self._is_gradual)
+        self._fill_table()
+
+    def move(self, scene: SceneArrays) -> None:
+        """Know a state that differs in its objects' places alone."""
+        if self._programs is not None:
+            self._programs.move(scene)
+
+    def _fill_table(self) -> None:
+        records = np.zeros((len(self._materials), RECORDS, 4), np.float32)
+        for index, (record, material) in enumerate(zip(records, self._materials, strict=True)):
+            shape = self.shape_of(index)
+            first = 0 if self._programs is None else self._programs.firsts[index]
+            number = -1 if self._programs is None else self._programs.number_of(index)
+            varies = 0 if shape is None else varies_bits(buffers_for(shape.channels))
             record[0] = (material.metallic, material.roughness, material.ior, material.specular_level)
-            record[1] = (*material.emission, float(material.glossy_only))
-            record[2] = (*material.base_color, float(material.uses_vertex_color))
-            record[3] = (*material.uv_scale, *material.uv_offset)
-            record[4, :3] = (material.image, *material.uv_turn)
-            _fill_path_records(record[5:], material)
+            record[1] = (*material.emission, float(kind_of(material)))
+            record[2] = (*material.base_color, float(number))
+            record[3] = (material.coat_weight, material.coat_roughness, material.coat_ior, material.transmission)
+            record[4] = (*material.coat_tint, material.film_thickness)
+            record[5] = (*material.specular_tint, material.film_ior)
+            record[6] = (*material.absorption, float(material.is_seen_through))
+            record[7] = (*material.transparent_tint, material.alpha)
+            record[8, :2] = (material.anisotropy, material.anisotropic_rotation)
+            record[8, 2:] = (material.diffuse_roughness, material.translucency)
+            record[9] = (*material.sheen_tint, material.sheen_weight)
+            record[10] = (material.sheen_roughness, material.subsurface, float(first), float(varies))
         self.table = record_texture(records.reshape(-1, 4))
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is not drawn as it is, one sentence each."""
-        largest = largest_texture()
-        cause = "Fewer pixels {of} are drawn than there are: as many as the graphics driver takes."
-        return sentences(
-            Remark(cause, "image", image.name) for image, _ in self._images if max(image.pixels.shape[:2]) > largest
-        )
+        return () if self._programs is None else self._programs.warnings
 
     @property
-    def images(self) -> list[Any]:
-        """Textures, as `SceneArrays.images`."""
-        return [texture for _, texture in self._images]
+    def programs(self) -> Programs:
+        """Of a scene that `has_programs`."""
+        assert self._programs is not None
+        return self._programs
 
-    def _of(self, index: int) -> MaterialArrays:
-        return _HOLDOUT if index == HOLDOUT else self._materials[index]
+    @property
+    def around(self) -> Surroundings | None:
+        """What programs are compiled for; None where there are none."""
+        return None if self._programs is None else self._programs.around
 
-    def is_plain(self, index: int) -> bool:
-        """Whether a material is the same everywhere."""
-        material = self._of(index)
-        return material.image < 0 and not material.uses_vertex_color and material.relief is None
+    @property
+    def buffers(self) -> Buffers:
+        """That the scene's programs fill."""
+        return frozenset() if self._programs is None else self._programs.buffers
 
-    def has_relief(self, index: int) -> bool:
-        """Whether its normals are bent."""
-        return self._of(index).relief is not None
+    @property
+    def has_programs(self) -> bool:
+        return self._programs is not None and bool(self._programs.shapes)
 
-    def has_scalars(self, index: int) -> bool:
-        """Whether an image says how rough, metallic, transmitting or transparent it is."""
-        return self._of(index).scalars is not None
+    def shape_of(self, index: int) -> Shape | None:
+        """Of a material's program; None where it is the same everywhere."""
+        return None if self._programs is None else self._programs.shape_of(index)
 
-    def bind_scalars(self, shader: Any, index: int) -> None:
-        """Set what `WITH_SCALARS` names."""
-        scalars = self._of(index).scalars
-        assert scalars is not None
-        shader.uniform_float("scalars_transform", (*scalars.uv_scale, *scalars.uv_offset))
-        shader.uniform_float("scalars_turn", scalars.uv_turn)
-        shader.uniform_sampler("scalars_image", self._images[scalars.image][1])
+    @property
+    def is_loading(self) -> bool:
+        """Some materials are still drawn by their constants, or without their images."""
+        return self._programs is not None and self._programs.is_loading
+
+    def load_some(self, seconds: float) -> bool:
+        """See `Programs.load_some`."""
+        is_changed = self._programs is not None and self._programs.load_some(seconds)
+        if is_changed:
+            self._fill_table()
+        return is_changed
 
     def bind_for_paths(self, shader: Any, index: int) -> None:
         """Set what `OF_PATHS` names."""
         shader.uniform_float("seen_through", float(self._of(index).is_seen_through))
 
-    def bind_relief(self, shader: Any, index: int) -> None:
-        """Set what `RELIEF` names."""
-        relief = self._of(index).relief
-        assert relief is not None
-        shader.uniform_float("relief", (float(relief.is_bump), relief.strength, relief.distance, 0.0))
-        shader.uniform_float("relief_transform", (*relief.uv_scale, *relief.uv_offset))
-        shader.uniform_float("relief_turn", relief.uv_turn)
-        shader.uniform_sampler("relief_image", self._images[relief.image][1])
-
-    def bind(self, shader: Any, index: int, is_textured: bool = False) -> None:
-        """Set a bound shader with `PLAIN` or `TEXTURED`, as the material is (`is_plain`), to material `index`.
-
-        `is_textured`: the shader is, whatever the material is.
-        """
-        material = self._of(index)
-        shader.uniform_float("base_color", material.base_color)
+    def bind(self, shader: Any, index: int) -> None:
+        """Set a bound shader with `DRAWN` to a material, and one with `forward_pieces` to its program's parameters."""
         shader.uniform_float("material", float(index))
-        if self.is_plain(index) and not is_textured:
-            return
-        shader.uniform_float("uv_transform", (*material.uv_scale, *material.uv_offset))
-        shader.uniform_float("uv_turn", material.uv_turn)
-        shader.uniform_float("uses_vertex_color", float(material.uses_vertex_color))
-        shader.uniform_sampler("base_image", self._white if material.image < 0 else self._images[material.image][1])
+        if self.shape_of(index) is None:
+            shader.uniform_float("base_color", self._of(index).base_color)
+        elif knows(shader, "program_first"):
+            shader.uniform_int("program_first", self.programs.firsts[index])
+
+    def bind_program(self, shader: Any, shape: Shape, turn: tuple[int, int]) -> None:
+        """Set what `forward_pieces` name on a bound shader, but for its material and its chunk."""
+        assert self._programs is not None
+        self._programs.bind(shader, shape)
+        shader.uniform_sampler("materials", self.table)
+        if knows(shader, "turn"):
+            shader.uniform_int("turn", turn)
+
+    def bind_triangles(self, shader: Any, triangles: Triangles, shape: Shape | None) -> None:
+        """The triangles of a pass over them, and what a program reads of them."""
+        shader.uniform_sampler("positions", triangles.positions)
+        shader.uniform_sampler("corners", triangles.corners)
+        if shape is not None:
+            assert self._geometry is not None
+            attributes = triangles.attributes
+            shader.uniform_sampler("corner_attribute_records", attributes.texture(self.programs.attributes))
+            rows = self._geometry.rows_of(triangles.placed_chunk)
+            shader.uniform_sampler("corner_instance_records", attributes.instance_texture(rows))
+
+    def _of(self, index: int) -> MaterialArrays:
+        return _HOLDOUT if index == HOLDOUT else self._materials[index]
 
 
-def _fill_path_records(record: Float32Array, material: MaterialArrays) -> None:
-    """What only paths need to know (`path_material.glsl`)."""
-    flags = material.thin_wall + 2 * material.tangent_by_uv + 4 * material.alpha_inverted
-    record[0] = (material.coat_weight, material.coat_roughness, material.coat_ior, material.transmission)
-    record[1] = (*material.coat_tint, float(material.glass))
-    record[2] = (*material.specular_tint, material.film_thickness)
-    record[3] = (*material.absorption, material.film_ior)
-    record[4] = (*material.transparent_tint, material.alpha)
-    record[5] = (material.alpha_threshold, material.anisotropy, material.anisotropic_rotation, float(flags))
-    record[7] = (-1.0, 0.0, 0.0, float(material.is_seen_through))
-    record[8] = (*(material.sheen_weight * part for part in material.sheen_tint), material.sheen_roughness)
-    record[9, :3] = (material.diffuse_roughness, material.subsurface, material.translucency)
-    if (scalars := material.scalars) is not None:
-        record[6] = (*scalars.uv_scale, *scalars.uv_offset)
-        record[7, :3] = (scalars.image, *scalars.uv_turn)
+def kind_of(material: MaterialArrays) -> int:
+    """KIND_ bits."""
+    return (
+        GLOSSY_ONLY * material.glossy_only
+        | THIN_WALL * material.thin_wall
+        | GLASS * (material.glass is Glass.GLASS)
+        | REFRACTION * (material.glass is Glass.REFRACTION)
+    )
 
 
-def _texture(image: ImageArrays) -> Any:
-    pixels = image.pixels
-    largest = largest_texture()
-    if max(pixels.shape[:2]) > largest:
-        pixels = np.asarray(averaged(pixels, largest, largest), np.float32)
-    fmt = "RGBA16F" if pixels.max(initial=0.0) < 6e4 and pixels.min(initial=0.0) > -6e4 else "RGBA32F"
-    return texture_2d(pixels, fmt, not image.nearest, image.extension)
+def forward_pieces(shape: Shape, around: Surroundings) -> tuple[Piece, ...]:
+    """For passes over triangles that make the surface of each fragment by a program: they go before the pass's own."""
+    names = [f"attribute_{number}" for number in range(shape.attributes)]
+    cases = " ".join(f"s.attributes[{k}] = {name};" for k, name in enumerate(names))
+    across = " ".join(
+        f"s.attributes_across[{k}] = dFdx({name}); s.attributes_up[{k}] = dFdy({name});" for k, name in enumerate(names)
+    )
+    first = "int(fetch_record(program_records, program_first - 1 - {}).x + 0.5)"
+    vertex = " ".join(f"{name} = corner_attribute(index, {first.format(number)});" for number, name in enumerate(names))
+    return (
+        program_piece(shape, around),
+        TABLE,
+        CORNER_ATTRIBUTES,
+        CORNER_INSTANCES,
+        Piece(
+            constants={"program_first": "INT", "turn": "IVEC2"},
+            smooth=named("VEC4", *names),
+            flat={"instance_number": "INT"},
+            defines={"ATTRIBUTE_CASES": cases, "NEIGHBOR_CASES": across, "VERTEX_CASES": vertex},
+        ),
+    )

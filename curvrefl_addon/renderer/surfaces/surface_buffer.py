@@ -13,6 +13,7 @@ from typing import Any
 from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.shaders import Piece, named
 from ..device.textures import depth_texture, empty_texture
+from ..programs.buffers import NONE, Buffers, MaterialBuffers
 
 SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
 """Color targets of a SurfaceBuffer"""
@@ -36,16 +37,16 @@ class SurfaceBuffer:
         self.depth = depth_texture(width, height)
         self.frame_buffer = frame_buffer(self.position, self.normal, self.color, depth=self.depth)
         self.width, self.height = width, height
-        self._scalars: tuple[Any, Any] | None = None
+        self.made = MaterialBuffers(width, height)
+        """What programs make beside"""
+        self._with_buffers: dict[Buffers, Any] = {NONE: self.frame_buffer}
 
-    def with_scalars(self) -> tuple[Any, Any]:
-        """Another texture, of roughness, metallic, transmission and alpha where materials have an image of them, and
-        the frame buffer of all; made when first asked for."""
-        if self._scalars is None:
-            scalars = empty_texture(self.width, self.height, "RGBA16F")
-            target = frame_buffer(self.position, self.normal, self.color, scalars, depth=self.depth)
-            self._scalars = (scalars, target)
-        return self._scalars
+    def target(self, buffers: Buffers) -> Any:
+        """The frame buffer, with those of the programs' buffers."""
+        if buffers not in self._with_buffers:
+            textures = (self.position, self.normal, self.color, *self.made.textures(buffers))
+            self._with_buffers[buffers] = frame_buffer(*textures, depth=self.depth)
+        return self._with_buffers[buffers]
 
     def clear(self) -> None:
         """Nothing anywhere."""

@@ -13,6 +13,7 @@ from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
+from ..programs.buffers import Buffers
 from ..shading.shade import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
 from ..surfaces.canvas import Canvas
 from ..surfaces.pixel_classes import CLASS
@@ -40,7 +41,6 @@ class PathLight:
         weight: float,
         kind: PathClass,
         vertices: SurfaceBuffer | PathVertices,
-        scalars: Any,
         classes: Any,
         before: SurfaceBuffer | PathVertices | None = None,
         classes_before: Any = None,
@@ -58,7 +58,7 @@ class PathLight:
             shader.bind()
             if rays is not None:
                 rays.bind(shader)
-            bind_vertices(shader, self.around, vertices, scalars)
+            bind_vertices(shader, self.around, vertices)
             shader.uniform_block("view", self.around.view_uniforms)
             shader.uniform_float("weight", weight)
             shader.uniform_float("pixel_class", float(kind))
@@ -100,9 +100,9 @@ class PathLight:
             features = features_for(self.lighting, self.shadows, is_seen=not on_path)
         if kind is PathClass.MISSES and self.film_transparent:
             names.add(FILM_TRANSPARENT)
-        return _light_shader(kind, self.around.features, features, on_path, frozenset(names)), rays_of(
-            features, self.shadows
-        )
+        buffers = self.around.materials.buffers
+        shader = _light_shader(kind, self.around.features, buffers, features, on_path, frozenset(names))
+        return shader, rays_of(features, self.shadows)
 
 
 _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "INT"})
@@ -115,14 +115,19 @@ def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
 
 @gpu_cache
 def _light_shader(
-    kind: PathClass, features: Features, lighting_features: Features, on_path: bool, names: Features
+    kind: PathClass,
+    features: Features,
+    buffers: Buffers,
+    lighting_features: Features,
+    on_path: bool,
+    names: Features,
 ) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "before_position", "path_way", "path_throughput"), defines=flags("ON_PATH"))
     return build_shader(
         f"light of {kind.name} on paths",
         CLASS,
         VIEW,
-        *vertex_pieces(features),
+        *vertex_pieces(features, buffers),
         *((way,) if on_path else ()),
         *((_OF_QUADS,) if _shares_in_quads(kind, lighting_features) else ()),
         *lighting_pieces(lighting_features),

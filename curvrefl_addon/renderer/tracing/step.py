@@ -13,11 +13,12 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..lighting.ggx import GGX_DEFINES
-from ..paths.features import ABSORPTION, ANISOTROPY, SCALARS
+from ..paths.features import ABSORPTION, ANISOTROPY
+from ..programs.buffers import Buffers, reads
+from ..rays.material_pass import Hits
 from ..rays.ray_scene import RAYS, RayScene
-from ..surfaces.image_groups import IMAGE_GROUP, draw_groups
 from ..surfaces.materials import TABLE, Materials
-from ..surfaces.pixel_classes import CLASS
+from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
 from ..surfaces.surface_buffer import HOLE, SEEN_THROUGH, SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -69,7 +70,6 @@ class Surroundings:
 def follow(
     around: Surroundings,
     vertices: SurfaceBuffer | PathVertices,
-    scalars: Any,
     classes: Any,
     met: PathVertices,
     limits: Limits,
@@ -78,17 +78,16 @@ def follow(
 ) -> None:
     """Follow all paths that go on from `vertices` to what they meet.
 
-    `scalars`: of the vertices, see `PathVertices`. `classes`: depth texture of the vertices' classes. `sub_frame`: its
+    `classes`: depth texture of the vertices' classes. `sub_frame`: its
     number, and how many there are. `step`: 1 for the first, whose vertices are what the eye sees.
     """
     before = vertices if isinstance(vertices, PathVertices) else None
-    shader = _step_shader(around.features, before is not None, met.uv is not None)
-    targets = met.targets(classes)
-    with drawing_state("EQUAL"), targets["all"].bind(), scissored(around.window):
+    shader = _step_shader(around.features, around.materials.buffers, before is not None, met.hits is not None)
+    with drawing_state("EQUAL"), met.target(classes).bind(), scissored(around.window):
         set_viewport(0, 0, met.width, met.height)
         shader.bind()
         around.rays.bind(shader)
-        bind_vertices(shader, around, vertices, scalars)
+        bind_vertices(shader, around, vertices)
         shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
         shader.uniform_float("limits", (limits.reflections, limits.interfaces, limits.transparent, limits.bounces))
         shader.uniform_int("path_point", path_point(sub_frame[0], step - 1, sub_frame[1]))
@@ -100,80 +99,60 @@ def follow(
             shader.uniform_sampler("path_way", before.way)
             shader.uniform_sampler("path_throughput", before.throughput)
         full_screen_triangle().draw(shader)
-    if met.uv is not None:
-        _look_up(around, met, targets["color"], of_scalars=False)
-        if met.scalars is not None:
-            _look_up(around, met, targets["scalars"], of_scalars=True)
+    if met.hits is not None and around.materials.has_programs:
+        hits = Hits(met.position, met.normal, met.color, met.hits, vertices.position, met.way, met.throughput)
+        followed = (classes, float(PathClass.GOES_ON) / CLASS_COUNT)
+        met.material_pass.draw(
+            hits,
+            met.made,
+            followed,
+            around.rays,
+            around.materials,
+            around.view_uniforms,
+            around.window,
+            (sub_frame[0], step),
+        )
 
 
-def bind_vertices(shader: Any, around: Surroundings, vertices: SurfaceBuffer | PathVertices, scalars: Any) -> None:
+def bind_vertices(shader: Any, around: Surroundings, vertices: SurfaceBuffer | PathVertices) -> None:
     """Set what `vertex_pieces` names."""
     shader.uniform_sampler("materials", around.materials.table)
     shader.uniform_sampler("lighting_ggx", around.ggx)
     shader.uniform_sampler("vertex_position", vertices.position)
     shader.uniform_sampler("vertex_normal", vertices.normal)
     shader.uniform_sampler("vertex_color", vertices.color)
-    if scalars is not None:
-        shader.uniform_sampler("vertex_scalars", scalars)
+    vertices.made.bind(shader, around.materials.buffers)
     if around.frames is not None:
         shader.uniform_sampler("object_frames", around.frames)
 
 
-def vertex_pieces(features: frozenset[str]) -> tuple[Piece, ...]:
+def vertex_pieces(features: frozenset[str], buffers: Buffers) -> tuple[Piece, ...]:
     """What `path_vertex.glsl` needs."""
-    scalars = ("vertex_scalars",) if SCALARS in features else ()
-    samplers = named("FLOAT_2D", "vertex_position", "vertex_normal", "vertex_color", "lighting_ggx", *scalars)
+    samplers = named("FLOAT_2D", "vertex_position", "vertex_normal", "vertex_color", "lighting_ggx")
     return (
         TABLE,
         Piece(
             samplers=samplers,
             defines={**flags(*sorted(features)), **GGX_DEFINES, "SEEN_THROUGH": SEEN_THROUGH, "HOLE": HOLE},
         ),
+        reads(buffers),
         *((OBJECT_FRAMES,) if ANISOTROPY in features else ()),
     )
 
 
-def _look_up(around: Surroundings, met: PathVertices, target: Any, of_scalars: bool) -> None:
-    """Images at the surfaces that were met."""
-    shader = _images_shader(of_scalars)
-    with drawing_state("EQUAL", blend="NONE" if of_scalars else "MULTIPLY"), target.bind(), scissored(around.window):
-        set_viewport(0, 0, met.width, met.height)
-        shader.bind()
-        shader.uniform_float("pixel_class", float(PathClass.GOES_ON))
-        shader.uniform_sampler("materials", around.materials.table)
-        shader.uniform_sampler("path_uv", met.uv)
-        shader.uniform_sampler("vertex_normal", met.normal)
-        draw_groups(shader, around.materials.images)
-
-
 @gpu_cache
-def _step_shader(features: frozenset[str], on_path: bool, with_images: bool) -> Any:
-    outputs = {**(named("VEC4", "uv_out") if with_images else {}), **named("VEC4", "way_out", "throughput_out")}
-    names = ["PATH_STEP", *(("WITH_IMAGES",) if with_images else ())]
+def _step_shader(features: frozenset[str], buffers: Buffers, on_path: bool, with_hits: bool) -> Any:
+    outputs = {**(named("VEC4", "hit_out") if with_hits else {}), **named("VEC4", "way_out", "throughput_out")}
+    names = ["PATH_STEP", *(("WITH_HITS",) if with_hits else ())]
     way = Piece(samplers=named("FLOAT_2D", "path_way", "path_throughput"), defines=flags("ON_PATH"))
     return build_shader(
         "path step",
         CLASS,
         RAYS,
-        *vertex_pieces(features),
+        *vertex_pieces(features, buffers),
         SAMPLER,
         *((ABSORBING,) if ABSORPTION in features else ()),
         way if on_path else VIEW,
         SURFACE_OUTPUTS,
         Piece(constants={"limits": "VEC4"}, outputs=outputs, defines=flags(*names), fragment="paths/step.frag.glsl"),
-    )
-
-
-@gpu_cache
-def _images_shader(of_scalars: bool) -> Any:
-    return build_shader(
-        "path images",
-        CLASS,
-        TABLE,
-        IMAGE_GROUP,
-        Piece(
-            samplers=named("FLOAT_2D", "path_uv", "vertex_normal"),
-            defines=flags("OF_SCALARS") if of_scalars else {},
-            fragment="paths/path_images.frag.glsl",
-        ),
     )

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...scene.arrays import UNLIMITED_BOUNCES, MaterialArrays, SceneArrays
+from ...scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..device.textures import depth_texture
 from ..lighting.lighting import Lighting
-from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, SCALARS, goes_on
+from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
 from ..shading.shade import RayShadows
 from ..surfaces.canvas import Canvas
@@ -35,7 +35,7 @@ class PathTracer:
         """`features`: what the scene needs of paths, not empty (`paths.features.path_features`)."""
         self.features = features
         self._lighting, self._materials = lighting, materials
-        self._has_images = bool(scene.images)
+        self._has_programs = materials.has_programs
         self._targets: dict[tuple[int, int], _Targets] = {}
         self.follow(scene)
 
@@ -49,22 +49,17 @@ class PathTracer:
             for index in instance.materials
             if goes_on(scene.materials[index], instance.object_id in scene.reflectors)
         }
-        self._has_base = any(_has_base(scene.materials[index]) for index in used)
+        self._has_base = any(has_base(scene.materials[index]) for index in used)
         self._limits = (scene.most_bounces, scene.mirror_bounces, scene.transmission_bounces, scene.transparent_bounces)
         self.sees_through = any(scene.materials[index].is_seen_through for index in used)
         """Paths begin at other surfaces than mirrors, too"""
-        if self._has_images != bool(scene.images):
-            self._has_images = bool(scene.images)
+        if self._has_programs != self._materials.has_programs:
+            self._has_programs = self._materials.has_programs
             self._targets.clear()
 
     def move(self, scene: SceneArrays) -> None:
         """Know a state of the scene that differs in its objects' places alone."""
         self._frames: Any = object_frames(scene) if ANISOTROPY in self.features else None
-
-    @property
-    def has_scalars(self) -> bool:
-        """Images say how rough, metallic, transmitting or transparent surfaces are."""
-        return SCALARS in self.features
 
     @property
     def can_be_calm(self) -> bool:
@@ -126,26 +121,22 @@ class PathTracer:
             window,
         )
         light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base)
-        scalars = seen.with_scalars()[0] if self.has_scalars else None
         limits = self.limits(bounces)
         classes.sort_seen(seen, window, chosen, sees_through and self.sees_through)
-        light.add(canvas, weight, PathClass.GOES_ON, seen, scalars, classes.depth(0))
+        light.add(canvas, weight, PathClass.GOES_ON, seen, classes.depth(0))
         before: SurfaceBuffer | PathVertices = seen
         # (Without anything that goes on behind the first surface one step is all.)
         last = limits.most_steps if meets_mirrors or self.sees_through else 1
         sample = (sub_frame, self._lighting.sub_frames)
         for step in range(1, last + 1):
             met = vertices[place_of(step)]
-            follow(around, before, scalars, classes.depth(step - 1), met, limits, sample, step)
+            follow(around, before, classes.depth(step - 1), met, limits, sample, step)
             classes.sort_met(step, met, window)
-            scalars = met.scalars
             kinds = [PathClass.MISSES, PathClass.STOPS]
             if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
-                light.add(
-                    canvas, weight, kind, met, scalars, classes.depth(step), before, classes.depth(step - 1), sub_frame
-                )
+                light.add(canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame)
             before = met
 
     def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
@@ -154,18 +145,10 @@ class PathTracer:
             while len(self._targets) >= MOST_SIZES:
                 del self._targets[next(iter(self._targets))]
             classes = PathClasses([depth_texture(*size) for _ in range(BUFFERS)])
-            vertices = {place: PathVertices(*size, self.features, self._has_images) for place in range(1, BUFFERS)}
+            vertices = {place: PathVertices(*size, self._has_programs) for place in range(1, BUFFERS)}
             self._targets[size] = (classes, vertices)
         return self._targets[size]
 
 
 MOST_EVENTS = 63
 """Interfaces or transparent surfaces that a path is followed through at most: what its state counts"""
-
-
-def _has_base(material: MaterialArrays) -> bool:
-    """Whether a surface shows something besides what its lobes do."""
-    shines = max(material.emission) > 0.0
-    has_sheen = material.range_of("sheen_weight")[1] > 0.0
-    is_lobe_alone = material.glossy_only or material.metallic >= 1.0 or material.transmission >= 1.0
-    return shines or has_sheen or not is_lobe_alone or material.scalars is not None

@@ -228,6 +228,7 @@ def _pieces(cutting: _Cutting, triangles: Int32Array, material: Int32Array, imag
         record_texture(records.reshape(-1, 4)),
         triangles,
         of_corner.astype(np.int32),
+        chunk,
         lambda: chunk.attributes.of_pieces(halved, used),
     )
     return SolvedChunk(pieces, by_material(triangles, material), solution, image)

@@ -9,11 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from ...scene.programs.program import Shape
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..geometry.chunk import CHUNK
-from ..surfaces.materials import PLAIN, TEXTURED, Materials
+from ..programs.buffers import fills
+from ..programs.programs import Surroundings
+from ..surfaces.materials import DRAWN, PLAIN, Materials, forward_pieces
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -36,22 +39,26 @@ def draw_reflected(
     view_uniforms: Any,
     depth_scale: float,
     window: Window,
+    sub_frame: int = 0,
 ) -> None:
     """Add to `target` what the mirror numbered `mirror` shows at the pixels where `mirrors` sees it.
 
     `back_faces` is None for a mirror that cannot hide itself. `depth_scale` is the distance that gets half of the depth
-    range, meters; `window` (x, y, width, height) holds all of the mirror's pixels.
+    range, meters; `window` (x, y, width, height) holds all of the mirror's pixels. `sub_frame`: its number.
     """
     if window[2] <= 0 or window[3] <= 0:
         return
-    with drawing_state("LESS_EQUAL", depth_write=True), target.frame_buffer.bind(), scissored(window):
+    shapes = {materials.shape_of(material): None for part in scenery for material, _ in part.batches}
+    with drawing_state("LESS_EQUAL", depth_write=True), target.target(materials.buffers).bind(), scissored(window):
         set_viewport(0, 0, target.width, target.height)
-        for is_plain in (True, False):
-            shader = _reflected_shader(back_faces is not None, is_plain)
+        for shape in shapes:
+            shader = _reflected_shader(back_faces is not None, shape, materials.around)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
             shader.uniform_float("mirror", float(mirror))
             shader.uniform_float("depth_scale", depth_scale)
+            if shape is not None:
+                materials.bind_program(shader, shape, (sub_frame, 1))
             for name, texture in (
                 ("mirror_position", mirrors.position),
                 ("mirror_normal", mirrors.normal),
@@ -61,26 +68,29 @@ def draw_reflected(
             if back_faces is not None:
                 shader.uniform_sampler("back_faces", back_faces.distance)
             for part in scenery:
+                chosen = [item for item in part.batches if materials.shape_of(item[0]) == shape]
+                if not chosen:
+                    continue
                 shader.uniform_float("stretched", STRETCHED_COSINE if part.image == 0 else STRETCHED_COSINE_IN_REGION)
-                shader.uniform_sampler("positions", part.chunk.positions)
-                shader.uniform_sampler("corners", part.chunk.corners)
+                materials.bind_triangles(shader, part.chunk, shape)
                 shader.uniform_sampler("reflection_points", part.solution.reflection_points)
                 shader.uniform_sampler("virtual_positions", part.solution.virtual_positions)
-                for material, batch in part.batches:
-                    if materials.is_plain(material) == is_plain:
-                        materials.bind(shader, material)
-                        batch.draw(shader)
+                for material, batch in chosen:
+                    materials.bind(shader, material)
+                    batch.draw(shader)
 
 
 @gpu_cache
-def _reflected_shader(with_back_faces: bool, is_plain: bool) -> Any:
+def _reflected_shader(with_back_faces: bool, shape: Shape | None, around: Surroundings | None) -> Any:
     back_faces = Piece(samplers={"back_faces": "FLOAT_2D"}, defines=flags("BACK_FACES"))
     return build_shader(
-        f"reflected {with_back_faces} {is_plain}",
+        "reflected" if shape is None else "reflected of a program",
         VIEW,
         CHUNK,
-        PLAIN if is_plain else TEXTURED,
+        *(() if shape is None or around is None else forward_pieces(shape, around)),
+        PLAIN if shape is None else DRAWN,
         SURFACE_OUTPUTS,
+        *(() if around is None else (fills(around.buffers),)),
         Piece(
             samplers=named(
                 "FLOAT_2D", "reflection_points", "virtual_positions", "mirror_position", "mirror_normal", "mirror_color"

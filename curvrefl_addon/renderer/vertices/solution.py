@@ -53,6 +53,8 @@ class Pieces:
     """(n, 3) index into corners"""
     corner_position: Int32Array
     """(corners,) index into positions"""
+    placed_chunk: Chunk
+    """That they are of"""
     make_attributes: Callable[[], CornerAttributes]
 
     @cached_property

@@ -184,6 +184,7 @@ class Builder:
     def image(self, source: Source, tile: int = 0) -> int | None:
         """The first of the IMAGE_RECORDS parameters of the image of the source's node, or of a tile of it; None where
         it has none."""
+        self.need("PROGRAM_IMAGES")
         index = self._images.index_of(source.node, self.note, tile)
         if index is None:
             return None

@@ -16,6 +16,7 @@ from ..materials.color_spaces import luminance_weights
 from ..materials.node_links import Source, output_source
 from ..remarks import Remark
 from .builder import Builder, Handler, Images
+from .looks import OUT_OF_DATE, look_of
 from .nodes.values.bumps import displacement_as_bump
 from .program import Program
 from .registry import HANDLERS
@@ -112,8 +113,14 @@ class MaterialReader:
             )
             return plain, False
         b = self._builder(notes)
-        is_bent = self._displaced(b, tree, material)
-        surface = self._surface(b, tree)
+        shown = tree
+        if (look := look_of(material)) is not None:
+            if look.is_current and look.material.node_tree is not None:
+                shown = look.material.node_tree
+            else:
+                notes.append(OUT_OF_DATE)
+        is_bent = self._displaced(b, shown, material)
+        surface = self._surface(b, shown)
         arrays = made_material(b, surface, material.name, is_bent)
         path_notes += b.path_notes
         volume = output_source(tree, "Volume")

@@ -56,7 +56,7 @@ def our_picture(stage: Stage, sub_frames: int = 16, function: str = "shade_surfa
     scene = scene_arrays(stage)
     geometry = SceneGeometry()
     geometry.update(scene, {})
-    lighting = Lighting(scene, geometry, sub_frames)
+    lighting = Lighting(scene, geometry, Materials(scene), sub_frames)
     harness = Harness(lighting, positions, normals, viewers, number, stage.bodies, function)
     total = np.zeros((stage.pixels, stage.pixels, 3))
     for sub_frame in range(sub_frames):

@@ -147,7 +147,7 @@ def test_a_tint_is_said_to_be_left_out() -> None:
     geometry = SceneGeometry()
     scene = scene_arrays(stage)
     geometry.update(scene, {})
-    (sentence,) = Lighting(scene, geometry).warnings
+    (sentence,) = Lighting(scene, geometry, Materials(scene)).warnings
     assert sentence == 'Shadows of material "leaf" are gray where shadow maps serve: its tint is left out.'
 
 
@@ -160,13 +160,13 @@ def test_shadows_follow_materials_and_images() -> None:
     scene = scene_arrays(stage)
     geometry = SceneGeometry()
     geometry.update(scene, {})
-    lighting = Lighting(scene, geometry, 4)
+    lighting = Lighting(scene, geometry, materials, 4)
     lighting.prepare(0)
     opaque = replace(scene, materials=(scene.materials[0], replace(material, alpha=1.0, scalars=None)))
     thinner = replace(scene, images=(replace(image, pixels=image.pixels * np.float32(0.9)),))
     for state in (opaque, scene, thinner):
         lighting.follow(state, geometry.update(state, {}))
-        fresh = Lighting(state, geometry, 4)
+        fresh = Lighting(state, geometry, Materials(state), 4)
         for index in range(4):
             lighting.prepare(index)
             fresh.prepare(index)

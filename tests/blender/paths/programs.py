@@ -31,7 +31,7 @@ void main()
   vec4 viewer = texelFetch(viewers, pixel, 0);
   vec4 light = texelFetch(lights, pixel, 0);
   vec4 tangent = texelFetch(tangents, pixel, 0);
-  PathMaterial m = path_material(int(viewer.w + 0.5), texelFetch(colors, pixel, 0).rgb, vec4(-1.0));
+  Material m = material_at(pixel, int(viewer.w + 0.5), texelFetch(colors, pixel, 0).rgb);
   Facing f = Facing(normal, tangent.xyz, light.w > 0.5);
   Scatter s = scatter(m, f, viewer.xyz, texelFetch(randoms, pixel, 0));
   direction_out = vec4(s.direction, s.pdf);

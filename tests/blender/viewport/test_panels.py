@@ -101,6 +101,18 @@ def test_a_long_list_of_mirrors_says_how_many_more() -> None:
     assert "and 3 more" in draw(panel.CURVREFL_PT_main, _many_hidden()).texts
 
 
+def test_remarks_are_shown_once_with_the_material_and_a_button(monkeypatch: pytest.MonkeyPatch) -> None:
+    causes = {"Rust": ["Wireframe nodes {of} are not drawn."], "Fog": ["Volumes {of} are not shown."]}
+    told = ['Wireframe nodes of material "Rust" are not drawn.', 'Volumes of material "Fog" are not shown.', "Another."]
+    monkeypatch.setattr(viewport, "messages", lambda: told)
+    monkeypatch.setattr(viewport, "material_remarks", lambda: causes)
+    drawn = draw(panel.CURVREFL_PT_main, _mirror())
+    text = " ".join(drawn.texts)
+    assert "Rust: Wireframe nodes are not drawn." in text and "Fog: Volumes are not shown." in text
+    assert "Another." in text and "of material" not in text
+    assert drawn.shown.count("curvrefl.bake_look") == 1
+
+
 def test_sub_panels_are_closed_by_default() -> None:
     for cls in panel.CLASSES[1:]:
         assert cls.bl_parent_id == "CURVREFL_PT_main" and "DEFAULT_CLOSED" in cls.bl_options
