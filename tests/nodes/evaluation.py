@@ -121,7 +121,8 @@ class Board:
         """The program of what a tile's material sends out, and the notes of what is left out."""
         notes: list[str] = []
         builder = Builder(HANDLERS, self.images, notes)
-        value = builder.value(source_of(judged_input(material)), "color")
+        evaluated = material.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        value = builder.value(source_of(judged_input(evaluated)), "color")
         return builder.finished({"emission": value}), notes
 
     def load_images(self) -> None:
