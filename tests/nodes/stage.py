@@ -132,7 +132,9 @@ def tile_mesh() -> bpy.types.Mesh:
     where = np.column_stack([places, np.zeros(4)]).ravel()
     mesh.attributes.new("place", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", where.tolist())
     mesh.attributes.new("across", "FLOAT", "POINT").data.foreach_set("value", (2.0 * places[:, 0]).tolist())
-    mesh.attributes.new("up", "FLOAT", "POINT").data.foreach_set("value", (2.0 * places[:, 1]).tolist())
+    mesh.attributes.new("up", "FLOAT", "POINT").data.foreach_set(
+        "value", (1.9 * places[:, 1] + 0.13 * places[:, 0]).tolist()
+    )
     mesh.attributes.new("damp", "FLOAT", "POINT").data.foreach_set("value", (0.3 + 0.5 * places[:, 1]).tolist())
     wind = np.column_stack([places, 0.5 * places[:, 0] - places[:, 1]]).ravel()
     mesh.attributes.new("wind", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", wind.tolist())
