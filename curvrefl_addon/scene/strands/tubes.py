@@ -12,11 +12,13 @@ from ..arrays import Float32Array, Int32Array, MeshArrays
 from ..meshes.program_attributes import Layer, four_numbers
 from ..programs.program import Attribute
 from ..signature import array_signature
+from .smoothed import smoothed
 from .straightened import straightened
 from .strands import Strands, own_layers, tangents
 
-SIDES = ((4_000, 8), (20_000, 4), (40_000, 3))
-"""(segments, sides): with no more of the first, tubes have so many; with more than all, strands are ribbons
+FINENESS = ((1_000, 8, 4), (4_000, 6, 2), (20_000, 4, 1), (40_000, 3, 1))
+"""(segments, sides, parts): with no more of the first, tubes have so many sides and segments so many parts; with more
+than all, strands are ribbons
 
 Ribbons are turned at random about their strands: of many together as much is seen, and in the mean they are as bright,
 as of round strands, for a third of the triangles."""
@@ -25,10 +27,10 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 """Multiples of it lie evenly between whole numbers"""
 
 
-def sides_of(strands: Strands) -> int:
-    """How many a tube gets, or RIBBON."""
+def fineness_of(strands: Strands) -> tuple[int, int]:
+    """How many sides a tube gets, or RIBBON, and how many parts a segment."""
     segments = len(strands.points) - len(strands.slots)
-    return next((sides for most, sides in SIDES if segments <= most), RIBBON)
+    return next(((sides, parts) for most, sides, parts in FINENESS if segments <= most), (RIBBON, 1))
 
 
 def radius_factor(sides: int) -> float:
@@ -43,9 +45,8 @@ def radius_factor(sides: int) -> float:
 
 def tubes(name: str, strands: Strands, wanted: Sequence[Attribute]) -> MeshArrays:
     """The mesh, with those of the `wanted` attributes that strands have."""
-    sides = sides_of(strands)
-    if sides == RIBBON:
-        strands = straightened(strands)
+    sides, parts = fineness_of(strands)
+    strands = straightened(strands) if sides == RIBBON else smoothed(strands, parts)
     along = tangents(strands)
     across = _across(strands, along)
     third = np.cross(along, across)
