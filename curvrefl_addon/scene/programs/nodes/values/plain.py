@@ -83,7 +83,5 @@ NODES: Mapping[str, Handler] = {
     "WIREFRAME": _zeros("Wires of Wireframe nodes {of} are not drawn."),
     "MATERIAL_RAYCAST": _zeros("Rays of Raycast nodes {of} hit nothing."),
     "PARTICLE_INFO": _zeros("Particle Info nodes {of} are drawn as 0."),
-    "POINT_INFO": _zeros("Point Info nodes {of} are drawn as 0."),
     "VOLUME_INFO": _zeros("Volume Info nodes {of} are drawn as 0."),
-    "HAIR_INFO": _zeros("Curves Info nodes {of} are drawn as 0."),
 }
