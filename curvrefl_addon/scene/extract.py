@@ -287,7 +287,7 @@ class SceneReader:
         needs = needs_of(obj, slots, programs, is_mirror, warnings)
         stored = self._meshes.read(hair or obj, parent or uid % HAIR, needs, instance.matrix_world.determinant() < 0.0)
         warnings += stored.remarks
-        error = ""
+        error = "" if isinstance(obj.data, bpy.types.Mesh) else f'"{name}" is no surface: choose another reflector.'
         if stored.dropped:
             error = f'"{name}" has vertices at no finite place or too far out: repair its mesh or choose another.'
         if problem := problem_of_place(matrix, stored.reach):

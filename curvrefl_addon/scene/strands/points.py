@@ -22,8 +22,8 @@ PLAIN_RADIUS = 0.01
 """Of points that have none"""
 POINT_RADIUS, POINT_PLACE, POINT_RANDOM = ".point_radius", ".point_position", ".point_random"
 """Names of attributes that points have of themselves, as the Point Info node has them, object space"""
-FINE, COARSE = 500, 20_000
-"""Fewer points are balls of 1,280 triangles; fewer than the second of 320; more of 80"""
+FINENESS = ((50, 3), (2_000, 2), (20_000, 1))
+"""(points, levels): balls of no more points have 20 triangles that have been quartered so often; of more, 20"""
 
 
 def read_points(cloud: Any, needs: MeshNeeds) -> MeshReading:
@@ -54,7 +54,7 @@ def balls(
 ) -> MeshArrays:
     """A ball about each of these places (n, 3); `layers` are (n, k) numbers of the points."""
     count = len(centers)
-    directions, faces = ball(3 if count < FINE else 2 if count < COARSE else 1)
+    directions, faces = ball(next((levels for most, levels in FINENESS if count <= most), 0))
     # As large in the mean as the round one: the corners of triangles lie outside of it, their middles inside.
     size = np.float32(_as_large(directions, faces))
     normals = np.tile(directions, (len(centers), 1))

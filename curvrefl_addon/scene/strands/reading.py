@@ -15,7 +15,7 @@ from ..meshes.meshes import MeshNeeds, MeshReading
 from .curves import strands_of_curves
 from .particles import HairSystem, strands_of_particles
 from .points import read_points
-from .tubes import SIDES, tubes
+from .tubes import tubes
 
 
 def is_strands_or_points(data: Any) -> bool:
@@ -45,7 +45,7 @@ def read_strands(source: bpy.types.Object | HairSystem, needs: MeshNeeds) -> Mes
         # (Comparisons with what is not a number are not true.)
         good = (np.abs(strands.points) <= LARGEST_PLACE).all(axis=1) & (strands.radii <= LARGEST_PLACE)
         keep = np.logical_and.reduceat(good, strands.starts[:-1]) if len(strands.slots) else np.zeros(0, bool)
-        dropped = 2 * SIDES * int((strands.lengths[~keep] - 1).sum())
+        dropped = 2 * int((strands.lengths[~keep] - 1).sum())
         strands = strands.chosen(keep)
     repaired: list[str] = []
     if not all(is_usable(values) for _, values in strands.layers):

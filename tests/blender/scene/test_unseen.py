@@ -26,9 +26,6 @@ def said() -> str:
 @pytest.mark.parametrize(
     ("name", "kind", "thing"),
     [
-        ("hair_curves", "Hair", "Fur"),
-        ("particles_hair", "Hair", "Bed"),
-        ("point_cloud", "Point clouds", "Points"),
         ("volume_object", "Volumes", "Cloud"),
         ("grease_pencil", "Grease pencil strokes", "Drawing"),
     ],
@@ -37,13 +34,6 @@ def test_unseen_kinds_are_named(name: str, kind: str, thing: str, tmp_path: Path
     assert f'{kind} of object "{thing}"' in warnings_of(name, tmp_path)
     bpy.data.objects[thing].hide_render = True
     assert thing not in said()
-
-
-def test_hair_that_is_off_in_renders_is_not_missed(tmp_path: Path) -> None:
-    assert "Hair" in warnings_of("particles_hair", tmp_path)
-    bpy.data.objects["Bed"].modifiers[0].show_render = False
-    assert "Hair" not in said()
-    assert "Hair" not in warnings_of("particles_objects", tmp_path)
 
 
 @pytest.mark.parametrize(

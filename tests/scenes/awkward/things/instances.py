@@ -269,7 +269,7 @@ def particles_halo(folder: Path) -> None:
     bpy.context.scene.frame_set(5)
 
 
-@awkward("hair of particles", words=("hair", "Bed", "particle"))
+@awkward("hair of particles")
 def particles_hair(folder: Path) -> None:
     stage(things=False)
     settings = _particles("HAIR", hair_length=0.6)

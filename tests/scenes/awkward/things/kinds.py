@@ -49,7 +49,7 @@ def nurbs_surface(folder: Path) -> None:
     bpy.context.object.data.materials.append(matte("Ring", (0.2, 0.5, 0.8)))
 
 
-@awkward("hair curves", words=("hair", "curves", "Fur"))
+@awkward("hair curves")
 def hair_curves(folder: Path) -> None:
     stage(things=False)
     data: Any = bpy.data.hair_curves.new("Fur")
@@ -67,7 +67,7 @@ def hair_curves(folder: Path) -> None:
     link(data, "Fur")
 
 
-@awkward("a point cloud", words=("point cloud", "Points"))
+@awkward("a point cloud")
 def point_cloud(folder: Path) -> None:
     stage()
     bed = find("Green")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes about what objects consist of: strands, points, particles, volumes; and Scene Time."""
+"""Nodes about particles and volumes, and Scene Time."""
 
 from __future__ import annotations
 
@@ -14,45 +14,8 @@ from ...expression import Expression
 from ...program import FACTOR, GEOMETRY
 from .places import needs_instance, zero
 
-_FILE = "values/parts.glsl"
-_OF_STRANDS: Mapping[str, str] = {
-    "Is Strand": ".curve_is_strand",
-    "Intercept": ".curve_intercept",
-    "Length": ".curve_length",
-    "Random": ".curve_random",
-}
-"""Names of attributes (scene/strands), all 0 on meshes"""
 _OF_PARTICLES = ("Location", "Velocity", "Angular Velocity")
 """Vectors of the node Particle Info"""
-
-
-def _strands(b: Builder, source: Source) -> Expression:
-    output = source.socket.identifier
-    if b.is_world:
-        return zero(b, "vector" if output == "Tangent Normal" else "float")
-    if output in _OF_STRANDS:
-        return Expression(f"{b.attribute(GEOMETRY, _OF_STRANDS[output]).text}.x", "float")
-    needs_instance(b)
-    b.include(_FILE)
-    if output == "Thickness":
-        return b.call("float", "parts_size", "s", f"{b.attribute(GEOMETRY, '.curve_thickness').text}.x")
-    b.depend("ray")
-    return b.call("vector", "parts_facing", "s", f"{b.attribute(GEOMETRY, '.curve_tangent').text}.xyz")
-
-
-def _points(b: Builder, source: Source) -> Expression:
-    output = source.socket.identifier
-    if b.is_world:
-        return zero(b, "vector" if output == "Position" else "float")
-    if output == "Random":
-        return Expression(f"{b.attribute(GEOMETRY, '.point_random').text}.x", "float")
-    needs_instance(b)
-    b.include(_FILE)
-    radius = f"{b.attribute(GEOMETRY, '.point_radius').text}.x"
-    if output == "Radius":
-        return b.call("float", "parts_size", "s", radius)
-    place = b.attribute(GEOMETRY, ".point_position").text
-    return b.made("vector", f"{radius} > 0.0 ? to_world(s, {place}.xyz) : vec3(0.0)")
 
 
 def _particles(b: Builder, source: Source) -> Expression:
@@ -92,8 +55,6 @@ def _time(b: Builder, source: Source) -> Expression:
 
 
 NODES: Mapping[str, Handler] = {
-    "HAIR_INFO": _strands,
-    "POINT_INFO": _points,
     "PARTICLE_INFO": _particles,
     "VOLUME_INFO": _volume,
     "INPUT_SCENE_TIME": _time,
