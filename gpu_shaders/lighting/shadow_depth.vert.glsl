@@ -11,8 +11,8 @@ void main()
 {
 #ifdef HASHED
   Corner corner = fetch_corner(gl_VertexID);
-  int attribute = light_through_attribute(material);
-  uv = attribute < 0 ? vec2(0.0) : corner_attribute(gl_VertexID, attribute).xy;
+  int number = light_through_attribute(material);
+  uv = number < 0 ? vec2(0.0) : corner_attribute(gl_VertexID, number).xy;
   // (Of a triangle's corners one stands for it.)
   surface = ivec2(gl_VertexID, int(corner.object_id));
   gl_Position = world_to_clip * vec4(corner.position, 1.0);

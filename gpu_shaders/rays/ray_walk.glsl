@@ -93,8 +93,8 @@ vec3 light_through_triangle(int instance, int triangle, vec2 place)
   int slot = min(int(fetch_record(rays, triangle + 3).w), int(fetch_record(rays, instance + 5).x) - 1);
   int first = rays_top.z + int(fetch_record(rays, instance + 4).w);
   int material = int(fetch_record(rays, first + slot / 4)[slot % 4]);
-  int attribute = light_through_attribute(material);
-  return light_through(material, attribute < 0 ? vec2(0.0) : hit_attribute(instance, triangle, weights, attribute).xy);
+  int number = light_through_attribute(material);
+  return light_through(material, number < 0 ? vec2(0.0) : hit_attribute(instance, triangle, weights, number).xy);
 }
 #endif
 

@@ -134,7 +134,8 @@ class Materials:
 
     def bind(self, shader: Any, index: int) -> None:
         """Set a bound shader with `DRAWN` to a material, and one with `forward_pieces` to its program's parameters."""
-        shader.uniform_float("material", float(index))
+        if knows(shader, "material"):
+            shader.uniform_float("material", float(index))
         if self.shape_of(index) is None:
             shader.uniform_float("base_color", self._of(index).base_color)
         elif knows(shader, "program_first"):
