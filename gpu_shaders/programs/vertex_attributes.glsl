@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a vertex shader hands on to a program. Needs the push constant `program_first` and VERTEX_CASES, which sets each
-// of its attributes.
+// What a vertex shader hands on to a program. Needs the push constant `program_first` and VERTEX_CASES, which sets
+// each of its attributes.
 #include "common/corner_attributes.glsl"
 #include "common/corner_instances.glsl"
 

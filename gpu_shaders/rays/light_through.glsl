@@ -20,7 +20,8 @@ float caster_image(int row, ivec2 size, vec2 place)
   ivec2 corner = ivec2(floor(place));
   vec2 part = place - vec2(corner);
   float low = mix(caster_texel(row, size, corner), caster_texel(row, size, corner + ivec2(1, 0)), part.x);
-  float high = mix(caster_texel(row, size, corner + ivec2(0, 1)), caster_texel(row, size, corner + ivec2(1, 1)), part.x);
+  corner.y++;
+  float high = mix(caster_texel(row, size, corner), caster_texel(row, size, corner + ivec2(1, 0)), part.x);
   return mix(low, high, part.y);
 }
 

@@ -128,7 +128,8 @@ vec3 unpacked_tint(uint held)
 uvec4 packed_layers(Material m)
 {
   uvec4 held;
-  held.x = packed_tint(m.coat_tint) | (packed_unit(m.coat_weight, 6) << 18u) | (packed_unit(m.coat_roughness, 8) << 24u);
+  held.x = packed_tint(m.coat_tint) | (packed_unit(m.coat_weight, 6) << 18u) |
+           (packed_unit(m.coat_roughness, 8) << 24u);
   held.y = packed_tint(m.sheen_tint) | (packed_unit(m.sheen_weight, 6) << 18u) |
            (packed_unit(m.sheen_roughness, 8) << 24u);
   held.z = packed_tint(m.specular_tint) | (packed_unit(m.diffuse_roughness, 6) << 18u) |

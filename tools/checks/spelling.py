@@ -15,7 +15,7 @@ WORD = "[A-Z]?[a-z]+|[A-Z]+(?![a-z])"
 """The parts of names such as base_color and BaseColor"""
 FOLDERS = ("curvrefl_addon", "docs", "gpu_shaders", "operators", "tests", "tools")
 SUFFIXES = (".py", ".glsl", ".md", ".toml", ".sh", ".txt")
-NOT_OURS = "eto,inout,lod,nd,ons,ot,shepard,sur,wronly"
+NOT_OURS = "atleast,eto,inout,lod,nd,ons,ot,shepard,sur,wronly"
 """Words of GLSL and of systems, names, a title's French, and parts of names"""
 BLENDERS = "(?<![A-Z])CANCELLED"
 

@@ -20,14 +20,14 @@ from ...scene.camera.view import View
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
-from ..surfaces.materials import Materials
-from .caster_images import CasterBake
 from ..paths.surface_features import surface_features
+from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, LOOK_RECORD, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
+from .programs.casters import CasterBake
 from .programs.lamps import LOOK_DEFINES, LampLooks, look_samplers
 from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, Float64Array, ImageArrays, MaterialArrays, SceneArrays
+from ...scene.arrays import Float32Array, Float64Array, ImageSource, MaterialArrays, SceneArrays
 from ...scene.materials.pixels import averaged
 from ...scene.remarks import Remark, sentences
 from ..device.records import TEXTURE_WIDTH, padded_count, record_texture
@@ -23,7 +23,7 @@ from ..device.shaders import Piece
 from ..device.textures import largest_texture
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..paths.features import lets_straight_on
-from .caster_images import CasterImage
+from .programs.casters import CasterImage
 
 ALPHA = "LIGHTING_ALPHA"
 """Define of the shaders that light a scene with such casters"""
@@ -54,7 +54,7 @@ class ShadowAlpha:
         """`bake`: see `CasterBake`."""
         self._bake = bake
         self._materials: tuple[MaterialArrays, ...] = ()
-        self._images: tuple[ImageArrays, ...] = ()
+        self._images: tuple[ImageSource, ...] = ()
         self._baked: dict[int, tuple[object, CasterImage]] = {}
         """By material, with what it was made of"""
         self.materials: frozenset[int] = frozenset()

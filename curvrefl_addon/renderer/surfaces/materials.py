@@ -47,7 +47,7 @@ class Materials:
         is_gradual: bool = False,
         geometry: SceneGeometry | None = None,
     ) -> None:
-        """`image_memory`: bytes that images may take; `is_gradual`: see `Programs`. `geometry`: whose chunks are drawn."""
+        """`image_memory`: bytes that images may take; `is_gradual`: see `Programs`. `geometry`: what is drawn."""
         self._image_memory, self._is_gradual, self._geometry = image_memory, is_gradual, geometry
         self._programs: Programs | None = None
         self.follow(scene)

@@ -44,11 +44,6 @@ def luminance_weights() -> Float64Array:
     return REC709_LUMINANCE if space == REC709 else _matrix(space, "from_scene_linear_to_xyz_d65")[1]
 
 
-def xyz_to_scene() -> Float64Array:
-    """(3, 3) from CIE XYZ (D65) to scene-linear colors."""
-    return _matrix(working_space(), "from_xyz_d65_to_scene_linear")
-
-
 def _changed(colors: Float32Array, change: str) -> Float32Array:
     space = working_space()
     if space == REC709:

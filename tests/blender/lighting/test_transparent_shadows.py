@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
+from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials
 from curvrefl.curvrefl_addon.scene.arrays import (
     ImageArrays,
     LightArrays,
@@ -160,7 +161,7 @@ def test_shadows_follow_materials_and_images() -> None:
     scene = scene_arrays(stage)
     geometry = SceneGeometry()
     geometry.update(scene, {})
-    lighting = Lighting(scene, geometry, materials, 4)
+    lighting = Lighting(scene, geometry, Materials(scene), 4)
     lighting.prepare(0)
     opaque = replace(scene, materials=(scene.materials[0], replace(material, alpha=1.0, scalars=None)))
     thinner = replace(scene, images=(replace(image, pixels=image.pixels * np.float32(0.9)),))

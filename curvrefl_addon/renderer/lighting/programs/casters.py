@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, SceneArrays
-from ...scene.programs.program import UV, Program, Shape
-from ..device.batches import full_screen_triangle
-from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer
-from ..device.shaders import FULL_SCREEN, Piece, build_shader
-from ..device.state import drawing_state, set_viewport
-from ..device.textures import empty_texture, read_texture
-from ..geometry.chunk_attributes import attributes_of
-from ..programs.programs import Surroundings, program_piece
-from ..surfaces.materials import DRAWN, TABLE, Materials
+from ....scene.arrays import Float32Array, SceneArrays
+from ....scene.programs.program import UV, Program, Shape
+from ...device.batches import full_screen_triangle
+from ...device.context import gpu_cache
+from ...device.frame_buffers import frame_buffer
+from ...device.shaders import FULL_SCREEN, Piece, build_shader
+from ...device.state import drawing_state, set_viewport
+from ...device.textures import empty_texture, read_texture
+from ...geometry.chunk_attributes import attributes_of
+from ...programs.programs import Surroundings, program_piece
+from ...surfaces.materials import DRAWN, TABLE, Materials
 
 LARGEST, SMALLEST = 2048, 64
 """Texels along a side"""
@@ -116,6 +116,6 @@ def _alpha_shader(shape: Shape, around: Surroundings) -> Any:
         Piece(
             constants={"part": "VEC4", "pixels": "VEC2", "program_first": "INT", "turn": "IVEC2", **DRAWN.constants},
             outputs={"color": "VEC4"},
-            fragment="lighting/caster_alpha.frag.glsl",
+            fragment="programs/caster_alpha.frag.glsl",
         ),
     )
