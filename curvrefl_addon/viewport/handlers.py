@@ -300,7 +300,8 @@ def _draw(context: bpy.types.Context) -> None:
         shown = _state.scenes[key] = ViewportScene()
     chosen = scene.curvrefl
     options = current_options()
-    renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), options.memory_cap << 20)
+    memory, images = options.memory_cap << 20, options.image_memory << 20
+    renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), memory, images)
     picture = _state.pictures.pop(region, None)
     if renderer is None:
         return

@@ -30,6 +30,8 @@ from ..scene.camera.view import View
 if TYPE_CHECKING:
     from .shown_scene import ViewportScene
 
+LOADING_SECONDS = 0.1
+"""In each redraw, for images of materials that are not there yet"""
 SETTLED_SECONDS = 0.15
 """After the last change the full resolution is drawn again"""
 DIVISORS = {"FULL": 1, "HALF": 2, "QUARTER": 4}
@@ -79,7 +81,7 @@ class RegionPicture:
     @property
     def has_work(self) -> bool:
         """There is something left to do while the view rests."""
-        return not self.is_complete or self.renderer.can_improve
+        return not self.is_complete or self.renderer.can_improve or self.renderer.is_loading
 
     def advance(
         self, view: View, settings: Any, options: Any, now: float, is_timed: bool, counters: dict[str, int]
@@ -92,6 +94,8 @@ class RegionPicture:
         diagnostic = diagnostic_of(settings, options)
         if diagnostic is not None:
             view = replace(view, lens=None)
+        # (A shader compiles in a tenth of a second, which an orbit can wait for, but not for many.)
+        self.renderer.load_some(LOADING_SECONDS)
         state = (self.renderer.revision, diagnostic)
         divisor, at_rest = 0, False
         if self._view is None or state != self._state or not _is_same(self._view, view):

@@ -84,17 +84,19 @@ class ViewportScene:
         if self.changes.listing:
             self._mirrors = None
 
-    def renderer(self, context: bpy.types.Context, look: Look, settings: Settings, memory_cap: int) -> Renderer | None:
+    def renderer(
+        self, context: bpy.types.Context, look: Look, settings: Settings, memory_cap: int, image_memory: int
+    ) -> Renderer | None:
         """The renderer for a viewport, brought up to date; None where there is nothing to show.
 
-        `memory_cap`: bytes of GPU memory that meshes may take.
+        `memory_cap`: bytes of GPU memory that meshes may take; `image_memory`: those that images of materials may.
         """
         if self.changes or self._mirrors is None:
             self._read(context, memory_cap)
         if self._arrays is None:
             return None
         try:
-            return self._up_to_date(context, look, settings)
+            return self._up_to_date(context, look, settings, image_memory)
         except InputError as error:
             self._drop(look)
             uid = self._culprit(error)
@@ -105,7 +107,7 @@ class ViewportScene:
             self._refused[uid] = str(error)
             self.changes.listing = True
             self._mirrors = None
-            return self.renderer(context, look, settings, memory_cap)
+            return self.renderer(context, look, settings, memory_cap, image_memory)
 
     def free(self) -> None:
         """Let go of everything."""
@@ -158,7 +160,9 @@ class ViewportScene:
                 self._refused[uid] = str(error)
         return None
 
-    def _up_to_date(self, context: bpy.types.Context, look: Look, settings: Settings) -> Renderer:
+    def _up_to_date(
+        self, context: bpy.types.Context, look: Look, settings: Settings, image_memory: int
+    ) -> Renderer:
         if look not in self._shown:
             assert self._arrays is not None
             self._shown[look] = self._lights.lit(self._local(context, look), look.light)
@@ -167,7 +171,7 @@ class ViewportScene:
         if renderer is None:
             while len(self.renderers) >= MOST_RENDERERS:
                 self._drop(next(iter(self.renderers)))
-            renderer = Renderer(arrays, settings)
+            renderer = Renderer(arrays, settings, image_memory, is_gradual=True)
             self._dropped["renderers made"] += 1
         self.renderers[look] = renderer
         renderer.update(arrays)

@@ -28,7 +28,7 @@ class Session:
 
     def draw(self, look: Look = PLAIN, cap: int = CAP) -> Renderer | None:
         bpy.context.view_layer.update()
-        return self.scene.renderer(bpy.context, look, self.settings, cap)
+        return self.scene.renderer(bpy.context, look, self.settings, cap, cap)
 
     def mirrors(self) -> list[str]:
         renderer = self.draw()
