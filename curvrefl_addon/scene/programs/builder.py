@@ -223,6 +223,11 @@ class Builder:
         return name
 
     @property
+    def attributes(self) -> Mapping[Attribute, int]:
+        """Those of the mesh that are read so far, with their numbers."""
+        return self._attributes
+
+    @property
     def is_at_neighbors(self) -> bool:
         """Whether what is compiled is asked at neighbors too, between which only positions and attributes differ."""
         return self._depth > 0
