@@ -50,6 +50,8 @@ class Builder:
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
         self.is_world = is_world
+        self.objects: set[int] = set()
+        """Those (session_uid) beside its own whose place the program knows"""
         self._depth = 0
         self._functions: list[str] = []
         self._lines: list[str] = []
