@@ -149,6 +149,7 @@ class SceneReader:
             self._program_images.restart()
             # (Worlds show the same images.)
             changes.world = True
+        changes.materials |= self._materials.that_know(changes.objects)
         self._materials.forget(changes.materials)
         self._meshes.forget(changes.geometry)
         walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)

@@ -16,10 +16,10 @@ vec3 strand_tangent_normal(ShadingPoint s, vec4 along)
   return across / max(length(across), 1e-20);
 }
 
-// (Of what is no point both are 0.)
-vec3 point_position(ShadingPoint s, vec4 place)
+// (What is no point has no radius.)
+vec3 point_position(ShadingPoint s, vec4 place, vec4 radius)
 {
-  return to_world(s, place.xyz);
+  return radius.x > 0.0 ? to_world(s, place.xyz) : vec3(0.0);
 }
 
 float point_radius(ShadingPoint s, vec4 radius)

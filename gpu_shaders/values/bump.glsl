@@ -34,6 +34,13 @@ float bump_aligned(inout ShadingPoint s)
   return 0.0;
 }
 
+// Makes an attribute the same at the neighbors. (Gives nothing.)
+float bump_kept(inout ShadingPoint s, int number)
+{
+  s.attributes_across[number] = s.attributes_up[number] = vec4(0.0);
+  return 0.0;
+}
+
 // Neighbors a part of a pixel away.
 ShadingPoint bump_across(ShadingPoint s, float width)
 {

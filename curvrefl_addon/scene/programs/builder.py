@@ -50,6 +50,8 @@ class Builder:
         self._notes = notes
         self.luminance = tuple(float(weight) for weight in luminance)
         self.is_world = is_world
+        self.objects: set[int] = set()
+        """Those (session_uid) beside its own whose place the program knows"""
         self._depth = 0
         self._functions: list[str] = []
         self._lines: list[str] = []
@@ -221,6 +223,11 @@ class Builder:
         name = f"value_{len(self._functions)}"
         self._functions.append(f"{glsl_type(kind)} {name}(ShadingPoint s)\n{{\n{body}\n}}\n")
         return name
+
+    @property
+    def attributes(self) -> Mapping[Attribute, int]:
+        """Those of the mesh that are read so far, with their numbers."""
+        return self._attributes
 
     @property
     def is_at_neighbors(self) -> bool:

@@ -42,6 +42,8 @@ class ReadMaterial:
     is_hidden: bool = False
     """It has no surface: a volume, or full transparency"""
     is_seen_through: bool = False
+    objects: frozenset[int] = frozenset()
+    """Objects (session_uid) whose place it knows"""
 
     def remarks_as(self, is_mirror: bool) -> tuple[Remark, ...]:
         """All remarks where it is a mirror's or scenery's."""
@@ -80,6 +82,10 @@ class MaterialReader:
         for key in materials:
             self._read.pop(key, None)
 
+    def that_know(self, objects: set[int]) -> set[int]:
+        """Materials (session_uid) that know the place of one of these objects."""
+        return {key for key, found in self._read.items() if not found.objects.isdisjoint(objects)}
+
     def forget_all(self) -> None:
         """Any may have changed, or the images they show."""
         self._read.clear()
@@ -89,7 +95,8 @@ class MaterialReader:
     def _read_anew(self, material: bpy.types.Material, key: int) -> ReadMaterial:
         notes: list[str] = []
         path_notes: list[str] = []
-        arrays, is_hidden = self._arrays(material, notes, path_notes)
+        objects: set[int] = set()
+        arrays, is_hidden = self._arrays(material, notes, path_notes, objects)
         arrays = usable_material(arrays, notes)
         if arrays.program is not None:
             arrays = replace(arrays, program=_usable(arrays.program, notes))
@@ -99,12 +106,14 @@ class MaterialReader:
             tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(causes))
             for causes in (notes, path_notes)
         )
-        return ReadMaterial(self._place(key, arrays), always, on_paths, is_hidden, arrays.is_seen_through)
+        index, is_seen_through = self._place(key, arrays), arrays.is_seen_through
+        return ReadMaterial(index, always, on_paths, is_hidden, is_seen_through, frozenset(objects))
 
     def _arrays(
-        self, material: bpy.types.Material, notes: list[str], path_notes: list[str]
+        self, material: bpy.types.Material, notes: list[str], path_notes: list[str], objects: set[int]
     ) -> tuple[MaterialArrays, bool]:
-        """The material, and whether it has no surface; the lists get causes of remarks."""
+        """The material, and whether it has no surface; the lists get causes of remarks, `objects` those whose place it
+        knows (session_uid)."""
         tree = material.node_tree
         if tree is None:
             red, green, blue, _ = material.diffuse_color
@@ -123,6 +132,7 @@ class MaterialReader:
         surface = self._surface(b, shown)
         arrays = made_material(b, surface, material.name, is_bent)
         path_notes += b.path_notes
+        objects |= b.objects
         volume = output_source(tree, "Volume")
         if volume is not None:
             arrays = self._with_volume(arrays, volume, notes, surface)

@@ -265,6 +265,26 @@ def test_what_stays_is_the_same_object(session: Session) -> None:
     assert after.meshes is before.meshes and after.materials is before.materials and after.lights is before.lights
 
 
+def test_a_material_follows_the_object_whose_place_it_knows(session: Session) -> None:
+    guide = bpy.data.objects.new("Guide", None)
+    bpy.context.scene.collection.objects.link(guide)
+    material = bpy.data.materials.new("Guided")
+    tree: Any = material.node_tree
+    place, surface = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes["Principled BSDF"]
+    place.object = guide
+    tree.links.new(place.outputs["Object"], surface.inputs["Base Color"])
+    bpy.data.objects["First"].data.materials.append(material)
+
+    def shift() -> float:
+        found = next(item.program for item in session.read().materials if item.name == "Guided")
+        assert found is not None
+        return float(found.records[:, 3].min())
+
+    assert shift() == 0.0
+    guide.location.x = 2.0
+    assert shift() == -2.0
+
+
 def test_an_edit_that_changes_nothing_keeps_the_arrays(session: Session) -> None:
     before = session.read()
     touch_mesh()

@@ -50,8 +50,8 @@ def _point(b: Builder, source: Source) -> Expression | None:
         return _number(b, POINT_RANDOM)
     needs_instance(b)
     if output == "Position":
-        place = b.attribute(GEOMETRY, POINT_PLACE)
-        return b.call("vector", "point_position", "s", place, file="nodes/strands.glsl")
+        place, radius = b.attribute(GEOMETRY, POINT_PLACE), b.attribute(GEOMETRY, POINT_RADIUS)
+        return b.call("vector", "point_position", "s", place, radius, file="nodes/strands.glsl")
     if output == "Radius":
         radius = b.attribute(GEOMETRY, POINT_RADIUS)
         return b.call("float", "point_radius", "s", radius, file="nodes/strands.glsl", low=0.0)

@@ -5,16 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from ....materials.node_links import Source
 from ...builder import Builder, Handler
 from ...expression import Expression
-from ...program import NORMAL
+from ...program import NORMAL, TANGENT
 from .places import NORMALS_FILE, needs_instance, tangent_of
 from .surface import normal_input
 
 _BUMP_FILE = "values/bump.glsl"
+_STILL = (TANGENT, NORMAL)
+"""Kinds of attributes that Cycles does not look for at neighbors"""
 _FILTER_WIDTH = 0.1
 """Of Cycles' bumps from displacement, in pixels"""
 
@@ -62,6 +65,9 @@ def _tilted(
     if b.is_at_neighbors:
         b.note("Bumps {of} of heights by other bumps are drawn as if both were slight.")
     b.shared(("bump", "aligned"), lambda: b.made("float", "bump_aligned(s)"))
+    for attribute, number in b.attributes.items():
+        if attribute.kind in _STILL:
+            b.shared(("bump", number), partial(b.made, "float", f"bump_kept(s, {number})"))
     scale, strength, width = numbers
     points = ("s", f"bump_across(s, {width.text})", f"bump_up(s, {width.text})")
     heights = b.made("vector", f"vec3({', '.join(height.format(point) for point in points)})")

@@ -88,6 +88,7 @@ def _object_coordinates(b: Builder, other: bpy.types.Object | None) -> Expressio
     """In the space of another object, or of the one that is shaded."""
     b.depend("position")
     if other is not None:
+        b.objects.add(other.original.session_uid)
         matrix: Any = np.array(other.matrix_world.inverted_safe(), np.float64)
         first = b.table(matrix[:3])
         rows = ", ".join(f"dot(P({first + row}), vec4(s.position, 1.0))" for row in range(3))
