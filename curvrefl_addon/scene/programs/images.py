@@ -39,6 +39,8 @@ FIRST_TILE = 1001
 _LINEAR = ("Linear", "Raw", "scene_linear")
 """Names of the working space beside its own"""
 
+_OF_BYTES = (0.0, 1.0)
+
 type _Key = tuple[int, str, int, int, str, str]
 """Image (session_uid), file shown, frame of a sequence or -1, tile or 0, color space, alpha mode"""
 
@@ -111,9 +113,9 @@ class ProgramImages:
             self._sources.append(self._kept[key].source)
         return self._places[key]
 
-    def is_opaque(self, index: int) -> bool:
+    def source(self, index: int) -> ImageSource:
         """As in `builder.Images`."""
-        return self._sources[index].is_opaque
+        return self._sources[index]
 
 
 def uses_alpha(image: bpy.types.Image) -> bool:
@@ -204,7 +206,7 @@ class _Reading:
             multiplies = False
         read = partial(_read_bytes, file, (header.height, header.width), multiplies, image.alpha_mode == "NONE")
         if self._is_linear or self._is_srgb:
-            return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, read)
+            return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, _OF_BYTES, read)
         try:
             return self._of_values(_read_bytes(file, (header.height, header.width), False, False), multiplies)
         except OSError:
@@ -233,7 +235,7 @@ class _Reading:
             return self._of_values(pixels, False, False)
         height, width = pixels.shape[:2]
         read = partial(_read_floats, self._file, (height, width))
-        return ImageSource(self._image.name, width, height, False, self._is_srgb, True, read)
+        return ImageSource(self._image.name, width, height, False, self._is_srgb, True, _range_of(pixels), read)
 
     def _of_values(self, values: NDArray[Any], multiplies: bool, is_whole: bool = True) -> ImageSource:
         """Of bytes or floats as they are in a file; `is_whole`: of whole numbers there."""
@@ -278,7 +280,8 @@ class _Reading:
         height, width = kept.shape[:2]
         is_opaque = bool(kept[..., 3].min() == (255 if kept.dtype == np.uint8 else 1.0))
         is_bytes = kept.dtype == np.uint8
-        return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, lambda: kept)
+        limits = _OF_BYTES if is_bytes else _range_of(kept)
+        return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, limits, lambda: kept)
 
     def _remark(self, cause: str) -> None:
         self._remarks.append(Remark(cause, "image", self._image.name))
@@ -312,6 +315,10 @@ def _read_bytes(file: str | bytes, shape: tuple[int, int], multiplies: bool, ign
     return multiplied(pixels) if multiplies else pixels
 
 
+def _range_of(pixels: NDArray[Any]) -> tuple[float, float]:
+    return float(pixels.min()), float(pixels.max())
+
+
 def _missing(name: str) -> ImageSource:
     """Cycles shows magenta."""
-    return ImageSource(name, 0, 0, True, False, True, lambda: np.zeros((0, 0, 4), np.uint8))
+    return ImageSource(name, 0, 0, True, False, True, _OF_BYTES, lambda: np.zeros((0, 0, 4), np.uint8))

@@ -38,7 +38,7 @@ def source_of(values: np.ndarray, is_srgb: bool = False) -> ImageSource:
     height, width = values.shape[:2]
     is_bytes = values.dtype == np.uint8
     is_opaque = bool((values[..., 3] == (255 if is_bytes else 1.0)).all())
-    return ImageSource("image", width, height, is_bytes, is_srgb, is_opaque, lambda: values)
+    return ImageSource("image", width, height, is_bytes, is_srgb, is_opaque, (0.0, 1.0), lambda: values)
 
 
 def random_bytes(width: int, height: int, seed: int = 0, is_opaque: bool = False) -> np.ndarray:
@@ -88,7 +88,7 @@ def test_what_stays_is_not_read_again() -> None:
     values = random_bytes(64, 64)
 
     def counted(number: int) -> ImageSource:
-        return ImageSource("image", 64, 64, True, False, False, lambda: (reads.append(number), values)[1])
+        return ImageSource("image", 64, 64, True, False, False, (0.0, 1.0), lambda: (reads.append(number), values)[1])
 
     first, second, third = (counted(number) for number in range(3))
     pages = ImagePages()
@@ -146,7 +146,7 @@ def test_an_image_that_is_gone_is_magenta() -> None:
         raise OSError("gone")
 
     pages = ImagePages()
-    pages.follow([ImageSource("lost", 8, 8, True, False, True, fails), source_of(random_bytes(8, 8))])
+    pages.follow([ImageSource("lost", 8, 8, True, False, True, (0.0, 1.0), fails), source_of(random_bytes(8, 8))])
     assert pages.fill()
     assert pages.records(0)[0][1] == 0.0 and pages.records(1)[0][1] == 8.0
     assert pages.warnings == ('Images that can no longer be read are drawn magenta: "lost".',)
