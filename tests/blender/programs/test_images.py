@@ -111,6 +111,8 @@ def test_what_stays_is_not_read_again() -> None:
         pages.follow(images)
         pages.fill()
     assert len(pages.piece.samplers) <= 3
+    pages.follow(images, {1})
+    assert pages.records(0)[0][1] == 0.0 and pages.records(1)[0][1] == 64.0
     assert pages.follow([])
     assert pages.bytes_used == 0 and pages.is_complete
 
