@@ -60,6 +60,8 @@ class ProgramImages:
         self._sources: list[ImageSource] = []
         self._places: dict[_Key, int] = {}
         self._kept: dict[_Key, _Kept] = {}
+        self._contents: dict[Any, ImageSource] = {}
+        """By what packed files have in them"""
 
     @property
     def sources(self) -> tuple[ImageSource, ...]:
@@ -79,6 +81,8 @@ class ProgramImages:
     def restart(self) -> None:
         """All nodes are asked anew. Images that they show again stay the same objects."""
         self._kept = {key: kept for key, kept in self._kept.items() if key in self._places}
+        shown = {id(kept.source) for kept in self._kept.values()}
+        self._contents = {key: source for key, source in self._contents.items() if id(source) in shown}
         self._sources.clear()
         self._places.clear()
 
@@ -106,8 +110,12 @@ class ProgramImages:
         )
         if key not in self._places:
             if key not in self._kept:
-                remarks: list[Remark] = []
-                self._kept[key] = _Kept(_Reading(image, file, tile, remarks).source(), tuple(remarks))
+                reading = _Reading(image, file, tile)
+                source = reading.source()
+                if reading.content is not None:
+                    # (Imported models bring the same image many times.)
+                    source = self._contents.setdefault(reading.content, source)
+                self._kept[key] = _Kept(source, tuple(reading.remarks))
                 self.reads += 1
             self._places[key] = len(self._sources)
             self._sources.append(self._kept[key].source)
@@ -146,11 +154,13 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
 class _Reading:
     """One image while it is looked at."""
 
-    def __init__(self, image: bpy.types.Image, file: str, tile: int, remarks: list[Remark]) -> None:
+    def __init__(self, image: bpy.types.Image, file: str, tile: int) -> None:
         self._image = image
         self._file = file
         self._tile = tile
-        self._remarks = remarks
+        self.remarks: list[Remark] = []
+        self.content: Any = None
+        """Equal for images that are alike, where that is known"""
         space = image.colorspace_settings.name
         self._is_data = space == DATA
         self._is_linear = self._is_data or space in _LINEAR or space == working_space()
@@ -206,6 +216,8 @@ class _Reading:
             multiplies = False
         read = partial(_read_bytes, file, (header.height, header.width), multiplies, image.alpha_mode == "NONE")
         if self._is_linear or self._is_srgb:
+            if isinstance(file, bytes):
+                self.content = len(file), hash(file), multiplies, image.alpha_mode == "NONE", self._is_srgb
             return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, _OF_BYTES, read)
         try:
             return self._of_values(_read_bytes(file, (header.height, header.width), False, False), multiplies)
@@ -284,7 +296,7 @@ class _Reading:
         return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, limits, lambda: kept)
 
     def _remark(self, cause: str) -> None:
-        self._remarks.append(Remark(cause, "image", self._image.name))
+        self.remarks.append(Remark(cause, "image", self._image.name))
 
 
 def _packed(image: bpy.types.Image, tile: int) -> bytes | None:

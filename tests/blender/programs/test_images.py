@@ -190,6 +190,20 @@ def test_files_are_read_when_they_are_asked_for(tmp_path: Path) -> None:
     assert images.index_of(node, print) is None
 
 
+def test_equal_packed_images_are_one(tmp_path: Path) -> None:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    path = saved(tmp_path / "a.png", random_bytes(9, 6))
+    images = ProgramImages()
+    for space in ("sRGB", "sRGB", "Non-Color"):
+        image = bpy.data.images.load(path)
+        image.pack()
+        image.colorspace_settings.name = space
+        images.index_of(SimpleNamespace(image=image, image_user=None), print)
+    first, second, data = images.sources
+    assert first is second and data is not first
+    np.testing.assert_array_equal(data.read(), random_bytes(9, 6))
+
+
 def test_headers(tmp_path: Path) -> None:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     found = {}
