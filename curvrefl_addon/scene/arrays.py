@@ -87,9 +87,10 @@ class ImageSource:
     """Pixels are encoded: they are interpolated first, then made linear, as Cycles does"""
     is_opaque: bool
     """Alpha is 1 everywhere"""
+    range: tuple[float, float]
+    """No pixel has less or more, as they are kept"""
     read: Callable[[], NDArray[np.uint8] | NDArray[np.float16] | Float32Array]
-    """(height, width, 4), row 0 at the bottom (v = 0), colors multiplied with alpha where Cycles keeps them so. Raises
-    OSError where they are no longer to be had."""
+    """(height, width, 4), row 0 at the bottom; colors times alpha where Cycles keeps them so. OSError: they are gone"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -136,7 +136,7 @@ vec4 image_decoded(ImagePlace image, vec4 value, bool divides)
   }
   if (image.is_encoded) {
     vec3 curve = pow((max(value.rgb, 0.0) + 0.055) / 1.055, vec3(2.4));
-    value.rgb = mix(curve, max(value.rgb, 0.0) / 12.92, lessThan(value.rgb, vec3(0.04045)));
+    value.rgb = mix(curve, max(value.rgb, 0.0) / 12.92, vec3(lessThan(value.rgb, vec3(0.04045))));
   }
   return value;
 }

@@ -10,8 +10,10 @@ one by one (`gpu_shaders/programs/images.glsl`), as Cycles has its own ways of i
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from typing import Any
+
+import numpy as np
 
 from ...scene.arrays import ImageSource
 from ...scene.names import listed
@@ -25,6 +27,9 @@ from .image_rows import MOST_ARRAYS, PAGE_BITS, ImageArray, Place, bins, within
 DEFAULT_CAP = 1 << 30
 """Bytes"""
 _BYTES, _HALVES = "image_bytes_", "image_halves_"
+
+
+_UNUSED = ImageSource("", 0, 0, True, False, True, (0.0, 1.0), lambda: np.zeros((0, 0, 4), np.uint8))
 
 
 @gpu_cache
@@ -105,9 +110,11 @@ class ImagePages:
         assert len(records) == IMAGE_RECORDS
         return records
 
-    def follow(self, images: Sequence[ImageSource]) -> bool:
-        """These are to be there, in the order of their indices. What is new is there only after `fill`. Says whether
-        `piece` changed: shaders with it are to be built anew."""
+    def follow(self, images: Sequence[ImageSource], used: Container[int] | None = None) -> bool:
+        """These are to be there, in the order of their indices, or those of the indices `used` alone. What is new is
+        there only after `fill`. Says whether `piece` changed: shaders with it are to be built anew."""
+        if used is not None:
+            images = [image if number in used else _UNUSED for number, image in enumerate(images)]
         if len(images) == len(self._images) and all(map(lambda a, b: a is b, images, self._images)):
             return False
         before = self.piece

@@ -60,7 +60,8 @@ class Programs:
         self._numbers = {shape: number for number, shape in enumerate(self.shapes)}
         self.attributes = attributes_of(scene)
         """All that they read of meshes, in the order of their numbers"""
-        self._pages.follow(scene.images if programs else ())
+        # (Others are the world's and lamps'.)
+        self._pages.follow(scene.images, {use.image for program in programs for use in program.images})
         if is_needed(scene):
             self._instances = self._instances or InstanceTable()
             self._instances.follow(scene)

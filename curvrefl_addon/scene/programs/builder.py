@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..arrays import ImageSource
 from ..materials.node_links import Source, find_input
 from .expression import Expression, Kind, glsl_type
 from .program import IMAGE_RECORDS, Attribute, ImageUse, Program, Shape
@@ -28,8 +29,8 @@ class Images(Protocol):
         """Place in `SceneArrays.images` of an image node's image, or of this one of its tiles; None where it has no
         image."""
 
-    def is_opaque(self, index: int) -> bool:
-        """Whether alpha is known to be 1 everywhere."""
+    def source(self, index: int) -> ImageSource:
+        """What is at a place in it."""
 
 
 class Builder:
@@ -196,10 +197,10 @@ class Builder:
         self._uses.append(ImageUse(first, index))
         return first
 
-    def is_opaque_image(self, source: Source) -> bool:
-        """Whether alpha of the image of the source's node is known to be 1 everywhere."""
-        index = self._images.index_of(source.node, self.note)
-        return index is not None and self._images.is_opaque(index)
+    def image_source(self, source: Source, tile: int = 0) -> ImageSource | None:
+        """What is known of that image."""
+        index = self._images.index_of(source.node, self.note, tile)
+        return None if index is None else self._images.source(index)
 
     def need(self, name: str) -> None:
         """A define that the program's ShadingPoint needs (`programs/shading_point.glsl`)."""

@@ -39,6 +39,8 @@ FIRST_TILE = 1001
 _LINEAR = ("Linear", "Raw", "scene_linear")
 """Names of the working space beside its own"""
 
+_OF_BYTES = (0.0, 1.0)
+
 type _Key = tuple[int, str, int, int, str, str]
 """Image (session_uid), file shown, frame of a sequence or -1, tile or 0, color space, alpha mode"""
 
@@ -58,6 +60,8 @@ class ProgramImages:
         self._sources: list[ImageSource] = []
         self._places: dict[_Key, int] = {}
         self._kept: dict[_Key, _Kept] = {}
+        self._contents: dict[Any, ImageSource] = {}
+        """By what packed files have in them"""
 
     @property
     def sources(self) -> tuple[ImageSource, ...]:
@@ -77,6 +81,8 @@ class ProgramImages:
     def restart(self) -> None:
         """All nodes are asked anew. Images that they show again stay the same objects."""
         self._kept = {key: kept for key, kept in self._kept.items() if key in self._places}
+        shown = {id(kept.source) for kept in self._kept.values()}
+        self._contents = {key: source for key, source in self._contents.items() if id(source) in shown}
         self._sources.clear()
         self._places.clear()
 
@@ -104,16 +110,20 @@ class ProgramImages:
         )
         if key not in self._places:
             if key not in self._kept:
-                remarks: list[Remark] = []
-                self._kept[key] = _Kept(_Reading(image, file, tile, remarks).source(), tuple(remarks))
+                reading = _Reading(image, file, tile)
+                source = reading.source()
+                if reading.content is not None:
+                    # (Imported models bring the same image many times.)
+                    source = self._contents.setdefault(reading.content, source)
+                self._kept[key] = _Kept(source, tuple(reading.remarks))
                 self.reads += 1
             self._places[key] = len(self._sources)
             self._sources.append(self._kept[key].source)
         return self._places[key]
 
-    def is_opaque(self, index: int) -> bool:
+    def source(self, index: int) -> ImageSource:
         """As in `builder.Images`."""
-        return self._sources[index].is_opaque
+        return self._sources[index]
 
 
 def uses_alpha(image: bpy.types.Image) -> bool:
@@ -144,11 +154,13 @@ def _file_of(image: bpy.types.Image, user: Any, tile: int, note: Callable[[str],
 class _Reading:
     """One image while it is looked at."""
 
-    def __init__(self, image: bpy.types.Image, file: str, tile: int, remarks: list[Remark]) -> None:
+    def __init__(self, image: bpy.types.Image, file: str, tile: int) -> None:
         self._image = image
         self._file = file
         self._tile = tile
-        self._remarks = remarks
+        self.remarks: list[Remark] = []
+        self.content: Any = None
+        """Equal for images that are alike, where that is known"""
         space = image.colorspace_settings.name
         self._is_data = space == DATA
         self._is_linear = self._is_data or space in _LINEAR or space == working_space()
@@ -204,7 +216,9 @@ class _Reading:
             multiplies = False
         read = partial(_read_bytes, file, (header.height, header.width), multiplies, image.alpha_mode == "NONE")
         if self._is_linear or self._is_srgb:
-            return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, read)
+            if isinstance(file, bytes):
+                self.content = len(file), hash(file), multiplies, image.alpha_mode == "NONE", self._is_srgb
+            return ImageSource(image.name, header.width, header.height, True, self._is_srgb, is_opaque, _OF_BYTES, read)
         try:
             return self._of_values(_read_bytes(file, (header.height, header.width), False, False), multiplies)
         except OSError:
@@ -233,7 +247,7 @@ class _Reading:
             return self._of_values(pixels, False, False)
         height, width = pixels.shape[:2]
         read = partial(_read_floats, self._file, (height, width))
-        return ImageSource(self._image.name, width, height, False, self._is_srgb, True, read)
+        return ImageSource(self._image.name, width, height, False, self._is_srgb, True, _range_of(pixels), read)
 
     def _of_values(self, values: NDArray[Any], multiplies: bool, is_whole: bool = True) -> ImageSource:
         """Of bytes or floats as they are in a file; `is_whole`: of whole numbers there."""
@@ -278,10 +292,11 @@ class _Reading:
         height, width = kept.shape[:2]
         is_opaque = bool(kept[..., 3].min() == (255 if kept.dtype == np.uint8 else 1.0))
         is_bytes = kept.dtype == np.uint8
-        return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, lambda: kept)
+        limits = _OF_BYTES if is_bytes else _range_of(kept)
+        return ImageSource(self._image.name, width, height, is_bytes, is_srgb, is_opaque, limits, lambda: kept)
 
     def _remark(self, cause: str) -> None:
-        self._remarks.append(Remark(cause, "image", self._image.name))
+        self.remarks.append(Remark(cause, "image", self._image.name))
 
 
 def _packed(image: bpy.types.Image, tile: int) -> bytes | None:
@@ -312,6 +327,10 @@ def _read_bytes(file: str | bytes, shape: tuple[int, int], multiplies: bool, ign
     return multiplied(pixels) if multiplies else pixels
 
 
+def _range_of(pixels: NDArray[Any]) -> tuple[float, float]:
+    return float(pixels.min()), float(pixels.max())
+
+
 def _missing(name: str) -> ImageSource:
     """Cycles shows magenta."""
-    return ImageSource(name, 0, 0, True, False, True, lambda: np.zeros((0, 0, 4), np.uint8))
+    return ImageSource(name, 0, 0, True, False, True, _OF_BYTES, lambda: np.zeros((0, 0, 4), np.uint8))

@@ -38,7 +38,7 @@ def source_of(values: np.ndarray, is_srgb: bool = False) -> ImageSource:
     height, width = values.shape[:2]
     is_bytes = values.dtype == np.uint8
     is_opaque = bool((values[..., 3] == (255 if is_bytes else 1.0)).all())
-    return ImageSource("image", width, height, is_bytes, is_srgb, is_opaque, lambda: values)
+    return ImageSource("image", width, height, is_bytes, is_srgb, is_opaque, (0.0, 1.0), lambda: values)
 
 
 def random_bytes(width: int, height: int, seed: int = 0, is_opaque: bool = False) -> np.ndarray:
@@ -88,7 +88,7 @@ def test_what_stays_is_not_read_again() -> None:
     values = random_bytes(64, 64)
 
     def counted(number: int) -> ImageSource:
-        return ImageSource("image", 64, 64, True, False, False, lambda: (reads.append(number), values)[1])
+        return ImageSource("image", 64, 64, True, False, False, (0.0, 1.0), lambda: (reads.append(number), values)[1])
 
     first, second, third = (counted(number) for number in range(3))
     pages = ImagePages()
@@ -111,6 +111,8 @@ def test_what_stays_is_not_read_again() -> None:
         pages.follow(images)
         pages.fill()
     assert len(pages.piece.samplers) <= 3
+    pages.follow(images, {1})
+    assert pages.records(0)[0][1] == 0.0 and pages.records(1)[0][1] == 64.0
     assert pages.follow([])
     assert pages.bytes_used == 0 and pages.is_complete
 
@@ -146,7 +148,7 @@ def test_an_image_that_is_gone_is_magenta() -> None:
         raise OSError("gone")
 
     pages = ImagePages()
-    pages.follow([ImageSource("lost", 8, 8, True, False, True, fails), source_of(random_bytes(8, 8))])
+    pages.follow([ImageSource("lost", 8, 8, True, False, True, (0.0, 1.0), fails), source_of(random_bytes(8, 8))])
     assert pages.fill()
     assert pages.records(0)[0][1] == 0.0 and pages.records(1)[0][1] == 8.0
     assert pages.warnings == ('Images that can no longer be read are drawn magenta: "lost".',)
@@ -186,6 +188,20 @@ def test_files_are_read_when_they_are_asked_for(tmp_path: Path) -> None:
         images.sources[0].read()
     node.image = None
     assert images.index_of(node, print) is None
+
+
+def test_equal_packed_images_are_one(tmp_path: Path) -> None:
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    path = saved(tmp_path / "a.png", random_bytes(9, 6))
+    images = ProgramImages()
+    for space in ("sRGB", "sRGB", "Non-Color"):
+        image = bpy.data.images.load(path)
+        image.pack()
+        image.colorspace_settings.name = space
+        images.index_of(SimpleNamespace(image=image, image_user=None), print)
+    first, second, data = images.sources
+    assert first is second and data is not first
+    np.testing.assert_array_equal(data.read(), random_bytes(9, 6))
 
 
 def test_headers(tmp_path: Path) -> None:

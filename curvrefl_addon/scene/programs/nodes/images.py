@@ -4,8 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
 
+from ...arrays import ImageSource
+from ...camera.srgb import srgb_to_linear
 from ...materials.node_links import Source
 from ..builder import Builder, Handler
 from ..expression import Expression
@@ -42,23 +46,52 @@ def _texture(b: Builder, source: Source, extension: str) -> Expression | None:
             return b.parameter(1.0)
         missing = b.parameter(*_MISSING)
         return Expression(missing.text, "color", missing.constant, missing.low, missing.high)
-    if is_alpha and extension != "IMAGE_CLIP" and node.image.source != "TILED" and b.is_opaque_image(source):
+    images = _images(b, source)
+    is_bordered = extension == "IMAGE_CLIP" or node.image.source == "TILED"
+    if is_alpha and not is_bordered and all(image.is_opaque for image in images):
         return b.parameter(1.0)
+    divides = _divides(node)
     key = ("image", node.as_pointer(), tuple(group.as_pointer() for group in source.groups))
-    value = b.shared(key, lambda: _looked_up(b, source, extension))
+    value = b.shared(key, lambda: _looked_up(b, source, extension, divides))
     if is_alpha:
         return Expression(f"{value.text}.w", "float", None, 0.0, 1.0)
-    # (Of the colors of floats only Cycles' black border is known; negative ones are rare and right too.)
-    return Expression(f"{value.text}.xyz", "color")
+    low, high = _range(images, divides and node.image.alpha_mode == "PREMUL")
+    if is_bordered:
+        # (Black beyond the border, magenta where there is no tile.)
+        low, high = min(low, 0.0), max(high, 1.0)
+    return Expression(f"{value.text}.xyz", "color", None, low, high)
 
 
-def _looked_up(b: Builder, source: Source, extension: str) -> Expression:
+def _images(b: Builder, source: Source) -> list[ImageSource]:
+    image = source.node.image
+    tiles = [tile.number for tile in image.tiles] if image.source == "TILED" else [0]
+    return [found for tile in tiles if (found := b.image_source(source, tile)) is not None]
+
+
+def _divides(node: Any) -> bool:
+    """Colors are divided by alpha: Cycles looks at alpha by itself where anything uses it."""
+    alpha = node.outputs.get("Alpha")
+    return alpha is not None and uses_alpha(node.image) and any(not link.is_muted for link in alpha.links)
+
+
+def _range(images: Iterable[ImageSource], exceeds_alpha: bool) -> tuple[float, float]:
+    """Of colors in the scene; `exceeds_alpha`: divided by alpha they may be above 1."""
+    ranges = [(0.0, 1.0)]
+    for image in images:
+        low, high = image.range
+        if not image.is_opaque and (exceeds_alpha or not image.is_bytes):
+            low, high = (0.0 if low >= 0.0 else -math.inf), math.inf
+        elif image.is_srgb:
+            low, high = (float(srgb_to_linear(max(value, 0.0))) for value in image.range)
+        ranges.append((low, high))
+    lows, highs = zip(*(ranges[1:] or ranges), strict=True)
+    return min(lows), max(highs)
+
+
+def _looked_up(b: Builder, source: Source, extension: str, divides: bool) -> Expression:
     node = source.node
     interpolation = _INTERPOLATIONS[node.interpolation]
-    # (Cycles looks at alpha by itself where anything uses it.)
-    alpha = node.outputs.get("Alpha")
-    divides = alpha is not None and uses_alpha(node.image) and any(not link.is_muted for link in alpha.links)
-    more = (extension, bool(divides))
+    more = (extension, divides)
     is_environment = node.type == "TEX_ENVIRONMENT"
     if is_environment and not b.is_linked(source, "Vector"):
         b.depend("position")
