@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lamps whose nodes say more than a color: maps by direction, or over an area lamp, that their light is multiplied with.
+"""Lamps whose nodes say more than a color: maps by direction, or over an area lamp, which their light is multiplied by.
 
 A map is a square: of an area lamp it is the lamp, of a spot the window of its cone, of all others octahedral over the
 world's directions.
@@ -128,7 +128,8 @@ def _baked(light: LightArrays) -> BakedLamp:
     if light.kind == "AREA":
         # Each of the few places that light is looked up from stands for all about it.
         seen, times = lit, LOOK_SIZE // AREA_CELLS
-        lit = averaged(lit, AREA_CELLS, AREA_CELLS).repeat(times, axis=0).repeat(times, axis=1)
+        cells = averaged(lit, AREA_CELLS, AREA_CELLS).astype(np.float32)
+        lit = cells.repeat(times, axis=0).repeat(times, axis=1)
     # (Another object, by which its layers are found.)
     return BakedLamp(replace(light), lit, seen, baker.warnings)
 

@@ -28,7 +28,7 @@ def sky_texture(b: Builder, source: Source) -> Expression:
     assert node is not None
     vector = texture_vector(b, source)
     apart = b.is_world and is_plain(b, source)
-    first = b.table(xyz_to_scene())
+    first = b.table(xyz_to_scene(np.eye(3)).T)
     kind = node.sky_type
     if kind in ("PREETHAM", "HOSEK_WILKIE"):
         x, y, z = node.sun_direction.normalized()
