@@ -19,8 +19,10 @@ from ....scene.programs.emitting import QUADRATIC
 from ...device.textures import texture_layers
 from ...programs.instance_table import PLAIN_VALUES
 from .bake import AREA, DISC, LAMP, LIGHTING, SPOT, Baker, Directions
+from .world import DISC_SIZE
 
 LOOK_SIZE = 256
+"""Texels along a map"""
 AREA_CELLS = 4
 """Along an area lamp, of what it lights with"""
 EVEN_SIZE = 4
@@ -42,7 +44,7 @@ class BakedLamp:
     lit: Float32Array | None = None
     """(LOOK_SIZE, LOOK_SIZE, 3) what its light is multiplied with"""
     seen: Float32Array | None = None
-    """The same in full, of what rays see of it; None where `lit` serves"""
+    """The same of what rays see of it; None where `lit` serves"""
     warnings: tuple[str, ...] = ()
 
 
@@ -56,21 +58,31 @@ class LampLooks:
         self.features: frozenset[str] = frozenset()
         self.warnings: tuple[str, ...] = ()
 
-    def follow(self, lights: tuple[LightArrays, ...]) -> tuple[LightArrays, ...]:
-        """These lamps without their programs; what is the same object as last time stays one."""
+    def follow(
+        self, lights: tuple[LightArrays, ...], suns: tuple[LightArrays, ...], sun_looks: tuple[Float32Array, ...]
+    ) -> tuple[LightArrays, ...]:
+        """These lamps without their programs, and the world's suns, with what rays see of them; what is the same object
+        as last time stays one."""
         known, self._baked = self._baked, {}
         for light in lights:
             before = known.get(id(light))
             is_known = before is not None and before[0] is light
             self._baked[id(light)] = before if before is not None and is_known else (light, _baked(light))
         lamps = [baked for _, baked in self._baked.values()]
-        looks = [look for lamp in lamps for look in (lamp.lit, lamp.seen) if look is not None]
+        times = LOOK_SIZE // DISC_SIZE
+        for sun, look in zip(suns, sun_looks, strict=True):
+            lamps.append(BakedLamp(sun, None, look.repeat(times, axis=0).repeat(times, axis=1)))
+        looks: list[Float32Array] = []
         self._layers = {}
-        count = 0
         for lamp in lamps:
+            lit = seen = -1
             if lamp.lit is not None:
-                self._layers[id(lamp.light)] = count, count + (lamp.seen is not None)
-                count += 1 + (lamp.seen is not None)
+                lit = seen = len(looks)
+                looks.append(lamp.lit)
+            if lamp.seen is not None:
+                seen = len(looks)
+                looks.append(lamp.seen)
+            self._layers[id(lamp.light)] = lit, seen
         self._texture = None
         if looks:
             layers = np.ones((len(looks), LOOK_SIZE, LOOK_SIZE, 4), np.float32)
