@@ -27,6 +27,11 @@ vec3 lamp_look(int base, float layer, int kind, vec3 from_lamp, vec3 place)
       across = vec2(dot(from_lamp, axis_x), dot(from_lamp, cross(axis_x, shines))) /
                (max(dot(from_lamp, shines), 1e-6) * sqrt(max(1.0 - edge * edge, 1e-12)) / max(edge, 1e-6));
     }
+    else if (kind == LAMP_SUN) {
+      vec2 away = -vec2(dot(from_lamp, axis_x), dot(from_lamp, lighting_data[base + 5].xyz));
+      float sine = length(away);
+      across = away * (asin(min(sine, 1.0)) / max(sine * acos(lighting_data[base + 3].w), 1e-9));
+    }
     else if (kind == LAMP_AREA) {
       vec3 axis_y = lighting_data[base + 5].xyz, away = place - lighting_data[base + 2].xyz;
       across = vec2(dot(away, axis_x) / dot(axis_x, axis_x), dot(away, axis_y) / dot(axis_y, axis_y));

@@ -268,8 +268,8 @@ class Lighting:
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
-        lights = self._looks.follow(self._scene.lights)
-        self._lights = self._chosen_lights(lights + self._suns)
+        lights = self._looks.follow(self._scene.lights, self._baked.suns, self._baked.looks)
+        self._lights = self._chosen_lights(lights + self._image_suns)
         self._lamp_warnings += self._looks.warnings
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
@@ -280,11 +280,11 @@ class Lighting:
 
     def _read_world(self) -> None:
         """Choose the world's directions; fill its textures."""
-        baked = baked_world(self._scene.world)
+        baked = self._baked = baked_world(self._scene.world)
         world = self._world = baked.glossy
         self._sky = split_suns(world)
         even = self._sky if baked.diffuse is world else split_suns(baked.diffuse)
-        self._suns = baked.suns + suns_of_kinds(self._sky, even)
+        self._image_suns = suns_of_kinds(self._sky, even)
         lit = shines(world, world.visible_glossy) or shines(baked.diffuse, world.visible_diffuse)
         at_once = DIRECTIONS_AT_ONCE if self.sub_frames > 1 else DIRECTIONS_ALONE
         most = WORLD_DIRECTIONS_OF_MANY if self._many else WORLD_DIRECTIONS

@@ -10,7 +10,10 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting.programs.world import baked_world
-from extraction import extracted
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.settings import Settings
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
+from extraction import cycles_picture, extracted, link
 from lighting.skies import all_directions, all_directions_by_cycles, new_world
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -112,3 +115,24 @@ def test_what_the_camera_sees_may_differ() -> None:
     baked = baked_world(extracted().world)
     assert baked.seen.color == (1.0, 0.0, 0.0) and baked.glossy.color == (0.0, 0.5, 0.0)
     assert baked.diffuse is baked.glossy and baked.glossy.image is None and baked.warnings == ()
+
+
+def test_the_sun_is_a_disc_where_it_is_seen() -> None:
+    """Its limb is darker than its middle, and the earth hides a part of it."""
+    new_world(
+        "ShaderNodeTexSky",
+        sun_elevation=0.02,
+        sun_rotation=0.15,
+        sun_size=0.3,
+        sun_intensity=0.005,
+        aerosol_density=0.5,
+    )
+    scene = bpy.context.scene
+    camera = bpy.data.cameras.new("camera")
+    camera.angle = 0.5
+    scene.camera = link(bpy.data.objects.new("camera", camera))
+    scene.camera.rotation_euler = (0.5 * np.pi, 0.0, -0.15)
+    ours = Renderer(extracted(), Settings(samples=16)).render(view_of_camera(scene, scene.camera, 48, 48)).color()
+    cycles = cycles_picture(48, 48, 64)
+    error = np.abs(ours[..., :3] - cycles).max(axis=-1) / float(cycles.max())
+    assert np.quantile(error, 0.9) < 0.01, np.quantile(error, [0.5, 0.8, 0.9, 0.95, 1.0])

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays
+from curvrefl.curvrefl_addon.scene.programs.emitting import LINEAR
 from extraction import add_square, cycles_picture, empty_scene, extracted, link, look_down, new_material
 
 SMALL: dict[str, dict[str, Any]] = {
@@ -131,4 +132,8 @@ def test_nodes_of_a_lamp() -> None:
     np.testing.assert_allclose(read(obj).color, (20.0, 10.0, 0.0))
     falloff = tree.nodes.new("ShaderNodeLightFalloff")
     tree.links.new(falloff.outputs["Linear"], emission.inputs["Strength"])
-    assert any('"lamp"' in warning for warning in extracted().warnings)
+    scene = extracted()
+    (light,) = scene.lights
+    assert scene.warnings == () and light.emitter is not None
+    assert light.emitter.program is None and light.emitter.falloff == LINEAR
+    np.testing.assert_allclose(light.color, (1000.0, 500.0, 0.0))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lamps whose nodes say more than a color: maps by direction, or over an area lamp, that their light is multiplied with.
+"""Lamps whose nodes say more than a color: maps by direction, or over an area lamp, which their light is multiplied by.
 
 A map is a square: of an area lamp it is the lamp, of a spot the window of its cone, of all others octahedral over the
 world's directions.
@@ -19,8 +19,10 @@ from ....scene.programs.emitting import QUADRATIC
 from ...device.textures import texture_layers
 from ...programs.instance_table import PLAIN_VALUES
 from .bake import AREA, DISC, LAMP, LIGHTING, SPOT, Baker, Directions
+from .world import DISC_SIZE
 
 LOOK_SIZE = 256
+"""Texels along a map"""
 AREA_CELLS = 4
 """Along an area lamp, of what it lights with"""
 EVEN_SIZE = 4
@@ -42,7 +44,7 @@ class BakedLamp:
     lit: Float32Array | None = None
     """(LOOK_SIZE, LOOK_SIZE, 3) what its light is multiplied with"""
     seen: Float32Array | None = None
-    """The same in full, of what rays see of it; None where `lit` serves"""
+    """The same of what rays see of it; None where `lit` serves"""
     warnings: tuple[str, ...] = ()
 
 
@@ -56,21 +58,31 @@ class LampLooks:
         self.features: frozenset[str] = frozenset()
         self.warnings: tuple[str, ...] = ()
 
-    def follow(self, lights: tuple[LightArrays, ...]) -> tuple[LightArrays, ...]:
-        """These lamps without their programs; what is the same object as last time stays one."""
+    def follow(
+        self, lights: tuple[LightArrays, ...], suns: tuple[LightArrays, ...], sun_looks: tuple[Float32Array, ...]
+    ) -> tuple[LightArrays, ...]:
+        """These lamps without their programs, and the world's suns, with what rays see of them; what is the same object
+        as last time stays one."""
         known, self._baked = self._baked, {}
         for light in lights:
             before = known.get(id(light))
             is_known = before is not None and before[0] is light
             self._baked[id(light)] = before if before is not None and is_known else (light, _baked(light))
         lamps = [baked for _, baked in self._baked.values()]
-        looks = [look for lamp in lamps for look in (lamp.lit, lamp.seen) if look is not None]
+        times = LOOK_SIZE // DISC_SIZE
+        for sun, look in zip(suns, sun_looks, strict=True):
+            lamps.append(BakedLamp(sun, None, look.repeat(times, axis=0).repeat(times, axis=1)))
+        looks: list[Float32Array] = []
         self._layers = {}
-        count = 0
         for lamp in lamps:
+            lit = seen = -1
             if lamp.lit is not None:
-                self._layers[id(lamp.light)] = count, count + (lamp.seen is not None)
-                count += 1 + (lamp.seen is not None)
+                lit = seen = len(looks)
+                looks.append(lamp.lit)
+            if lamp.seen is not None:
+                seen = len(looks)
+                looks.append(lamp.seen)
+            self._layers[id(lamp.light)] = lit, seen
         self._texture = None
         if looks:
             layers = np.ones((len(looks), LOOK_SIZE, LOOK_SIZE, 4), np.float32)
@@ -128,7 +140,8 @@ def _baked(light: LightArrays) -> BakedLamp:
     if light.kind == "AREA":
         # Each of the few places that light is looked up from stands for all about it.
         seen, times = lit, LOOK_SIZE // AREA_CELLS
-        lit = averaged(lit, AREA_CELLS, AREA_CELLS).repeat(times, axis=0).repeat(times, axis=1)
+        cells = averaged(lit, AREA_CELLS, AREA_CELLS).astype(np.float32)
+        lit = cells.repeat(times, axis=0).repeat(times, axis=1)
     # (Another object, by which its layers are found.)
     return BakedLamp(replace(light), lit, seen, baker.warnings)
 

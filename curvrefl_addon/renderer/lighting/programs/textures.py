@@ -36,8 +36,8 @@ class WorldTextures:
             image = np.ones((1, 1, 3), np.float32) if world.seen.image is None else world.seen.image
             self._seen = _texture(WorldArrays(image=image * np.asarray(world.seen.color, np.float32)))
         self.features = frozenset() if self._seen is None else frozenset({SEEN})
-        image = world.glossy.image
-        is_too_large = image is not None and max(image.shape) > largest_texture()
+        shown = world.glossy.image
+        is_too_large = shown is not None and max(shown.shape) > largest_texture()
         self.warnings = (*world.warnings, *((FEWER_PIXELS,) if is_too_large else ()))
 
     def bind(self, shader: Any) -> None:

@@ -20,7 +20,7 @@ EVEN_WIDTH = 64
 """Of one whose color is the same everywhere"""
 PROBE_WIDTH = 128
 """Of what only tells whether two kinds of rays see the same"""
-DISC_SIZE = 32
+DISC_SIZE = 64
 SMALLEST_DIFFERENCE = 1e-4
 """Of what two kinds of rays see, as a share of the brightest"""
 
@@ -36,6 +36,8 @@ class BakedWorld:
     diffuse: WorldArrays
     suns: tuple[LightArrays, ...] = ()
     """In addition, seen as well"""
+    looks: tuple[Float32Array, ...] = ()
+    """(DISC_SIZE, DISC_SIZE, 3) of each sun: what rays see of it, over its mean"""
     warnings: tuple[str, ...] = ()
 
 
@@ -80,11 +82,17 @@ def _bake(world: WorldArrays) -> BakedWorld:
             size = (EVEN_WIDTH // 2, EVEN_WIDTH, 3)
             worlds[kind] = replace(plain, image=np.broadcast_to(image, size).copy() if len(image) == 1 else image)
     suns = [sun for disc in emitter.discs for sun in _suns(world, baker, disc, (GLOSSY, *differs))]
+    looks = tuple(look for _, look in suns)
     warnings = baker.warnings
     if TRANSMISSION in others:
         warnings += ("Through glass the world is drawn as mirrors show it.",)
     return BakedWorld(
-        worlds.get(CAMERA, worlds[GLOSSY]), worlds[GLOSSY], worlds.get(DIFFUSE, worlds[GLOSSY]), tuple(suns), warnings
+        worlds.get(CAMERA, worlds[GLOSSY]),
+        worlds[GLOSSY],
+        worlds.get(DIFFUSE, worlds[GLOSSY]),
+        tuple(sun for sun, _ in suns),
+        looks,
+        warnings,
     )
 
 
@@ -99,8 +107,10 @@ def _image(baker: Baker, width: int, kind: int) -> Float32Array:
     return pixels[:1, :1] if (pixels == pixels[0, 0]).all() else pixels
 
 
-def _suns(world: WorldArrays, baker: Baker, disc: SunDisc, kinds: tuple[int, ...]) -> list[LightArrays]:
-    """Lamps for a disc: one for all rays, or one for each kind."""
+def _suns(
+    world: WorldArrays, baker: Baker, disc: SunDisc, kinds: tuple[int, ...]
+) -> list[tuple[LightArrays, Float32Array]]:
+    """Lamps for a disc, and how they look: one for all rays, or one for each kind."""
     middle = np.array(disc.direction)
     helper = np.array((0.0, 0.0, 1.0)) if abs(middle[2]) < 0.999 else np.array((0.0, 1.0, 0.0))
     right = np.cross(helper, middle)
@@ -113,30 +123,39 @@ def _suns(world: WorldArrays, baker: Baker, disc: SunDisc, kinds: tuple[int, ...
     matrix[:3, :3] = np.column_stack([right, up, middle])
     found = []
     for kind in kinds:
-        radiance = _disc_radiance(baker, directions, half, kind)
+        radiance, look = _disc_radiance(baker, directions, half, kind)
         red, green, blue = (np.pi * np.sin(half) ** 2 * radiance).tolist()
+        if not radiance.any():
+            continue
         by_glossy = kind == GLOSSY
-        found.append(
-            LightArrays(
-                "sun of the world",
-                "SUN",
-                (red, green, blue),
-                matrix,
-                angle=disc.angle,
-                visible_camera=world.visible_camera and (kind == CAMERA or (by_glossy and CAMERA not in kinds)),
-                visible_glossy=world.visible_glossy and by_glossy,
-                lights_diffuse=world.visible_diffuse and (kind == DIFFUSE or (by_glossy and DIFFUSE not in kinds)),
-                lights_glossy=world.visible_glossy and by_glossy,
-            )
+        sun = LightArrays(
+            "sun of the world",
+            "SUN",
+            (red, green, blue),
+            matrix,
+            angle=disc.angle,
+            visible_camera=world.visible_camera and (kind == CAMERA or (by_glossy and CAMERA not in kinds)),
+            visible_glossy=world.visible_glossy and by_glossy,
+            lights_diffuse=world.visible_diffuse and (kind == DIFFUSE or (by_glossy and DIFFUSE not in kinds)),
+            lights_glossy=world.visible_glossy and by_glossy,
         )
-    return [sun for sun in found if any(sun.color)]
+        found.append((sun, look))
+    return found
 
 
-def _disc_radiance(baker: Baker, directions: Directions, half: float, kind: int) -> Float64Array:
-    """(3,) mean over the disc of what the sun adds to the sky."""
+def _disc_radiance(baker: Baker, directions: Directions, half: float, kind: int) -> tuple[Float64Array, Float32Array]:
+    """(3,) mean over the disc of what the sun adds to the sky, and (DISC_SIZE, DISC_SIZE, 3) that over its mean."""
     more = baker.bake(directions, kind) - baker.bake(directions, kind, without_suns=True)
     steps = 2.0 * (np.arange(DISC_SIZE) + 0.5) / DISC_SIZE - 1.0
     radius = np.hypot(steps, steps[:, None])
     angle = radius * half
     weights = np.where(radius < 1.0, np.sin(angle) / np.maximum(angle, 1e-12), 0.0)
-    return np.asarray((more * weights[..., None]).sum(axis=(0, 1)) / weights.sum(), np.float64)
+    mean = np.asarray((more * weights[..., None]).sum(axis=(0, 1)) / weights.sum(), np.float64)
+    # Outside of the disc as on its rim, which is interpolated.
+    inside = np.maximum(radius / (1.0 - 1.5 / DISC_SIZE), 1.0)
+    rows, columns = (
+        np.clip(((steps_here / inside + 1.0) * 0.5 * DISC_SIZE).astype(int), 0, DISC_SIZE - 1)
+        for steps_here in np.meshgrid(steps, steps, indexing="ij")
+    )
+    look = more[rows, columns] / np.where(mean == 0.0, 1.0, mean)
+    return mean, look.astype(np.float32)
