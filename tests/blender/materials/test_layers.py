@@ -101,17 +101,32 @@ def test_tangents(properties: dict[str, str], turns: tuple[float, float]) -> Non
     np.testing.assert_allclose(found, 0.125 + np.array(turns), atol=1e-5)
 
 
-@pytest.mark.parametrize("is_same", [True, False])
-def test_normals_of_the_coat_alone_are_said(is_same: bool) -> None:
+@pytest.mark.parametrize(("strength", "is_same"), [(None, True), (0.7, True), (0.5, False)])
+def test_normals_of_the_coat_alone_are_said(strength: float | None, is_same: bool) -> None:
+    """Not so where it is the same node, or another one that makes the same."""
     _, tree, shader = cube_of("ShaderNodeBsdfPrincipled", Coat_Weight=0.5)
-    bumps = [node(tree, "ShaderNodeBump", {"Height": node(tree, "ShaderNodeTexNoise").outputs[0]}) for _ in range(2)]
+    image = bpy.data.images.new("image", 4, 4)
+    bumps = []
+    for value in (0.7, strength or 0.7):
+        texture = node(tree, "ShaderNodeTexImage", image=image)
+        bumps.append(node(tree, "ShaderNodeNormalMap", {"Color": texture.outputs[0], "Strength": value}))
     tree.links.new(bumps[0].outputs[0], shader.inputs["Normal"])
-    tree.links.new(bumps[0 if is_same else 1].outputs[0], shader.inputs["Coat Normal"])
+    tree.links.new(bumps[0 if strength is None else 1].outputs[0], shader.inputs["Coat Normal"])
     scene = extracted()
     assert read(scene).varies("normal")
-    assert scene.warnings == (
-        () if is_same else ('Normals of material "cube" that are its coat\'s alone are left out.',)
-    )
+    said = 'Normals of material "cube" that are its coat\'s alone are left out.'
+    assert scene.warnings == (() if is_same else (said,))
+
+
+def test_what_is_one_for_a_whole_material_is_said() -> None:
+    _, tree, shader = cube_of("ShaderNodeBsdfPrincipled")
+    texture = node(tree, "ShaderNodeTexWhiteNoise").outputs["Value"]
+    thick = node(tree, "ShaderNodeMath", {0: texture, 1: 400.0}, operation="MULTIPLY").outputs[0]
+    tree.links.new(thick, shader.inputs["Thin Film Thickness"])
+    scene = extracted()
+    assert read(scene).film_thickness == 200.0 and read(scene).program is None
+    cause = 'The thickness of the thin film of material "cube" differs from place to place and is drawn as one.'
+    assert scene.warnings == (cause,)
 
 
 def test_glass_and_refraction() -> None:

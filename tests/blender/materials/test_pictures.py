@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Textures in pictures, seen directly and in mirrors, beside those of Cycles; images larger than the driver takes."""
+"""Textures in pictures, seen directly and in mirrors, beside those of Cycles; a world's image that is too large."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from curvrefl.curvrefl_addon.renderer.lighting import lighting
 from curvrefl.curvrefl_addon.renderer.lighting.left_out import INDIRECT
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.surfaces import materials
 from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, new_material
 from scene.color_nodes import node, smooth_image
@@ -111,8 +110,8 @@ def test_a_missing_attribute_and_missing_coordinates_are_those_of_cycles() -> No
     assert ours[24, 12].max() < 1e-4 < ours[24, 36].min()
 
 
-def test_images_beyond_the_largest_texture_are_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of a surface and of the world: nearly the same picture, and a sentence each."""
+def test_an_image_beyond_the_largest_texture_is_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the world, which surfaces do not mind: nearly the same picture, and a sentence."""
     scene = empty_scene()
     square = add_square(size=1.0)
     image = bpy.data.images.new("wide", 96, 16, float_buffer=True)
@@ -128,11 +127,9 @@ def test_images_beyond_the_largest_texture_are_made_smaller(monkeypatch: pytest.
     look_down(2.0)
     whole = picture_of()
     assert set(whole.warnings) <= {INDIRECT}
-    for module in (materials, lighting):
-        monkeypatch.setattr(module, "largest_texture", lambda: 64)
+    monkeypatch.setattr(lighting, "largest_texture", lambda: 64)
     smaller = picture_of()
     assert tuple(warning for warning in smaller.warnings if warning != INDIRECT) == (
-        'Fewer pixels of image "wide" are drawn than there are: as many as the graphics driver takes.',
         "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
     )
     assert np.abs(smaller.color() - whole.color()).max() < 0.03
