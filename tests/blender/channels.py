@@ -100,13 +100,15 @@ def channel(material: MaterialArrays, name: str, u: Any, v: Any, random: Any = 0
 
 def channel_on(scene: SceneArrays, name: str, of: str, places: Any, random: Any = 0.5) -> Float32Array:
     """(n, 3) the channel `of` of the one instance of the object called `name`, a flat one, at (n, 2) places of its own
-    plane; it is seen from straight ahead."""
+    plane, XY or XZ; it is seen from straight ahead."""
     (index,) = (k for k, instance in enumerate(scene.instances) if instance.object_name == name)
     instance = scene.instances[index]
     mesh, material = scene.meshes[instance.mesh], scene.materials[instance.materials[0]]
     places = np.asarray(places, np.float64)
-    rows, weights = _corners(mesh, places)
-    local = np.column_stack([places, np.zeros(len(places)), np.ones(len(places))])
+    axes = np.sort(np.argsort(np.ptp(mesh.positions, axis=0))[1:])
+    rows, weights = _corners(mesh, places, axes)
+    local = np.tile((0.0, 0.0, 0.0, 1.0), (len(places), 1))
+    local[:, axes] = places
     attributes = np.zeros((len(places), 0 if material.program is None else len(material.program.attributes), 4))
     if material.program is not None:
         for number, place in enumerate(places_of(material.program.attributes, mesh.attributes)):
@@ -119,11 +121,11 @@ def channel_on(scene: SceneArrays, name: str, of: str, places: Any, random: Any 
     return _evaluated(scene, index, material, of, points)
 
 
-def _corners(mesh: MeshArrays, places: Any) -> tuple[Any, Any]:
+def _corners(mesh: MeshArrays, places: Any, axes: Any) -> tuple[Any, Any]:
     """(n, 3) corners of the triangles that places are in, and their weights."""
     rows, weights = np.zeros((len(places), 3), int), np.full((len(places), 3), -np.inf)
     for triangle in mesh.triangles:
-        a, b, c = (mesh.positions[mesh.corner_vertex[corner], :2].astype(np.float64) for corner in triangle)
+        a, b, c = (mesh.positions[mesh.corner_vertex[corner]][axes].astype(np.float64) for corner in triangle)
         to_weights = np.linalg.inv(np.column_stack([b - a, c - a]))
         uv = (places - a) @ to_weights.T
         found = np.column_stack([1.0 - uv.sum(axis=1), uv])

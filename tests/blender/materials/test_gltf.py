@@ -16,6 +16,7 @@ import addon_utils
 import bpy
 import numpy as np
 import pytest
+from channels import channel_on
 from curvrefl.curvrefl_addon.scene.arrays import Glass, MaterialArrays, SceneArrays
 from extraction import empty_scene, extracted
 
@@ -84,25 +85,27 @@ def made(scene: SceneArrays) -> MaterialArrays:
 TEXTURE = {"index": 0, "extensions": TRANSFORM}
 
 
+CHANNELS = ("base_color", "roughness", "metallic", "alpha")
+
+
+@pytest.mark.usefixtures("gpu")
 @pytest.mark.parametrize("mode", ["MASK", "BLEND", "OPAQUE"])
 def test_roughness_metallic_and_alpha_of_images(tmp_path: Path, mode: str) -> None:
     cutoff = {"alphaCutoff": 0.4} if mode == "MASK" else {}
     pbr = {"baseColorTexture": TEXTURE, "metallicRoughnessTexture": TEXTURE, "baseColorFactor": [1, 1, 1, 0.75]}
     scene = imported(tmp_path, {"alphaMode": mode, **cutoff, "pbrMetallicRoughness": pbr})
     material = made(scene)
-    assert material.scalars is not None and material.scalars.uv_scale == (2.0, 3.0) and material.image >= 0
-    assert material.scalars.uv_offset == material.uv_offset and material.uv_scale == (2.0, 3.0)
-    found, values = scene.images[material.scalars.image].pixels, TEXEL[::-1] / 255.0
-    assert found.shape == (8, 8, 4)
-    np.testing.assert_allclose(found[..., 0], values[..., 1], atol=1e-5)
-    np.testing.assert_allclose(found[..., 1], values[..., 2], atol=1e-5)
-    expected = np.ones((8, 8)) if mode == "OPAQUE" else values[..., 3] * 0.75
-    np.testing.assert_allclose(found[..., 3], expected, atol=1e-5)
-    if mode == "MASK":
-        above = (found[..., 3] > material.alpha_threshold) != material.alpha_inverted
-        np.testing.assert_array_equal(above, values[..., 3] * 0.75 >= 0.4)
-    else:
-        assert material.alpha_threshold < 0.0
+    # In the middles of its pixels, rows from above.
+    v, u = (np.mgrid[0:8, 0:8] + 0.5).reshape(2, -1) / 8.0
+    values = TEXEL[(v * 8).astype(int), (u * 8).astype(int)] / 255.0
+    places = np.column_stack([(u - 0.25) / 2.0, (v - 0.5) / 3.0])
+    found = {name: channel_on(scene, "part", name, places) for name in CHANNELS}
+    np.testing.assert_allclose(found["roughness"][:, 0], values[:, 1], atol=1e-5)
+    np.testing.assert_allclose(found["metallic"][:, 0], values[:, 2], atol=1e-5)
+    expected = {"OPAQUE": np.ones(64), "BLEND": values[:, 3] * 0.75, "MASK": values[:, 3] * 0.75 >= 0.4}[mode]
+    np.testing.assert_allclose(found["alpha"][:, 0], expected, atol=1e-5)
+    # (One image for all, which the importer takes for no colors then.)
+    np.testing.assert_allclose(found["base_color"], values[:, :3], atol=1e-5)
     assert material.is_seen_through == (mode != "OPAQUE")
     assert not [warning for warning in scene.warnings if "material" in warning]
 

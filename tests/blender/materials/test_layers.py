@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Layers, films, tangents and glass of materials as read, and what is said of them of mirrors and of scenery."""
+"""Layers, films, tangents and glass of materials as read, and what is said of them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
+from channels import channel_on
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
 from curvrefl.curvrefl_addon.scene.arrays import Glass, MaterialArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.programs.shaders.conductors import f82_reflectances, reflectances
@@ -51,7 +52,6 @@ LAYERS: dict[str, Any] = {
 
 
 def test_layers_of_the_principled_shader() -> None:
-    """Shown in mirrors; of scenery, which is shaded without them, that is said."""
     cube, _, _ = cube_of("ShaderNodeBsdfPrincipled", **LAYERS)
     scene = extracted(cube)
     material = read(scene)
@@ -59,12 +59,10 @@ def test_layers_of_the_principled_shader() -> None:
     np.testing.assert_allclose(material.coat_tint, OTHER[:3], rtol=1e-6)
     assert (material.coat_weight, material.coat_roughness, material.coat_ior) == (0.75, 0.25, 1.75)
     assert (material.film_thickness, material.film_ior) == (400.0, 1.25)
-    assert (material.anisotropy, material.anisotropic_rotation, material.tangent_by_uv) == (0.5, 0.125, False)
-    assert not [warning for warning in scene.warnings if "material" in warning]
-    assert extracted().warnings == tuple(
-        f'{name} of material "cube" is not shown.'
-        for name in ("Thin Film Thickness", "Specular Tint", "Coat Weight", "Anisotropy")
-    )
+    assert (material.anisotropy, material.anisotropic_rotation) == (0.5, 0.125)
+    assert material.program is None
+    for found in (scene, extracted()):
+        assert not [warning for warning in found.warnings if "material" in warning]
 
 
 def test_what_is_seen_through_is_shown_in_full() -> None:
@@ -75,38 +73,60 @@ def test_what_is_seen_through_is_shown_in_full() -> None:
     assert material.is_seen_through and not scene.warnings
 
 
+def test_thin_sheets_let_light_out_on_both_sides() -> None:
+    cube_of("ShaderNodeBsdfPrincipled", Thin_Wall=True, Subsurface_Weight=0.5, Subsurface_Anisotropy=0.5)
+    scene = extracted()
+    material = read(scene)
+    assert (material.subsurface, material.translucency) == (0.0, 0.375) and not scene.warnings
+
+
+@pytest.mark.usefixtures("gpu")
 @pytest.mark.parametrize(
-    ("properties", "by_uv", "said"),
+    ("properties", "turns"),
     [
-        ({"direction_type": "RADIAL", "axis": "Z"}, False, False),
-        ({"direction_type": "RADIAL", "axis": "X"}, False, True),
-        ({"direction_type": "UV_MAP", "uv_map": "UVMap"}, True, True),
+        ({"direction_type": "RADIAL", "axis": "Z"}, (0.0, 0.0)),
+        # About X it points along Y where Z is in the middle, and about Z it points along Y or X there.
+        ({"direction_type": "UV_MAP", "uv_map": "UVMap"}, (-0.25, 0.0)),
     ],
 )
-def test_tangents(properties: dict[str, str], by_uv: bool, said: bool) -> None:
-    cube, tree, shader = cube_of("ShaderNodeBsdfAnisotropic", Anisotropy=-0.5, Rotation=0.25)
+def test_tangents(properties: dict[str, str], turns: tuple[float, float]) -> None:
+    """As what the tangent about Z is turned by: at a place to the right, then at one below."""
+    tree, (shader,) = new_material(add_square(), "ShaderNodeBsdfAnisotropic")
+    shader.inputs["Anisotropy"].default_value, shader.inputs["Rotation"].default_value = -0.5, 0.125
     tree.links.new(node(tree, "ShaderNodeTangent", **properties).outputs[0], shader.inputs["Tangent"])
-    scene = extracted(cube)
-    material = read(scene)
-    assert (material.anisotropy, material.anisotropic_rotation, material.tangent_by_uv) == (-0.5, 0.25, by_uv)
-    assert ('Tangents of material "cube" are drawn about the Z axis.' in scene.warnings) == said
-    assert scene.meshes[0].corner_uv is not None
+    scene = extracted()
+    material = material_of(scene, "square")
+    assert material.anisotropy == -0.5 and not scene.warnings
+    found = channel_on(scene, "square", "anisotropic_rotation", [(0.5, 0.0), (0.0, -0.5)])[:, 0]
+    np.testing.assert_allclose(found, 0.125 + np.array(turns), atol=1e-5)
 
 
-def test_tangents_on_another_uv_map_than_the_color_are_said() -> None:
-    cube, tree, shader = cube_of("ShaderNodeBsdfAnisotropic", Anisotropy=0.5, Roughness=0.0)
-    cube.data.uv_layers.new(name="other")
+@pytest.mark.parametrize(("strength", "is_same"), [(None, True), (0.7, True), (0.5, False)])
+def test_normals_of_the_coat_alone_are_said(strength: float | None, is_same: bool) -> None:
+    """Not so where it is the same node, or another one that makes the same."""
+    _, tree, shader = cube_of("ShaderNodeBsdfPrincipled", Coat_Weight=0.5)
     image = bpy.data.images.new("image", 4, 4)
-    place = node(tree, "ShaderNodeUVMap", uv_map="other")
-    texture = node(tree, "ShaderNodeTexImage", {"Vector": place.outputs[0]}, image=image)
-    tree.links.new(texture.outputs[0], shader.inputs["Color"])
-    tangent = node(tree, "ShaderNodeTangent", direction_type="UV_MAP", uv_map="UVMap")
-    tree.links.new(tangent.outputs[0], shader.inputs["Tangent"])
-    scene = extracted(cube)
-    assert not read(scene).tangent_by_uv
-    assert scene.warnings == (
-        'Tangents of material "cube" are drawn about the Z axis: they are on another UV map than its color.',
-    )
+    bumps = []
+    for value in (0.7, strength or 0.7):
+        texture = node(tree, "ShaderNodeTexImage", image=image)
+        bumps.append(node(tree, "ShaderNodeNormalMap", {"Color": texture.outputs[0], "Strength": value}))
+    tree.links.new(bumps[0].outputs[0], shader.inputs["Normal"])
+    tree.links.new(bumps[0 if strength is None else 1].outputs[0], shader.inputs["Coat Normal"])
+    scene = extracted()
+    assert read(scene).varies("normal")
+    said = 'Normals of material "cube" that are its coat\'s alone are left out.'
+    assert scene.warnings == (() if is_same else (said,))
+
+
+def test_what_is_one_for_a_whole_material_is_said() -> None:
+    _, tree, shader = cube_of("ShaderNodeBsdfPrincipled")
+    texture = node(tree, "ShaderNodeTexWhiteNoise").outputs["Value"]
+    thick = node(tree, "ShaderNodeMath", {0: texture, 1: 400.0}, operation="MULTIPLY").outputs[0]
+    tree.links.new(thick, shader.inputs["Thin Film Thickness"])
+    scene = extracted()
+    assert read(scene).film_thickness == 200.0 and read(scene).program is None
+    cause = 'The thickness of the thin film of material "cube" differs from place to place and is drawn as one.'
+    assert scene.warnings == (cause,)
 
 
 def test_glass_and_refraction() -> None:
@@ -179,7 +199,8 @@ def test_what_is_no_number_is_said(bad: float) -> None:
         tree.links.new(made.outputs[0], shader.inputs[name])
         scene = extracted(cube) if name != "Alpha" else extracted()
         for material in scene.materials:
-            values = [value for value in map(material.__getattribute__, material.__slots__) if value is not None]
+            names = [name for name in material.__slots__ if name != "ranges"]
+            values = [value for value in map(material.__getattribute__, names) if value is not None]
             numbers = np.concatenate([np.ravel(value) for value in values if isinstance(value, (float, tuple))])
             assert np.isfinite(numbers).all(), name
         if np.isnan(bad):

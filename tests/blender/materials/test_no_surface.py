@@ -104,7 +104,7 @@ CHANGES: dict[str, tuple[Change | None, str]] = {
     "no output for Cycles": (not_in_cycles, ""),
     "an output of its own for Cycles": (two_outputs, ""),
     "a color": (replace_output("ShaderNodeRGB", "Surface"), ""),
-    "an image": (image_alone, "Emission"),
+    "an image": (image_alone, ""),
     "full transparency": (replace_output("ShaderNodeBsdfTransparent", "Surface"), ""),
     "alpha 0": (alpha_0, ""),
     "a holdout": (replace_output("ShaderNodeHoldout", "Surface"), "Holdout"),
@@ -174,12 +174,13 @@ def test_displacement_and_a_world_volume_are_said() -> None:
     scene = empty_scene()
     cube = add("cube")
     tree, _ = new_material(cube, "ShaderNodeBsdfDiffuse")
+    cube.data.materials[0].displacement_method = "BOTH"
     tree.links.new(
         node(tree, "ShaderNodeDisplacement").outputs[0], tree.nodes["Material Output"].inputs["Displacement"]
     )
     world = scene.world.node_tree
     world.links.new(node(world, "ShaderNodeVolumeScatter").outputs[0], world.nodes["World Output"].inputs["Volume"])
     assert extracted().warnings == (
-        'Displacement of material "cube" is not shown.',
+        'Displacement of material "cube" is drawn as bumps: the mesh stays where it is.',
         'The volume of world "world" is not shown.',
     )

@@ -1,20 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Textures in pictures, seen directly and in mirrors, beside those of Cycles; images larger than the driver takes."""
+"""Textures in pictures, seen directly and in mirrors, beside those of Cycles; a world's image that is too large."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.frame import Frame
-from curvrefl.curvrefl_addon.renderer.lighting import lighting
 from curvrefl.curvrefl_addon.renderer.lighting.left_out import INDIRECT
+from curvrefl.curvrefl_addon.renderer.lighting.programs import textures
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.renderer.surfaces import materials
 from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
 from extraction import add_square, cycles_picture, empty_scene, extracted, look_down, new_material
 from scene.color_nodes import node, smooth_image
@@ -111,8 +111,8 @@ def test_a_missing_attribute_and_missing_coordinates_are_those_of_cycles() -> No
     assert ours[24, 12].max() < 1e-4 < ours[24, 36].min()
 
 
-def test_images_beyond_the_largest_texture_are_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of a surface and of the world: nearly the same picture, and a sentence each."""
+def test_an_image_beyond_the_largest_texture_is_made_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the world, which surfaces do not mind: nearly the same picture, and a sentence."""
     scene = empty_scene()
     square = add_square(size=1.0)
     image = bpy.data.images.new("wide", 96, 16, float_buffer=True)
@@ -128,11 +128,75 @@ def test_images_beyond_the_largest_texture_are_made_smaller(monkeypatch: pytest.
     look_down(2.0)
     whole = picture_of()
     assert set(whole.warnings) <= {INDIRECT}
-    for module in (materials, lighting):
-        monkeypatch.setattr(module, "largest_texture", lambda: 64)
+    monkeypatch.setattr(textures, "largest_texture", lambda: 64)
     smaller = picture_of()
     assert tuple(warning for warning in smaller.warnings if warning != INDIRECT) == (
-        'Fewer pixels of image "wide" are drawn than there are: as many as the graphics driver takes.',
         "Fewer pixels of the world's image are drawn than there are: as many as the graphics driver takes.",
     )
     assert np.abs(smaller.color() - whole.color()).max() < 0.03
+
+
+def diffuse(tree: bpy.types.NodeTree, *color: float) -> Any:
+    return node(tree, "ShaderNodeBsdfDiffuse", {"Color": (*color, 1.0)}).outputs[0]
+
+
+def shine(tree: bpy.types.NodeTree, *color: float) -> Any:
+    return node(tree, "ShaderNodeEmission", {"Color": (*color, 1.0)}).outputs[0]
+
+
+def mixed(tree: bpy.types.NodeTree, share: Any, first: Any, second: Any) -> Any:
+    return node(tree, "ShaderNodeMixShader", {"Fac": share, 1: first, 2: second}).outputs[0]
+
+
+def added(tree: bpy.types.NodeTree, first: Any, second: Any) -> Any:
+    return node(tree, "ShaderNodeAddShader", {0: first, 1: second}).outputs[0]
+
+
+def glossy(tree: bpy.types.NodeTree) -> Any:
+    return node(tree, "ShaderNodeBsdfAnisotropic", {"Color": (0.9, 0.5, 0.2, 1.0), "Roughness": 0.4}).outputs[0]
+
+
+def pane(tree: bpy.types.NodeTree) -> Any:
+    return node(tree, "ShaderNodeBsdfTransparent", {"Color": (0.9, 0.6, 0.3, 1.0)}).outputs[0]
+
+
+MIXES = {
+    "two of one kind": lambda tree: mixed(tree, 0.3, diffuse(tree, 0.8, 0.1, 0.1), diffuse(tree, 0.1, 0.8, 0.1)),
+    "gloss and none": lambda tree: mixed(tree, 0.3, diffuse(tree, 0.8, 0.1, 0.1), glossy(tree)),
+    "nested": lambda tree: mixed(
+        tree, 0.6, mixed(tree, 0.5, diffuse(tree, 0.1, 0.1, 0.9), glossy(tree)), shine(tree, 0.2, 0.5, 0.1)
+    ),
+    "gloss and a sum": lambda tree: added(tree, glossy(tree), diffuse(tree, 0.2, 0.3, 0.1)),
+    "a pane that shines": lambda tree: added(tree, pane(tree), shine(tree, 0.1, 0.2, 0.4)),
+    "a pane in part": lambda tree: mixed(tree, 0.4, pane(tree), diffuse(tree, 0.2, 0.8, 0.4)),
+}
+
+
+def squares_of(mixes: Mapping[str, Any]) -> None:
+    """In a row above a floor, under an even sky."""
+    empty_scene()
+    world_of(0.6)
+    floor = add_square("floor", 20.0)
+    floor.location.z = -1.0
+    tree, (shader,) = new_material(floor, "ShaderNodeEmission")
+    shader.inputs["Color"].default_value = (0.3, 0.5, 0.7, 1.0)
+    for index, (name, build) in enumerate(mixes.items()):
+        square = add_square(name, 0.9)
+        square.location.x = index - 0.5 * (len(mixes) - 1)
+        tree, _ = new_material(square, "ShaderNodeEmission")
+        tree.links.new(build(tree), tree.nodes["Material Output"].inputs["Surface"])
+
+
+def test_mixed_shaders_are_those_of_cycles_in_the_mean() -> None:
+    squares_of(MIXES)
+    look_down(len(MIXES))
+    scene, size = bpy.context.scene, 10 * len(MIXES)
+    view = view_of_camera(scene, scene.camera, size, 10)
+    frame = Renderer(extracted(), Settings(method="exact", samples=64)).render(view)
+    assert not [warning for warning in frame.warnings if "material" in warning and not warning.startswith("Shadows")]
+    ours, cycles = frame.color()[..., :3], cycles_picture(size, 10, 256)
+    for index, name in enumerate(MIXES):
+        inside = (slice(2, 8), slice(10 * index + 2, 10 * index + 8))
+        means = [picture[inside].mean(axis=(0, 1)) for picture in (ours, cycles)]
+        # (Of a sum the gloss is a little too bright.)
+        np.testing.assert_allclose(*means, atol=0.02 if name == "gloss and a sum" else 0.015, err_msg=name)

@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
+from curvrefl.curvrefl_addon.scene.programs.program import GEOMETRY, UV, Attribute
 from extraction import CUBE_CORNERS, add, add_square, empty_scene, extracted, face_normals, mesh_of, new_material
 
 
@@ -102,22 +104,31 @@ def test_a_uv_map_is_read_where_a_material_needs_it_and_of_reflectors() -> None:
     assert mesh_of(extracted(square), "square").corner_uv is not None
 
 
+def read_of(scene: SceneArrays, kind: str, name: str) -> np.ndarray | None:
+    """(corners, 4) of an attribute of the square."""
+    mesh = mesh_of(scene, "square")
+    if Attribute(kind, name) not in mesh.attributes:
+        return None
+    assert mesh.corner_attributes is not None
+    return mesh.corner_attributes[:, mesh.attributes.index(Attribute(kind, name))]
+
+
 def test_the_map_active_for_rendering_and_a_named_map() -> None:
     square = add_square()
     other = square.data.uv_layers.new(name="other")
     other.uv.foreach_set("vector", [0.5] * 8)
     textured(square)
-    assert np.ptp(mesh_of(extracted(square), "square").corner_uv) == 1.0
+    assert np.ptp(read_of(extracted(square), UV, "")[:, :2]) == 1.0
     other.active_render = True
-    assert np.ptp(mesh_of(extracted(square), "square").corner_uv) == 0.0
+    assert np.ptp(read_of(extracted(square), UV, "")[:, :2]) == 0.0
     tree = square.data.materials[0].node_tree
     named = tree.nodes.new("ShaderNodeUVMap")
     named.uv_map = "UVMap"
     tree.links.new(named.outputs["UV"], tree.nodes["Image Texture"].inputs["Vector"])
-    assert np.ptp(mesh_of(extracted(square), "square").corner_uv) == 1.0
+    assert np.ptp(read_of(extracted(square), UV, "UVMap")[:, :2]) == 1.0
     named.uv_map = "gone"
     scene = extracted(square)
-    assert mesh_of(scene, "square").corner_uv is None
+    assert read_of(scene, UV, "gone") is None
     # Cycles shows the pixel at the image's corner all over, and so does a mesh without coordinates.
     assert not any("UV" in warning or "coordinates" in warning for warning in scene.warnings)
 
@@ -132,9 +143,7 @@ def test_vertex_colors_are_scene_linear(domain: str, data_type: str) -> None:
     tree, (shader, source) = new_material(square, "ShaderNodeBsdfDiffuse", "ShaderNodeVertexColor")
     tree.links.new(source.outputs["Color"], shader.inputs["Color"])
     scene = extracted(square)
-    mesh = mesh_of(scene, "square")
-    assert mesh.corner_color is not None
-    np.testing.assert_allclose(mesh.corner_color, np.tile([0.5, 0.25, 0.0, 1.0], (4, 1)), atol=5e-3)
+    np.testing.assert_allclose(read_of(scene, GEOMETRY, ""), np.tile([0.5, 0.25, 0.0, 1.0], (4, 1)), atol=5e-3)
     assert not scene.warnings
 
 

@@ -4,13 +4,23 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ...arrays import Glass, MaterialArrays
 from ..builder import Builder
 from ..expression import Expression
-from .arithmetic import settled
+from .arithmetic import constant, settled
 from .closure import DEFAULTS, GLASS, GLOSSY_ONLY, PLAIN_NORMAL, REFRACTION, THIN_WALL, Closure
+
+ONE_FOR_ALL = {
+    "coat_ior": "The IOR of the coat",
+    "film_thickness": "The thickness of the thin film",
+    "film_ior": "The IOR of the thin film",
+    "transparent_tint": "The tint of transparency",
+    "subsurface": "The share of subsurface scattering",
+}
+"""Channels that the renderer has one of for a whole material"""
 
 
 def made_material(b: Builder, surface: Closure, name: str, is_bent: bool = False) -> MaterialArrays:
@@ -22,6 +32,9 @@ def made_material(b: Builder, surface: Closure, name: str, is_bent: bool = False
     varying: dict[str, Expression] = {}
     for channel in DEFAULTS:
         value = settled(surface.get(channel))
+        if value.constant is None and channel in ONE_FOR_ALL:
+            b.note(f"{ONE_FOR_ALL[channel]} {{of}} differs from place to place and is drawn as one.")
+            value = _middle(value, channel)
         if value.constant is None:
             varying[channel] = value
         elif channel == "kind":
@@ -34,6 +47,13 @@ def made_material(b: Builder, surface: Closure, name: str, is_bent: bool = False
         return MaterialArrays(name, **fields)
     ranges = tuple((channel, value.low, value.high) for channel, value in varying.items())
     return MaterialArrays(name, **fields, program=b.finished(varying), ranges=ranges)
+
+
+def _middle(value: Expression, channel: str) -> Expression:
+    """Of its bounds; the default where these are not known."""
+    if not math.isfinite(value.high - value.low):
+        return DEFAULTS[channel]
+    return constant(*((0.5 * (value.low + value.high),) * (1 if value.kind == "float" else 3)), kind=value.kind)
 
 
 def _kinds(bits: int) -> dict[str, Any]:

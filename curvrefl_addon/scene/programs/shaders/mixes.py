@@ -9,6 +9,7 @@ from ..expression import Expression
 from .arithmetic import chosen, clamped, constant, is_at, is_same, mixed, product, quotient, rest_of, total
 from .chance import Chance
 from .closure import BLACK, DEFAULTS, Closure, matt
+from .inputs import DARKENS
 
 HALF = constant(0.5)
 LEAST_ALPHA = 1.0 / 16.0
@@ -37,6 +38,9 @@ def add(b: Builder, first: Closure, second: Closure, chance: Chance) -> Closure:
         color = total(b, first.get("base_color"), second.get("base_color"))
         return _merged(first, second).with_(base_color=color, emission=_sum(b, first, second, "emission"))
     if first.is_scalable and second.is_scalable:
+        if any(one.get("metallic").high > 0.0 and one.get("roughness").high > DARKENS for one in (first, second)):
+            # (Twice as bright a metal loses less between its facets.)
+            b.note_on_paths("Rough gloss {of} that is added to another shader is drawn a little too bright.")
         return _by_chance(b, first.scaled(b, 2.0), second.scaled(b, 2.0), HALF, chance)
     b.note("Of added shaders {of} only the first one and the light of both are drawn.")
     if first.is_opaque and second.is_opaque:

@@ -9,8 +9,9 @@ from ..builder import Builder
 from ..expression import Expression
 from .arithmetic import clamped, constant, is_at, product, rest_of, settled
 from .chance import Chance
-from .closure import NONE, PLAIN_NORMAL, THIN_WALL, WHITE, Closure, clear
+from .closure import NONE, THIN_WALL, WHITE, Closure, clear
 from .inputs import LEAST_IOR, brushed, color, film, light, normal, note_distribution, number
+from .same_source import is_same_source
 
 
 def principled(b: Builder, source: Source, _chance: Chance) -> Closure:
@@ -52,8 +53,7 @@ def _coat(b: Builder, source: Source) -> dict[str, Expression]:
         return {"coat_weight": NONE}
     if 1.0 < weight.high < float("inf"):
         b.note("A coat weight {of} above 1 is drawn as 1.")
-    own = normal(b, source, "Coat Normal")
-    if own != PLAIN_NORMAL and own.text != normal(b, source).text:
+    if b.is_linked(source, "Coat Normal") and not _has_coats_normal(b, source):
         b.note("Normals {of} that are its coat's alone are left out.")
     return {
         "coat_weight": clamped(b, weight, 0.0, 1.0),
@@ -61,6 +61,13 @@ def _coat(b: Builder, source: Source) -> dict[str, Expression]:
         "coat_ior": number(b, source, "Coat IOR", 1.0),
         "coat_tint": color(b, source, "Coat Tint"),
     }
+
+
+def _has_coats_normal(b: Builder, source: Source) -> bool:
+    """Whether what is below the coat has the coat's normal."""
+    if is_same_source(source.input("Normal"), source.input("Coat Normal")):
+        return True
+    return normal(b, source) == normal(b, source, "Coat Normal")
 
 
 def _sheen(b: Builder, source: Source) -> dict[str, Expression]:
