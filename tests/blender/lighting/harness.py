@@ -16,6 +16,7 @@ from curvrefl.curvrefl_addon.renderer.device.state import drawing_state, set_vie
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import FEATURES, Lighting, lighting_piece
+from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials
 from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays
 from curvrefl.gpu_shaders.loader import Snippet
 from lighting.cycles import build_blender
