@@ -68,8 +68,8 @@ void add_coat(Material m, inout Layers layers)
 {
   layers.above = vec3(1.0);
 #ifdef PATHS_SHEEN
-  float sheen = m.sheen_weight * largest(m.sheen_tint);
-  layers.above *= clamp(1.0 - sheen * sheen_lobe(m.sheen_roughness, layers.cos_viewer).z, 0.0, 1.0);
+  float sheen = m.sheen_weight * largest(m.sheen_tint) * sheen_lobe(m.sheen_roughness, layers.cos_viewer).z;
+  layers.above *= clamp(1.0 - sheen, 0.0, 1.0);
 #endif
 #ifdef PATHS_COAT
   float weight = max(m.coat_weight, 0.0);

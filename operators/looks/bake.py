@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
@@ -34,7 +35,7 @@ class Step:
 def bake_look(
     scene: bpy.types.Scene,
     view_layer: bpy.types.ViewLayer,
-    material: bpy.types.Material,
+    material: Any,
     resolution: int,
     samples: int,
 ) -> Iterator[Step]:
@@ -64,13 +65,12 @@ def bake_look(
         raise
 
 
-def _objects_with(
-    scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, material: bpy.types.Material
-) -> list[bpy.types.Object]:
+def _objects_with(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, material: bpy.types.Material) -> list[Any]:
     """One for each mesh that has the material and is rendered."""
     if not material.is_editable:
         raise InputError(f'"{material.name}" is linked: make a library override to bake it.')
-    found: dict[bpy.types.Mesh, bpy.types.Object] = {}
+    found: dict[Any, Any] = {}
+    item: Any
     for item in scene.objects:
         is_there = view_layer.objects.get(item.name) == item and not item.hide_render
         if item.type != "MESH" or not is_there or not len(item.data.polygons):
@@ -144,7 +144,7 @@ def _bake(
 @contextmanager
 def _own_scene(scene: bpy.types.Scene, samples: int) -> Iterator[bpy.types.Scene]:
     """The same objects with Cycles' settings, and a selection of its own."""
-    own = scene.copy()
+    own: Any = scene.copy()
     try:
         own.render.engine = "CYCLES"
         own.cycles.samples, own.cycles.use_adaptive_sampling, own.cycles.use_denoising = samples, False, False
@@ -158,8 +158,8 @@ def _own_scene(scene: bpy.types.Scene, samples: int) -> Iterator[bpy.types.Scene
 def _worn(
     objects: Sequence[bpy.types.Object],
     material: bpy.types.Material,
-    shining: bpy.types.Material,
-    other: bpy.types.Material,
+    shining: Any,
+    other: Any,
 ) -> Iterator[None]:
     """While these objects have other materials."""
     before = [(slot, slot.material) for item in objects for slot in item.material_slots]
@@ -172,7 +172,7 @@ def _worn(
             slot.material = worn
 
 
-def _finish(material: bpy.types.Material, shaders: Shaders, images: dict[str, bpy.types.Image]) -> None:
+def _finish(material: Any, shaders: Shaders, images: dict[str, bpy.types.Image]) -> None:
     """Keep the images in the file, and let a material of them stand for this one."""
     if shaders.single is None and "base_color" in images:
         _divide_by_alpha(images)
@@ -184,7 +184,7 @@ def _finish(material: bpy.types.Material, shaders: Shaders, images: dict[str, bp
     material.update_tag()
 
 
-def forget_look(material: bpy.types.Material) -> None:
+def forget_look(material: Any) -> None:
     """Remove what an earlier bake has made."""
     if (old := look_of(material)) is not None:
         bpy.data.materials.remove(old.material)
@@ -194,7 +194,7 @@ def forget_look(material: bpy.types.Material) -> None:
         del material[KEY]
 
 
-def _divide_by_alpha(images: dict[str, bpy.types.Image]) -> None:
+def _divide_by_alpha(images: dict[str, Any]) -> None:
     """Mixed shaders were weighted by what is there."""
     alpha = _pixels(images["surface"])[:, 2:3]
     for holds, channels in (("surface", 2), ("base_color", 3), ("layers", 3)):
@@ -207,7 +207,7 @@ def _divide_by_alpha(images: dict[str, bpy.types.Image]) -> None:
             images[holds].pixels.foreach_set(pixels.ravel())
 
 
-def _pixels(image: bpy.types.Image) -> np.ndarray:
+def _pixels(image: Any) -> np.ndarray:
     """(n, 4)"""
     pixels = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(pixels)

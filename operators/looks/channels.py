@@ -88,7 +88,7 @@ class Shaders:
         return any(node.inputs[getattr(kind, name)].is_linked for name in names)
 
 
-def shaders_of(tree: bpy.types.NodeTree) -> Shaders:
+def shaders_of(tree: Any) -> Shaders:
     """All that may be seen: of the whole tree, as what is not linked changes nothing."""
     shaders = Shaders()
     for node in _nodes(tree, set()):
@@ -125,9 +125,9 @@ class Shining:
 
     def __init__(self, material: bpy.types.Material, image: bpy.types.Image, holds: str) -> None:
         """`holds`: of `PARTS`, or 'normal': then the copy has the material's own shaders."""
-        self.material = material.copy()
+        self.material: Any = material.copy()
         self._groups: list[bpy.types.NodeTree] = []
-        tree = self.material.node_tree
+        tree: Any = self.material.node_tree
         if holds != "normal":
             # (Only where some of several shaders is not there, colors are weighted by what is.)
             self._convert(tree, holds, shaders_of(tree).single is None, {})

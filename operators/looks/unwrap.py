@@ -20,7 +20,7 @@ RASTER = 512
 MOST_UV_MAPS = 8
 
 
-def add_maps(objects: Sequence[bpy.types.Object], material: bpy.types.Material) -> list[bpy.types.Mesh]:
+def add_maps(objects: Sequence[Any], material: bpy.types.Material) -> list[bpy.types.Mesh]:
     """Lay out the faces with the material of all objects (one for each mesh) beside one another.
 
     The layout of the map that renders use is taken over where it is one already. Answers the meshes that got a map.
@@ -45,13 +45,13 @@ def add_maps(objects: Sequence[bpy.types.Object], material: bpy.types.Material) 
     return added
 
 
-def remove_maps(meshes: Sequence[bpy.types.Mesh]) -> None:
+def remove_maps(meshes: Sequence[Any]) -> None:
     """Take back what `add_maps` has added."""
     for mesh in meshes:
         mesh.uv_layers.remove(mesh.uv_layers[UV_MAP])
 
 
-def _new_layer(mesh: bpy.types.Mesh) -> None:
+def _new_layer(mesh: Any) -> None:
     """Without a change of which map is active, and which renders use."""
     layers = mesh.uv_layers
     active, used = layers.active_index, next((layer.name for layer in layers if layer.active_render), None)
@@ -68,7 +68,7 @@ def _uv_of(layer: Any) -> np.ndarray:
     return uv.reshape(-1, 2)
 
 
-def _loops_with(item: bpy.types.Object, material: bpy.types.Material) -> np.ndarray:
+def _loops_with(item: Any, material: bpy.types.Material) -> np.ndarray:
     """(loops,) whether a corner's face has the material."""
     mesh = item.data
     slots = np.zeros(len(mesh.polygons), np.int32)
@@ -86,9 +86,7 @@ def _loops_with(item: bpy.types.Object, material: bpy.types.Material) -> np.ndar
     return mask
 
 
-def _own_layout(
-    objects: Sequence[bpy.types.Object], material: bpy.types.Material
-) -> list[tuple[np.ndarray, np.ndarray]] | None:
+def _own_layout(objects: Sequence[Any], material: bpy.types.Material) -> list[tuple[np.ndarray, np.ndarray]] | None:
     """Of a single mesh whose map gives each face its own place."""
     if len(objects) != 1:
         return None
@@ -127,13 +125,11 @@ def is_layout(triangles: np.ndarray) -> bool:
     return bool(areas.sum() <= covered.mean() * 1.03 + 4.0 * np.sqrt(areas.sum()) / RASTER)
 
 
-def _projected(
-    objects: Sequence[bpy.types.Object], material: bpy.types.Material
-) -> list[tuple[np.ndarray, np.ndarray]]:
+def _projected(objects: Sequence[Any], material: bpy.types.Material) -> list[tuple[np.ndarray, np.ndarray]]:
     """Blender's Smart UV Project, of copies in a scene of their own: the user's selection stays."""
     scene = bpy.data.scenes.new("Curvrefl unwrap")
     masks = [_loops_with(item, material) for item in objects]
-    copies = []
+    copies: list[Any] = []
     try:
         view_layer = scene.view_layers[0]
         for item, mask in zip(objects, masks, strict=True):
@@ -148,7 +144,12 @@ def _projected(
             _select(mesh, mask)
             copy.select_set(True, view_layer=view_layer)
         view_layer.objects.active = copies[0]
-        of_all = {"scene": scene, "view_layer": view_layer, "active_object": copies[0], "object": copies[0]}
+        of_all: dict[str, Any] = {
+            "scene": scene,
+            "view_layer": view_layer,
+            "active_object": copies[0],
+            "object": copies[0],
+        }
         of_all |= {"selected_objects": copies, "selected_editable_objects": copies}
         with bpy.context.temp_override(**of_all):
             bpy.ops.object.mode_set(mode="EDIT")
@@ -165,7 +166,7 @@ def _projected(
         bpy.data.scenes.remove(scene)
 
 
-def _select(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
+def _select(mesh: Any, mask: np.ndarray) -> None:
     """The faces of these corners alone; others are hidden."""
     chosen = np.array([mask[polygon.loop_start] for polygon in mesh.polygons], bool)
     mesh.polygons.foreach_set("hide", ~chosen)

@@ -145,7 +145,9 @@ def _pointed(value: Any) -> str:
         return ""
     if isinstance(value, bpy.types.Image):
         space = value.colorspace_settings.name
-        return _text((value.name_full, value.filepath, value.source, value.alpha_mode, space, tuple(value.size)))
+        return _text(
+            (value.name_full, value.filepath, value.source, value.alpha_mode, space, value.size[0], value.size[1])
+        )
     if isinstance(value, bpy.types.ID):
         return str(value.name_full)
     return _values(value)

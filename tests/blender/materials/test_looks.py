@@ -160,9 +160,10 @@ def test_a_look_is_read_in_place_of_the_nodes() -> None:
     cube(material)
     look = bake(material)
     images = Images()
-    found = MaterialReader(images).read(material)
+    reader = MaterialReader(images)
+    found = reader.read(material)
     assert not found.remarks and set(images.asked) == set(look.images.values())
-    assert Attribute(UV, UV_MAP) in found.attributes
+    assert Attribute(UV, UV_MAP) in reader.materials[found.index].program.attributes
     node.inside = True
     images = Images()
     causes = [remark.cause for remark in MaterialReader(images).read(material).remarks]
