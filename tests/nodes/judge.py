@@ -98,12 +98,11 @@ def compared(
 
 
 def _at_discontinuity(cycles: np.ndarray, ours: np.ndarray, tolerance: float) -> np.ndarray:
-    """(h, w): ours lies between values that Cycles has at the pixel and around it, and these differ abruptly."""
+    """(h, w): what Cycles has at the pixel and around it differs abruptly."""
     height, width = cycles.shape[:2]
     padded = np.pad(cycles, ((1, 1), (1, 1), (0, 0)), mode="edge")
     around = np.array([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)])
-    low, high = around.min(axis=0), around.max(axis=0)
     slack = tolerance * np.maximum(np.abs(cycles), 1.0)
-    is_between = (ours >= low - slack) & (ours <= high + slack)
     # Abruptly: more than steep slopes change within the thousandth of a pixel that rounding may be off.
-    return (is_between & (high - low > 8.0 * slack) | (np.abs(ours - cycles) <= slack)).all(axis=2)
+    is_abrupt = around.max(axis=0) - around.min(axis=0) > 8.0 * slack
+    return (is_abrupt | (np.abs(ours - cycles) <= slack)).all(axis=2)

@@ -95,9 +95,10 @@ class Grower:
         widest = 0.0
         sockets = [socket for socket in node.inputs if socket.enabled]
         linkable = [socket for socket in sockets if socket.name not in recipe.constants]
-        always = self.chance.choice(linkable) if linkable else None
+        always = self.chance.choice(linkable[:1] if recipe.has_steps else linkable) if linkable else None
         for socket in sockets:
-            given = self.plugged(socket, recipe, socket == always)
+            # (Two inputs of steps could be the same value, and all of it an edge.)
+            given = self.plugged(socket, recipe, socket == always, not recipe.has_steps)
             if given is not None:
                 steepness += given.steepness
                 widest = max(widest, given.bound)
@@ -110,7 +111,7 @@ class Grower:
         grown = Grown(socket, bound, steepness * recipe.gain, is_flat)
         return self.tamed(grown, recipe.has_poles)
 
-    def plugged(self, socket: Any, recipe: Recipe, always: bool) -> Grown | None:
+    def plugged(self, socket: Any, recipe: Recipe, always: bool, at_times: bool) -> Grown | None:
         """What is linked, or None where it is a constant."""
         low, high = recipe.ranges.get(socket.name, recipe.range)
         fitting = [
@@ -119,7 +120,7 @@ class Grower:
             if value.steepness * recipe.gain < STEEPEST and not (recipe.has_steps and value.is_flat)
         ]
         may_be_linked = socket.name not in recipe.constants and fitting
-        if may_be_linked and (always or socket.name in recipe.linked or self.chance.random() < 0.6):
+        if may_be_linked and (always or socket.name in recipe.linked or (at_times and self.chance.random() < 0.6)):
             # (Rather the latest: long chains.)
             given = fitting[-1] if self.chance.random() < 0.5 else self.chance.choice(fitting)
             given = self.squeezed(given, recipe.ranges[socket.name]) if socket.name in recipe.ranges else given

@@ -43,6 +43,7 @@ class Recipe:
     bound: float = 1.0
     has_poles: bool = False
     has_steps: bool = False
+    """Somewhere it jumps, or is too steep: only its first input is linked, to nothing flat"""
     is_flat: bool = False
     """Its values are the same over areas"""
     range: tuple[float, float] = (-1.5, 1.5)
@@ -79,12 +80,13 @@ DIMENSIONS = ("1D", "2D", "3D", "4D")
 VECTOR = frozenset({"Vector"})
 SMOOTH = ("SINE", "COSINE", "ABSOLUTE", "ARCTANGENT", "TANH", "RADIANS")
 TWO = ("ADD", "SUBTRACT", "MULTIPLY", "MINIMUM", "MAXIMUM", "MULTIPLY_ADD", "SMOOTH_MIN", "SMOOTH_MAX")
-POLES = ("DIVIDE", "POWER", "LOGARITHM", "SQRT", "EXPONENT", "SINH", "TANGENT", "COSH", "INVERSE_SQRT")
+POLES = ("DIVIDE", "POWER", "SQRT", "EXPONENT", "SINH", "TANGENT", "COSH", "INVERSE_SQRT")
 STEPS = ("LESS_THAN", "GREATER_THAN", "FLOOR", "CEIL", "ROUND", "SIGN", "SNAP", "TRUNC", "FRACT", "MODULO", "PINGPONG")
 RECIPES: Sequence[Recipe] = (
     Recipe("Math", {"operation": SMOOTH}, bound=4.0),
     Recipe("Math", {"operation": TWO, "use_clamp": (False, False, True)}, bound=20.0, gain=4.0),
     Recipe("Math", {"operation": POLES}, has_poles=True, gain=12.0),
+    Recipe("Math", {"operation": ("LOGARITHM",)}, has_poles=True, has_steps=True, gain=12.0),
     Recipe("Math", {"operation": STEPS}, has_steps=True, is_flat=True, bound=6.0),
     Recipe(
         "VectorMath",
