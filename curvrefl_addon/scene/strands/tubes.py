@@ -99,7 +99,10 @@ def _across(strands: Strands, along: Float32Array) -> Float32Array:
     rows = roots
     for step in range(1, int(lengths.max(initial=1))):
         rows = roots[lengths > step] + step
-        across[rows] = _perpendicular(across[rows - 1], along[rows])
+        # Turned as the strand is: what is only projected leans towards the axis that it turns about.
+        before, both = across[rows - 1], along[rows - 1] + along[rows]
+        share = 2.0 * np.einsum("ij,ij->i", before, along[rows]) / np.maximum(np.einsum("ij,ij->i", both, both), 1e-6)
+        across[rows] = _perpendicular(before - share[:, None] * both, along[rows])
     return across
 
 
