@@ -201,9 +201,8 @@ class Lighting:
         if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
             found.add("LIGHTING_PARTS")
         flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
+        flagged[ALPHA] = bool(self._alpha.materials)
         found |= {name for name, is_so in flagged.items() if is_so}
-        if self._alpha.materials:
-            found.add(ALPHA)
         return frozenset(found) | self._world_textures.features | self._looks.features | self._of_surfaces
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
@@ -226,6 +225,7 @@ class Lighting:
             records = np.clip(records, -LARGEST_RECORD, LARGEST_RECORD)
             self._blocks[index] = uniform_block(records.astype(np.float32).ravel()), lamp_views, world_views
         self._bound, lamp_views, world_views = self._blocks[index]
+        self._alpha.prepare()
         # (Another sub-frame may have drawn over them.)
         self._lamp_maps.draw(lamp_views, self._casters)
         visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits

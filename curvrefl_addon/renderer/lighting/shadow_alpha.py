@@ -108,10 +108,13 @@ class ShadowAlpha:
             return places
         return np.repeat(places, count if count > MOST_KEPT else min(count, HASHED_SAMPLES), axis=0)
 
-    def bind(self, shader: Any) -> None:
-        """Set what `SHADOW_ALPHA` names on a bound shader."""
-        if self._texture is None:
+    def prepare(self) -> None:
+        """Before anything is drawn with it: images are drawn here that are not there yet."""
+        if self._texture is None and self.materials:
             self._texture = self._uploaded()
+
+    def bind(self, shader: Any) -> None:
+        """Set what `SHADOW_ALPHA` names on a bound shader, once prepared."""
         shader.uniform_sampler("caster_alphas", self._texture)
 
     def _varies(self, index: int) -> bool:

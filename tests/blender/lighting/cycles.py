@@ -10,8 +10,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, WorldArrays
-from lighting.stage import Stage, camera_matrix
+from curvrefl.curvrefl_addon.scene.arrays import ImageSource, LightArrays, MaterialArrays, WorldArrays
+from lighting.stage import Body, Cut, Stage, camera_matrix
 from mathutils import Matrix
 
 
@@ -29,7 +29,7 @@ def build_blender(stage: Stage) -> None:
         if body.uv is not None:
             layer = mesh.uv_layers.new()
             layer.data.foreach_set("uv", body.uv[body.triangles].astype(np.float32).ravel())
-        mesh.materials.append(_blender_material(body.material, stage.images))
+        mesh.materials.append(_blender_material(body, stage.images))
         placed = bpy.data.objects.new("body", mesh)
         placed.visible_shadow = body.visible_shadow
         scene.collection.objects.link(placed)
@@ -80,7 +80,8 @@ def cycles_picture(stage: Stage, samples: int = 256, world_light_samples: bool =
     return pixels.reshape(stage.pixels, stage.pixels, 4)[..., :3]
 
 
-def _blender_material(material: MaterialArrays, images: tuple[ImageArrays, ...]) -> Any:
+def _blender_material(body: Body, images: tuple[ImageSource, ...]) -> Any:
+    material = body.material
     made = bpy.data.materials.new(material.name)
     made.use_nodes = True
     tree = made.node_tree
@@ -104,8 +105,8 @@ def _blender_material(material: MaterialArrays, images: tuple[ImageArrays, ...])
         _set_layers(node, material)
     if material.translucency:
         node = _mixed_with_translucent(tree, material, node)
-    if material.scalars is not None:
-        _link_alpha(tree, images[material.scalars.image], material.alpha_threshold, node.inputs["Alpha"])
+    if body.cut is not None:
+        _link_alpha(tree, images[body.cut.looked.image], body.cut, node.inputs["Alpha"])
     if material.transparent_tint != (1.0, 1.0, 1.0):
         node = _mixed_with_transparent(tree, material, node)
     tree.links.new(node.outputs[0], output.inputs["Surface"])
@@ -132,20 +133,18 @@ def _mixed_with_translucent(tree: Any, material: MaterialArrays, node: Any) -> A
     return mix
 
 
-def _link_alpha(tree: Any, image: ImageArrays, threshold: float, to: Any) -> None:
-    """The alpha of an image, above a threshold from 0 up."""
-    height, width = image.pixels.shape[:2]
-    made = bpy.data.images.new(image.name, width, height, alpha=True, float_buffer=True)
-    made.pixels.foreach_set(image.pixels.astype(np.float32).ravel())
+def _link_alpha(tree: Any, image: ImageSource, cut: Cut, to: Any) -> None:
+    made = bpy.data.images.new(image.name, image.width, image.height, alpha=True, float_buffer=True)
+    made.pixels.foreach_set(image.read().astype(np.float32).ravel())
     node = tree.nodes.new("ShaderNodeTexImage")
     node.image = made
-    node.interpolation = "Closest" if image.nearest else "Linear"
-    node.extension = image.extension
+    node.interpolation = "Closest" if cut.looked.is_nearest else "Linear"
+    node.extension = cut.looked.extension
     out = node.outputs["Alpha"]
-    if threshold >= 0.0:
+    if cut.threshold is not None:
         above = tree.nodes.new("ShaderNodeMath")
         above.operation = "GREATER_THAN"
-        above.inputs[1].default_value = threshold
+        above.inputs[1].default_value = cut.threshold
         tree.links.new(out, above.inputs[0])
         out = above.outputs[0]
     tree.links.new(out, to)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from curvrefl.curvrefl_addon.scene.arrays import (
-    ImageArrays,
+    ImageSource,
     InstanceArrays,
     LightArrays,
     MaterialArrays,
@@ -18,6 +18,15 @@ from curvrefl.curvrefl_addon.scene.arrays import (
     WorldArrays,
 )
 from mathutils import Matrix, Vector
+from scenes.paths.programs import Looked, cut_out, with_attributes
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Alpha of an image, or whether it is above a threshold."""
+
+    looked: Looked = field(default_factory=Looked)
+    threshold: float | None = None
 
 
 @dataclass
@@ -34,6 +43,8 @@ class Body:
     visible_shadow: bool = True
     uv: np.ndarray | None = None
     """(vertices, 2)"""
+    cut: Cut | None = None
+    """In place of the material's alpha"""
 
 
 @dataclass
@@ -48,7 +59,7 @@ class Stage:
     width: float = 2.0
     """Orthographic width of the picture, meters"""
     pixels: int = 48
-    images: tuple[ImageArrays, ...] = ()
+    images: tuple[ImageSource, ...] = ()
 
 
 def plane(size: float = 4.0, z: float = 0.0, **more: Any) -> Body:
@@ -91,19 +102,21 @@ def scene_arrays(stage: Stage) -> SceneArrays:
             normals = positions - np.asarray(body.smooth_center, np.float32)
         normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         count = len(positions)
-        meshes.append(
-            MeshArrays(
-                f"mesh{index}",
-                positions,
-                np.arange(count, dtype=np.int32),
-                normals.astype(np.float32),
-                None if body.uv is None else body.uv[body.triangles].reshape(-1, 2).astype(np.float32),
-                None,
-                np.arange(count, dtype=np.int32).reshape(-1, 3),
-                np.zeros(count // 3, np.int32),
-            )
+        mesh = MeshArrays(
+            f"mesh{index}",
+            positions,
+            np.arange(count, dtype=np.int32),
+            normals.astype(np.float32),
+            None,
+            None,
+            np.arange(count, dtype=np.int32).reshape(-1, 3),
+            np.zeros(count // 3, np.int32),
         )
-        materials.append(body.material)
+        if body.uv is not None:
+            mesh = with_attributes(mesh, uv=body.uv[body.triangles].reshape(-1, 2))
+        meshes.append(mesh)
+        cut = body.cut
+        materials.append(body.material if cut is None else cut_out(body.material, cut.looked, cut.threshold))
         instances.append(
             InstanceArrays(f"body{index}", index + 1, index, np.eye(4), (index,), visible_shadow=body.visible_shadow)
         )

@@ -12,16 +12,11 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials
-from curvrefl.curvrefl_addon.scene.arrays import (
-    ImageArrays,
-    LightArrays,
-    MaterialArrays,
-    ScalarsArrays,
-    WorldArrays,
-)
+from curvrefl.curvrefl_addon.scene.arrays import ImageSource, LightArrays, MaterialArrays, WorldArrays
 from lighting.cycles import cycles_picture
 from lighting.harness import our_picture
-from lighting.stage import Body, Stage, box, lamp, plane, scene_arrays
+from lighting.stage import Body, Cut, Stage, box, lamp, plane, scene_arrays
+from scenes.paths.programs import Looked, source_of
 
 pytestmark = pytest.mark.usefixtures("gpu")
 UNDER = {"eye": (0.0, -0.02, 0.9), "width": 1.0, "pixels": 24}
@@ -85,9 +80,6 @@ def test_more_sub_frames_leave_less_of_the_chance() -> None:
 @pytest.mark.parametrize(
     ("material", "through"),
     [
-        (seen_through(alpha=0.4, alpha_threshold=0.5), 1.0),
-        (seen_through(alpha=0.6, alpha_threshold=0.5), 0.0),
-        (seen_through(alpha=0.6, alpha_threshold=0.5, alpha_inverted=True), 1.0),
         (seen_through(alpha=0.0), 1.0),
         (seen_through(alpha=0.0, transparent_tint=(0.0, 0.0, 0.0)), 0.0),
         (seen_through(alpha=0.5, transparent_tint=(0.5, 0.5, 0.5)), 0.25),
@@ -95,46 +87,41 @@ def test_more_sub_frames_leave_less_of_the_chance() -> None:
     ],
     ids=lambda item: "" if isinstance(item, float) else None,
 )
-def test_thresholds_tints_and_glass(material: MaterialArrays, through: float) -> None:
+def test_tints_and_glass(material: MaterialArrays, through: float) -> None:
     """Glass is opaque to straight light, as it is in Cycles without caustics."""
     light = share_lit([plane(20.0), plane(4.0, 1.0, material=material)])
     assert light.mean() == pytest.approx(through, rel=0.01, abs=1e-6)
 
 
-def leaf_image(**more: Any) -> ImageArrays:
+def leaf_image(share: float = 1.0) -> ImageSource:
     """A disk that is there, with a soft rim."""
     y, x = np.mgrid[0:64, 0:64] / 63.0 - 0.5
     alpha = np.clip(8.0 * (0.35 - np.hypot(x, y * 1.4)) + 0.5, 0.0, 1.0)
     pixels = np.ones((64, 64, 4), np.float32)
-    pixels[..., 3] = alpha
-    return ImageArrays("leaf", pixels, **more)
+    pixels[..., 3] = share * alpha
+    return source_of("leaf", pixels)
 
 
 @pytest.mark.parametrize(
-    ("threshold", "image"),
+    "cut",
     [
-        (0.5, leaf_image()),
-        (-1.0, leaf_image()),
-        (-1.0, leaf_image(nearest=True, extension="CLIP")),
-        (-1.0, leaf_image(extension="EXTEND")),
-        (-1.0, leaf_image(extension="MIRROR")),
+        Cut(threshold=0.5),
+        Cut(),
+        Cut(Looked(is_nearest=True, extension="CLIP")),
+        Cut(Looked(extension="EXTEND")),
+        Cut(Looked(extension="MIRROR")),
     ],
     ids=["clip", "hashed", "nearest", "extend", "mirror"],
 )
-def test_leaves_shadow_as_in_cycles(threshold: float, image: ImageArrays) -> None:
+def test_leaves_shadow_as_in_cycles(cut: Cut) -> None:
     """An image's alpha, on sheets whose uv go beyond it."""
-    material = seen_through(alpha=0.5, scalars=ScalarsArrays(0), alpha_threshold=threshold)
-    leaf = replace_uv(plane(1.2, 1.0, material=material), 1.6 * UV - 0.3)
-    higher = replace_uv(plane(0.8, 1.2, material=material), 1.6 * UV - 0.3)
+    leaf = plane(1.2, 1.0, material=seen_through(), uv=1.6 * UV - 0.3, cut=cut)
+    higher = plane(0.8, 1.2, material=seen_through(), uv=1.6 * UV - 0.3, cut=cut)
     light = lamp("POINT", (100.0, 100.0, 100.0), (0.1, 0.0, 6.0), radius=0.1)
-    stage = Stage([plane(20.0), leaf, higher], [light], images=(image,), **UNDER)
+    stage = Stage([plane(20.0), leaf, higher], [light], images=(leaf_image(),), **UNDER)
     ours, cycles = our_picture(stage)[0], cycles_picture(stage, 128)
     assert ours.mean() == pytest.approx(cycles.mean(), rel=0.01)
     assert np.abs(ours - cycles).mean() < 0.04 * cycles.mean()
-
-
-def replace_uv(body: Body, uv: np.ndarray) -> Body:
-    return replace(body, uv=uv)
 
 
 def test_panes_of_cycles_let_through_what_ours_do() -> None:
@@ -154,18 +141,18 @@ def test_a_tint_is_said_to_be_left_out() -> None:
 
 def test_shadows_follow_materials_and_images() -> None:
     """A renderer that stays lights as one that is new."""
-    image = leaf_image()
-    material = seen_through(alpha=0.5, scalars=ScalarsArrays(0), alpha_threshold=0.5)
-    leaf = replace_uv(plane(1.2, 1.0, material=material), UV)
-    stage = Stage([plane(20.0), leaf], [SUN], images=(image,), **UNDER)
+    leaf = plane(1.2, 1.0, material=seen_through(), uv=UV, cut=Cut(threshold=0.5))
+    stage = Stage([plane(20.0), leaf], [SUN], images=(leaf_image(),), **UNDER)
     scene = scene_arrays(stage)
     geometry = SceneGeometry()
     geometry.update(scene, {})
-    lighting = Lighting(scene, geometry, Materials(scene), 4)
+    materials = Materials(scene)
+    lighting = Lighting(scene, geometry, materials, 4)
     lighting.prepare(0)
-    opaque = replace(scene, materials=(scene.materials[0], replace(material, alpha=1.0, scalars=None)))
-    thinner = replace(scene, images=(replace(image, pixels=image.pixels * np.float32(0.9)),))
+    opaque = replace(scene, materials=(scene.materials[0], seen_through()))
+    thinner = replace(scene, images=(leaf_image(0.9),))
     for state in (opaque, scene, thinner):
+        materials.follow(state)
         lighting.follow(state, geometry.update(state, {}))
         fresh = Lighting(state, geometry, Materials(state), 4)
         for index in range(4):

@@ -122,7 +122,7 @@ void main()
   vec4 light = texelFetch(lights, pixel, 0);
   int index = int(viewer.w + 0.5);
   vec3 color = texelFetch(colors, pixel, 0).rgb;
-  Material m = path_material(index, color, vec4(-1.0));
+  Material m = material_at(pixel, index, color);
   Facing f = Facing(normal, normal, false);
   float cosine = dot(viewer.xyz, normal);
   Surface s = Surface(vec3(0.0), normal, color, m.metallic, m.roughness, m.ior, m.specular_level, vec3(0.0),

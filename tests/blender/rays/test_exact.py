@@ -19,10 +19,11 @@ from curvrefl.curvrefl_addon.renderer.rays import ray_scene
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import RayScene
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, LightArrays, MaterialArrays, MeshArrays, WorldArrays
+from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MaterialArrays, MeshArrays, WorldArrays
 from scenes.exactness import judge
 from scenes.mirror_halls import MIRRORS, hall
 from scenes.mirror_room import Room
+from scenes.paths.programs import Looked, painted, source_of, with_attributes
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -223,12 +224,13 @@ def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -
     sheet = arrays.meshes[1]
     uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], np.float32)
     vertex_colors = np.tile(np.array([1.0, 0.25, 1.0, 1.0], np.float32), (4, 1))
-    sheet = replace(sheet, corner_uv=uv, corner_color=vertex_colors, triangle_slot=np.array([0, 1], np.int32))
+    sheet = with_attributes(sheet, uv=uv, colors=vertex_colors)
+    sheet = replace(sheet, triangle_slot=np.array([0, 1], np.int32))
     pixels = np.zeros((2, 2, 4), np.float32)
     pixels[:, 0], pixels[:, 1] = (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0)
     materials = (
         *arrays.materials,
-        MaterialArrays("image", base_color=(1.0, 1.0, 1.0), image=0, uses_vertex_color=True),
+        painted(MaterialArrays("image", base_color=(1.0, 1.0, 1.0)), Looked(is_nearest=True), with_colors=True),
         MaterialArrays("plain", base_color=(0.0, 0.0, 1.0)),
     )
     instances = (arrays.instances[0], replace(arrays.instances[1], materials=(2, 3)))
@@ -237,7 +239,7 @@ def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -
         meshes=(arrays.meshes[0], sheet),
         instances=instances,
         materials=materials,
-        images=(ImageArrays("halves", pixels, nearest=True),),
+        images=(source_of("halves", pixels),),
     )
     view = look_at(np.array([0.0, -2.9, 0.0]), np.zeros(3), 120, 90, 0.5)
     renderer = Renderer(arrays, Settings(method="exact", samples=1))
@@ -250,8 +252,7 @@ def test_what_is_hit_has_its_image_its_vertex_colors_and_its_second_material() -
     for half, color in ((across < 0.49, (1.0, 0.0, 0.0)), (across > 0.51, (0.0, 0.25, 0.0))):
         first = hits & (up < across - 0.01) & half
         assert first.sum() > 50
-        # (vertex colors have eight bits)
-        assert np.abs(base[first] - color).max() < 5e-3
+        assert np.abs(base[first] - color).max() < 2e-3
     second = hits & (up > across + 0.01)
     assert second.sum() > 50
     assert np.abs(base[second] - (0.0, 0.0, 1.0)).max() < 2e-3

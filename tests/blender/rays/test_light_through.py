@@ -14,14 +14,14 @@ from curvrefl.curvrefl_addon.renderer.lighting import lighting
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import (
-    ImageArrays,
+    ImageSource,
     LightArrays,
     MaterialArrays,
-    ScalarsArrays,
     SceneArrays,
     WorldArrays,
 )
 from scenes.mirror_room import Room
+from scenes.paths.programs import Looked, cut_out, source_of, with_attributes
 from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -30,7 +30,7 @@ HALF = 0.7
 CLEAR = MaterialArrays("clear", specular_level=0.0)
 
 
-def under_sheets(*materials: MaterialArrays, images: tuple[ImageArrays, ...] = ()) -> SceneArrays:
+def under_sheets(*materials: MaterialArrays, images: tuple[ImageSource, ...] = ()) -> SceneArrays:
     """A sun from above, sheets over a floor, which a mirror shows and nothing else of them."""
     room = Room()
     room.add_mirror(Ellipsoid(), 128)
@@ -43,7 +43,7 @@ def under_sheets(*materials: MaterialArrays, images: tuple[ImageArrays, ...] = (
     uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], np.float32)
     return replace(
         arrays,
-        meshes=(*arrays.meshes[:2], *(replace(mesh, corner_uv=uv) for mesh in arrays.meshes[2:])),
+        meshes=(*arrays.meshes[:2], *(with_attributes(mesh, uv=uv) for mesh in arrays.meshes[2:])),
         instances=(
             *arrays.instances[:2],
             *(replace(item, materials=(first + number,)) for number, item in enumerate(arrays.instances[2:])),
@@ -79,11 +79,11 @@ def light_through(scene: SceneArrays) -> tuple[np.ndarray, np.ndarray]:
         ([replace(CLEAR, alpha=0.5), replace(CLEAR, alpha=0.3)], (0.35, 0.35, 0.35)),
         ([replace(CLEAR, alpha=0.2, transparent_tint=(1.0, 0.5, 0.25))], (0.8, 0.4, 0.2)),
         ([replace(CLEAR, alpha=0.0)], (1.0, 1.0, 1.0)),
-        ([replace(CLEAR, alpha=0.4, alpha_threshold=0.5), replace(CLEAR, alpha=0.5)], (0.5, 0.5, 0.5)),
+        ([replace(CLEAR, alpha=0.0), replace(CLEAR, alpha=0.5)], (0.5, 0.5, 0.5)),
         ([replace(CLEAR, alpha=0.5), CLEAR], (0.0, 0.0, 0.0)),
         ([replace(CLEAR, alpha=0.5), replace(CLEAR, transmission=1.0)], (0.0, 0.0, 0.0)),
     ],
-    ids=["one", "two", "tinted", "nothing", "clipped", "opaque", "glass"],
+    ids=["one", "two", "tinted", "nothing", "nothing and one", "opaque", "glass"],
 )
 def test_the_product_of_what_each_surface_lets_on(
     materials: list[MaterialArrays], expected: tuple[float, float, float]
@@ -97,9 +97,9 @@ def test_alpha_of_an_image_is_looked_up_where_the_ray_passes() -> None:
     halves, ramp = np.ones((1, 2, 4), np.float32), np.ones((2, 2, 4), np.float32)
     halves[0, :, 3] = (0.0, 1.0)
     ramp[..., 3] = ((0.0, 0.0), (1.0, 1.0))
-    images = (ImageArrays("halves", halves, nearest=True), ImageArrays("ramp", ramp, extension="EXTEND"))
-    cut = replace(CLEAR, alpha=0.5, scalars=ScalarsArrays(0), alpha_threshold=0.5)
-    soft = replace(CLEAR, alpha=0.5, scalars=ScalarsArrays(1))
+    images = (source_of("halves", halves), source_of("ramp", ramp))
+    cut = cut_out(CLEAR, Looked(0, is_nearest=True), threshold=0.5)
+    soft = cut_out(CLEAR, Looked(1, "EXTEND"))
     light, place = light_through(under_sheets(cut, soft, images=images))
     across, up = place[:, 0], 0.5 * place[:, 1] + 0.5
     assert (light[across > 0.02] == 0.0).all()

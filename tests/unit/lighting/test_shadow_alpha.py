@@ -8,17 +8,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.renderer.lighting.programs.casters import CasterImage
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_alpha import HASHED_SAMPLES, MOST_KEPT, ShadowAlpha
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays, MaterialArrays, ScalarsArrays
+from curvrefl.curvrefl_addon.scene.arrays import MaterialArrays, SceneArrays
 from scenes.paths.made_of import CHROME, LEAF, scene_of
+from scenes.paths.programs import cut_out, painted, source_of
 
-CUT = replace(LEAF, scalars=ScalarsArrays(0), alpha_threshold=0.5)
-SOFT = replace(LEAF, scalars=ScalarsArrays(0))
-IMAGE = ImageArrays("alpha", np.full((2, 2, 4), 0.5, np.float32))
+CUT = cut_out(replace(LEAF, name="threshold"), threshold=0.5)
+SOFT = cut_out(LEAF)
+NOWHERE = replace(SOFT, name="nowhere")
+IMAGE = source_of("alpha", np.full((2, 2, 4), 0.5, np.float32))
+
+
+def bake(scene: SceneArrays, index: int) -> CasterImage:
+    """Stands for what the GPU makes of a program."""
+    material = scene.materials[index]
+    alpha = np.array([[0.0, 1.0] if "threshold" in material.name else [0.25, 0.75]], np.float32)
+    return CasterImage(alpha, -1 if material.name == "nowhere" else 0)
 
 
 def alpha_of(material: MaterialArrays) -> ShadowAlpha:
-    return ShadowAlpha(replace(scene_of(CHROME, material), images=(IMAGE,)))
+    return ShadowAlpha(replace(scene_of(CHROME, material), images=(IMAGE,)), bake)
 
 
 @pytest.mark.parametrize(
@@ -32,11 +42,11 @@ def alpha_of(material: MaterialArrays) -> ShadowAlpha:
         (replace(CUT, transparent_tint=(0.5, 0.5, 0.5)), True, True, True),
         (replace(LEAF, alpha=0.0), True, False, False),
         (replace(LEAF, alpha=0.0, transparent_tint=(0.0, 0.0, 0.0)), False, False, False),
-        (replace(LEAF, alpha_threshold=0.6), True, False, False),
-        (replace(LEAF, alpha_threshold=0.4), False, False, False),
-        (replace(LEAF, alpha_threshold=0.4, alpha_inverted=True), True, False, False),
+        (painted(LEAF), True, True, True),
+        (replace(SOFT, ranges=(("alpha", 1.0, 1.0),)), False, False, False),
+        (replace(SOFT, ranges=(("alpha", 0.0, 0.0),)), True, False, False),
     ],
-    ids=str,
+    ids=lambda value: value.name if isinstance(value, MaterialArrays) else "",
 )
 def test_what_casts_in_part(material: MaterialArrays, is_clear: bool, casts: bool, is_hashed: bool) -> None:
     alpha = alpha_of(material)
@@ -56,9 +66,15 @@ def test_a_point_has_several_maps_where_they_differ() -> None:
 
 def test_a_state_that_changes_no_shadow_is_no_other() -> None:
     scene = replace(scene_of(CHROME, SOFT), images=(IMAGE,))
-    alpha = ShadowAlpha(scene)
+    alpha = ShadowAlpha(scene, bake)
     rougher = (scene.materials[0], replace(SOFT, roughness=0.9), *scene.materials[2:])
     assert not alpha.follow(replace(scene, materials=rougher))
-    assert alpha.follow(replace(scene, images=(replace(IMAGE, pixels=0.5 * IMAGE.pixels),)))
+    assert alpha.follow(replace(scene, images=(source_of("other", np.zeros((2, 2, 4), np.float32)),)))
     assert alpha.follow(replace(scene, materials=(scene.materials[0], CHROME, *scene.materials[2:])))
     assert not alpha.materials
+
+
+def test_what_is_on_no_uv_map_is_said() -> None:
+    (sentence,) = alpha_of(NOWHERE).warnings
+    assert sentence.startswith('Shadows of material "nowhere" let light through everywhere alike')
+    assert not alpha_of(SOFT).warnings

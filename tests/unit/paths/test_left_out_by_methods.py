@@ -42,10 +42,15 @@ OPAQUE = MaterialArrays("opaque")
         (
             varying(CHROME, roughness=(0.0, 1.0)),
             [
-                'Textures of roughness, metallic and alpha of mirror "mirror" are their means',
                 'Roughness of mirror "mirror" is left out',
+                'Textures of more than its color of mirror "mirror" are left out',
             ],
-            "has a texture of its gloss",
+            "is rough",
+        ),
+        (
+            varying(CHROME, metallic=(0.0, 1.0), roughness=(0.0, 0.0)),
+            ['Textures of more than its color of mirror "mirror" are left out'],
+            "has textures of its gloss",
         ),
     ],
     ids=lambda item: item.name if isinstance(item, MaterialArrays) else "",
