@@ -15,6 +15,7 @@ import numpy as np
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
+from .appearance import Appearance
 from .device.context import require_gpu
 from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
@@ -22,11 +23,8 @@ from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .lighting.left_out import INDIRECT, is_lit_indirectly
-from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror, mirrors_of
 from .noise import Convergence
-from .paths.features import same_for_paths
-from .paths.left_out import PathNeeds
 from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .programs.image_pages import DEFAULT_CAP
@@ -35,15 +33,12 @@ from .reflection import Diagnostic, Reflection
 from .seen import draw_seen
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
-from .shading.shade import ShadePass
 from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
-from .surfaces.materials import Materials
 from .surfaces.pixel_filter import offsets
 from .surfaces.windows import Window, union
-from .tracing.tracer import PathTracer
 from .vertices.mirror_solver import require
 
 
@@ -84,25 +79,9 @@ class Renderer:
         self._placement = Placement(self.geometry.facts)
         self._given = scene
         self._follow_scene(self._placement.placed(scene))
-        self._materials = Materials(self.scene, image_memory, is_gradual, self.geometry)
-        self._lighting = Lighting(self.scene, self.geometry, self._materials, self.settings.samples)
-        self._shade = ShadePass(self.scene, self._lighting, self._materials)
-        self._tracer: PathTracer | None = None
-        self._follow_paths()
-
-    def _follow_paths(self) -> None:
-        """Of what the scene is made has changed, beside places."""
-        self._needs = PathNeeds(self.scene, self._numbers)
-        features = self._needs.features
-        if self._tracer is not None and self._tracer.features == features:
-            self._tracer.follow(self.scene)
-        else:
-            self._tracer = self._new_tracer()
-
-    def _new_tracer(self) -> PathTracer | None:
-        """Where the scene needs one."""
-        features = self._needs.features
-        return PathTracer(self.scene, features, self._lighting, self._materials) if features else None
+        self._appearance = Appearance(
+            self.scene, self.geometry, self._numbers, self.settings.samples, image_memory, is_gradual
+        )
 
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
@@ -122,18 +101,8 @@ class Renderer:
             self._follow(self._placement.placed(self._given), anew=True)
 
     def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
-        before = self.scene
         difference = self._follow_scene(scene, anew)
-        if scene.materials is not before.materials or scene.images is not before.images:
-            self._materials.follow(scene)
-        elif difference.moved or difference.structure:
-            self._materials.move(scene)
-        self._lighting.follow(scene, difference)
-        self._shade.follow(scene)
-        if difference.structure or not same_for_paths(before, scene):
-            self._follow_paths()
-        elif difference.moved and self._tracer is not None:
-            self._tracer.move(scene)
+        self._appearance.follow(scene, difference, self._numbers)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
 
@@ -144,10 +113,7 @@ class Renderer:
         before, self.settings = self.settings, settings
         if settings.samples != before.samples:
             self._jitter = offsets(settings.samples)
-            self._lighting.free()
-            self._lighting = Lighting(self.scene, self.geometry, self._materials, settings.samples)
-            self._shade = ShadePass(self.scene, self._lighting, self._materials)
-            self._tracer = self._new_tracer()
+            self._appearance.resample(settings.samples)
             self._preparation.forget_cubes()
         if settings.environment_resolution != before.environment_resolution:
             self._preparation.forget_cubes()
@@ -155,12 +121,12 @@ class Renderer:
 
     def free(self) -> None:
         """Let go of all GPU resources; the renderer is of no use afterwards."""
-        self._lighting.free()
+        self._appearance.free()
         self.mirrors = []
         self.geometry = SceneGeometry()
         self._targets = TargetPool()
         self._preparation = Preparation()
-        self._diagnostics = self._rays = self._tracer = None
+        self._diagnostics = self._rays = None
 
     def _follow_scene(self, scene: SceneArrays, anew: bool = False) -> Difference:
         """Mirrors and geometry."""
@@ -184,7 +150,8 @@ class Renderer:
 
     @property
     def _stage(self) -> Stage:
-        return Stage(self.mirrors, self.geometry, self._materials, self._lighting, self._shade, self.rays, self._tracer)
+        made = self._appearance
+        return Stage(self.mirrors, self.geometry, made.materials, made.lighting, made.shade, self.rays, made.tracer)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -199,10 +166,7 @@ class Renderer:
                 found += mirror.shape(self.settings.map_resolution).warnings
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
-        found += self._needs.left_out_by(self.settings.entry)
-        found += (*self._materials.warnings, *self._lighting.warnings, *self._lighting.world_warnings)
-        if self._tracer is not None:
-            found += self._tracer.warnings
+        found += self._appearance.warnings(self.settings.entry)
         if self._rays is not None:
             found += self._rays.warnings
         return tuple(found)
@@ -270,7 +234,7 @@ class Renderer:
             # (Its points are elsewhere.)
             last = None
         found = self._preparation.reflect(
-            self._stage, view, self.settings, self._needs.reasons, last, is_still, at_rest
+            self._stage, view, self.settings, self._appearance.needs.reasons, last, is_still, at_rest
         )
         return replace(found, warnings=(*self.warnings, *found.warnings), origin=origin)
 
@@ -301,10 +265,10 @@ class Renderer:
             methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
             add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic, methods)
             return
-        self._lighting.prepare(index)
+        self._appearance.lighting.prepare(index)
         if not groups:
             seen, film, shadows = sub_frame.targets.seen, self.settings.film_transparent, sub_frame.shadows
-            self._shade.add(
+            self._appearance.shade.add(
                 canvas, seen, None, sub_frame.uniforms, weight, window, None, shadows, film_transparent=film
             )
         for number, (kind, members) in enumerate(groups):
@@ -313,8 +277,9 @@ class Renderer:
             light = Light(canvas, weight, chosen, number == 0, film, reflection.calm)
             kind.add_light(members, sub_frame, light)
         by_rays = bool(groups) and groups[0][0] is ShownRays
-        if self._tracer is not None and self._tracer.sees_through and not (mirrors_only or by_rays):
-            trace_seen_through(self._tracer, sub_frame, canvas, weight, self.settings)
+        tracer = self._appearance.tracer
+        if tracer is not None and tracer.sees_through and not (mirrors_only or by_rays):
+            trace_seen_through(tracer, sub_frame, canvas, weight, self.settings)
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
@@ -331,11 +296,11 @@ class Renderer:
     @property
     def is_loading(self) -> bool:
         """Some materials or images are not drawn as they are yet."""
-        return self._materials.is_loading
+        return self._appearance.materials.is_loading
 
     def load_some(self, seconds: float) -> None:
         """Go on with that: a program, or images for about so long."""
-        if self._materials.load_some(seconds):
+        if self._appearance.materials.load_some(seconds):
             self.revision += 1
 
     @property

@@ -9,7 +9,6 @@ object as in the last `SceneArrays`, and the renderer goes by that.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -35,6 +34,7 @@ from .reads import (
     needs_of,
     object_of,
     oddities,
+    only_of,
     require_reflectors,
     slot_materials,
     uid_of_block,
@@ -173,16 +173,7 @@ class SceneReader:
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
         """What these objects (session_uid) show of the scene last read, themselves or by instancing."""
-        shown = [item for key, item in self._shown.items() if (key[1] or key[0] % HAIR) in objects]
-        kept, lights = {id(item.instance) for item in shown}, {id(item.light) for item in shown}
-        instances = tuple(instance for instance in scene.instances if id(instance) in kept)
-        ids = {instance.object_id for instance in instances}
-        return replace(
-            scene,
-            instances=instances,
-            lights=tuple(light for light in scene.lights if id(light) in lights),
-            reflectors=tuple(number for number in scene.reflectors if number in ids),
-        )
+        return only_of(scene, [item for key, item in self._shown.items() if (key[1] or key[0] % HAIR) in objects])
 
     def uid_of(self, object_id: int) -> int | None:
         """The `session_uid` of an object by its number in the scenes that were read; None where there is none."""

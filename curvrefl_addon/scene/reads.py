@@ -237,6 +237,19 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
     return last if same else result
 
 
+def only_of(scene: SceneArrays, shown: Sequence[ShownInstance]) -> SceneArrays:
+    """Of a scene what these show alone."""
+    kept, lights = {id(item.instance) for item in shown}, {id(item.light) for item in shown}
+    instances = tuple(instance for instance in scene.instances if id(instance) in kept)
+    ids = {instance.object_id for instance in instances}
+    return replace(
+        scene,
+        instances=instances,
+        lights=tuple(light for light in scene.lights if id(light) in lights),
+        reflectors=tuple(number for number in scene.reflectors if number in ids),
+    )
+
+
 def is_singular(matrix: Float64Array) -> bool:
     """Without an inverse, or with one that single precision cannot hold."""
     if not np.isfinite(matrix).all():

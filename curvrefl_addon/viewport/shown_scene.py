@@ -160,9 +160,7 @@ class ViewportScene:
                 self._refused[uid] = str(error)
         return None
 
-    def _up_to_date(
-        self, context: bpy.types.Context, look: Look, settings: Settings, image_memory: int
-    ) -> Renderer:
+    def _up_to_date(self, context: bpy.types.Context, look: Look, settings: Settings, image_memory: int) -> Renderer:
         if look not in self._shown:
             assert self._arrays is not None
             self._shown[look] = self._lights.lit(self._local(context, look), look.light)

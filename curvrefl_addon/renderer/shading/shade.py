@@ -240,8 +240,7 @@ class ShadePass:
         rays: RayScene | None = None,
         made: MaterialBuffers | None = None,
     ) -> None:
-        """A full-screen triangle for the pixels of one class; `rays` where the shader follows some; `made`: of the
-        surfaces that it lights."""
+        """A full-screen triangle for the pixels of one class; `rays`: if it follows some; `made`: of what is lit."""
         shader.bind()
         if rays is not None:
             rays.bind(shader)

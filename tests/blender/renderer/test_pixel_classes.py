@@ -106,7 +106,7 @@ def test_shaders_of_the_scene_draw_what_shaders_of_all_scenes_do(
 ) -> None:
     scene = replace(room(), lights=tuple(lamp(kind) for kind in kinds), world=WorldArrays(color=world))
     renderer = Renderer(scene, Settings(samples=1))
-    lighting = renderer._lighting
+    lighting = renderer._appearance.lighting
     assert lighting.features < FEATURES
     assert {f"LIGHTING_{kind}" for kind in kinds} <= lighting.features
     assert ("LIGHTING_WORLD" in lighting.features) == (max(world) > 0.0)

@@ -182,7 +182,7 @@ def test_a_wider_frustum_finds_what_a_mirror_shows_past_the_border() -> None:
         renderer = Renderer(room.arrays(), Settings(method="bisector_screen", frustum=frustum, samples=1))
         mirror = renderer.mirrors[0]
         own = renderer.geometry.of_instance(mirror.index)
-        reflector = MirrorSolver(mirror).reflector(view, renderer.settings, own, renderer._materials)
+        reflector = MirrorSolver(mirror).reflector(view, renderer.settings, own, renderer._appearance.materials)
         records = record_texture(np.column_stack([vertices, np.ones(len(vertices))]).astype(np.float32))
         points, code, _, _ = solve_vertices("bisector_screen", view, reflector, records, len(vertices)).read()
         off = np.linalg.norm(view.project(points.astype(float)) - view.project(truth), axis=1)

@@ -116,6 +116,6 @@ def _alpha_shader(shape: Shape, around: Surroundings) -> Any:
         Piece(
             constants={"part": "VEC4", "pixels": "VEC2", "program_first": "INT", "turn": "IVEC2", **DRAWN.constants},
             outputs={"color": "VEC4"},
-            fragment="programs/caster_alpha.frag.glsl",
+            fragment="bake/caster_alpha.frag.glsl",
         ),
     )

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a scene's surfaces look: what they are made of, what lights them, what paths do at them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..optics.catalog import Method
+from ..scene.arrays import SceneArrays
+from .geometry.scene_geometry import Difference, SceneGeometry
+from .lighting.lighting import Lighting
+from .paths.features import same_for_paths
+from .paths.left_out import PathNeeds
+from .shading.shade import ShadePass
+from .surfaces.materials import Materials
+from .tracing.tracer import PathTracer
+
+
+class Appearance:
+    """Of one scene; `free()` when done."""
+
+    def __init__(
+        self,
+        scene: SceneArrays,
+        geometry: SceneGeometry,
+        mirrors: Iterable[int],
+        samples: int,
+        image_memory: int,
+        is_gradual: bool,
+    ) -> None:
+        """`mirrors`: indices of their instances; others as of the renderer."""
+        self._scene, self._geometry = scene, geometry
+        self.materials = Materials(scene, image_memory, is_gradual, geometry)
+        self.lighting = Lighting(scene, geometry, self.materials, samples)
+        self.shade = ShadePass(scene, self.lighting, self.materials)
+        self.tracer: PathTracer | None = None
+        """Where rays do not only go from sharp mirror to sharp mirror"""
+        self._follow_paths(mirrors)
+
+    def follow(self, scene: SceneArrays, difference: Difference, mirrors: Iterable[int]) -> None:
+        """Know another state of the scene, whose geometry the `difference` has changed."""
+        before, self._scene = self._scene, scene
+        if scene.materials is not before.materials or scene.images is not before.images:
+            self.materials.follow(scene)
+        elif difference.moved or difference.structure:
+            self.materials.move(scene)
+        self.lighting.follow(scene, difference)
+        self.shade.follow(scene)
+        if difference.structure or not same_for_paths(before, scene):
+            self._follow_paths(mirrors)
+        elif difference.moved and self.tracer is not None:
+            self.tracer.move(scene)
+
+    def resample(self, samples: int) -> None:
+        """For pictures of so many sub-frames."""
+        self.lighting.free()
+        self.lighting = Lighting(self._scene, self._geometry, self.materials, samples)
+        self.shade = ShadePass(self._scene, self.lighting, self.materials)
+        self.tracer = self._new_tracer()
+
+    def warnings(self, method: Method) -> tuple[str, ...]:
+        """What is not shown as it is, one sentence each."""
+        found = [*self.needs.left_out_by(method)]
+        found += (*self.materials.warnings, *self.lighting.warnings, *self.lighting.world_warnings)
+        if self.tracer is not None:
+            found += self.tracer.warnings
+        return tuple(found)
+
+    def free(self) -> None:
+        """Let go of GPU resources that do not go by themselves."""
+        self.lighting.free()
+        self.tracer = None
+
+    def _follow_paths(self, mirrors: Iterable[int]) -> None:
+        """Of what the scene is made has changed, beside places."""
+        self.needs = PathNeeds(self._scene, mirrors)
+        if self.tracer is not None and self.tracer.features == self.needs.features:
+            self.tracer.follow(self._scene)
+        else:
+            self.tracer = self._new_tracer()
+
+    def _new_tracer(self) -> PathTracer | None:
+        """Where the scene needs one."""
+        features = self.needs.features
+        return PathTracer(self._scene, features, self.lighting, self.materials) if features else None
