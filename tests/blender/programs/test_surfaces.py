@@ -190,7 +190,7 @@ def test_nested_mixes_share_one_number() -> None:
     assert material.program is not None
     text = material.program.shape.text
     assert text.count("chance_inside(") == 1 and "s.random" in text
-    assert "programs/chance.glsl" in material.program.shape.files
+    assert "nodes/chance.glsl" in material.program.shape.files
 
 
 def test_sums() -> None:

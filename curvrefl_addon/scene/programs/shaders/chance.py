@@ -35,7 +35,7 @@ class Chance:
                 b.depend("random")
                 self._value = Expression("s.random", "float", None, 0.0, 1.0)
             else:
-                b.include("programs/chance.glsl")
+                b.include("nodes/chance.glsl")
                 arguments = f"{self._outer._number(b).text}, {placed(b, self._share)}"
                 self._value = b.made("float", f"chance_inside({arguments})", 0.0, 1.0)
         return self._value

@@ -48,7 +48,7 @@ def normal(b: Builder, source: Source, name: str = "Normal") -> Expression:
         # (Inputs of groups that nothing is plugged into.)
         return PLAIN_NORMAL
     key = ("unit_normal", value.text)
-    return b.shared(key, lambda: b.call("vector", "unit_normal", "s", value, file="programs/unit_normal.glsl"))
+    return b.shared(key, lambda: b.call("vector", "unit_normal", "s", value, file="nodes/unit_normal.glsl"))
 
 
 def film(b: Builder, source: Source) -> dict[str, Expression]:
