@@ -78,8 +78,9 @@ def world_light(world: WorldArrays, count: int, diffuse: WorldArrays | None = No
     coarse = even = _Sky.of(world, 32)
     drawn = sky
     if diffuse is not world:
-        even = _Sky.of(diffuse, 32)
-        drawn = _Sky(sky.directions, sky.solid_angles, 0.5 * (sky.power + _Sky.of(diffuse, 64).power))
+        even, fine = _Sky.of(diffuse, 32), _Sky.of(diffuse, 64)
+        # (Where only mirrors see the world, its directions are for their lobes alone.)
+        drawn = fine if fine.power.any() else sky
     normals = octahedral_directions(MAP_SIZE).reshape(-1, 3).astype(np.float32)
     directions, draws, weights = _uniform(world, count) if world.image is None else _by_power(drawn, count)
     if world.image is None:

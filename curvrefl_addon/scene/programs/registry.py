@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from .builder import Handler
-from .nodes import images, noise, patterns, skies, strands, voronoi
+from .nodes import images, noise, patterns, photometry, skies, strands, voronoi
 from .nodes.values import bumps, colors, numbers, parts, places, plain, ramps, surface, vectors
 
 HANDLERS: Mapping[str, Handler] = {
@@ -16,6 +16,7 @@ HANDLERS: Mapping[str, Handler] = {
     **patterns.NODES,
     **voronoi.NODES,
     **skies.NODES,
+    **photometry.NODES,
     **strands.NODES,
     **numbers.NODES,
     **vectors.NODES,

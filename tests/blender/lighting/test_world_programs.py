@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting.programs.world import baked_world
+from curvrefl.curvrefl_addon.renderer.lighting.world import world_light
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
@@ -136,3 +137,21 @@ def test_the_sun_is_a_disc_where_it_is_seen() -> None:
     cycles = cycles_picture(48, 48, 64)
     error = np.abs(ours[..., :3] - cycles).max(axis=-1) / float(cycles.max())
     assert np.quantile(error, 0.9) < 0.01, np.quantile(error, [0.5, 0.8, 0.9, 0.95, 1.0])
+
+
+def test_what_mirrors_show_may_differ_from_what_lights() -> None:
+    """An even light, and a sky in mirrors."""
+    tree, sky = new_world("ShaderNodeTexSky", sky_type="PREETHAM")
+    path, mix = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMix")
+    mix.data_type = "RGBA"
+    sockets = {socket.identifier: socket for socket in mix.inputs}
+    sockets["A_Color"].default_value = (0.3, 0.3, 0.3, 1.0)
+    tree.links.new(sky.outputs[0], sockets["B_Color"])
+    tree.links.new(path.outputs["Is Glossy Ray"], sockets["Factor_Float"])
+    tree.links.new(mix.outputs[2], tree.nodes["Background"].inputs["Color"])
+    baked = baked_world(extracted().world)
+    assert baked.glossy.image is not None and np.ptp(baked.glossy.image) > 0.1
+    assert baked.diffuse.image is not None and np.allclose(baked.diffuse.image, 0.3)
+    assert baked.seen.color == pytest.approx((0.3, 0.3, 0.3)) and baked.seen.image is None
+    light = world_light(baked.glossy, 16, baked.diffuse)
+    np.testing.assert_allclose(light.maps[0, ..., :3], 0.3 * np.pi, rtol=0.01)

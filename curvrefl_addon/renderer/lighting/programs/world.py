@@ -16,7 +16,7 @@ WIDTH = 2048
 """Pixels around of the image of a program"""
 MOST_WIDTH = 4096
 """Where its own images have more"""
-EVEN_WIDTH = 64
+EVEN_WIDTH = 128
 """Of one whose color is the same everywhere"""
 PROBE_WIDTH = 128
 """Of what only tells whether two kinds of rays see the same"""
@@ -86,6 +86,11 @@ def _bake(world: WorldArrays) -> BakedWorld:
     warnings = baker.warnings
     if TRANSMISSION in others:
         warnings += ("Through glass the world is drawn as mirrors show it.",)
+    if DIFFUSE in differs:
+        warnings += (
+            "The world lights diffuse and glossy parts of surfaces as its Light Path nodes say, which Cycles asks for a "
+            "part of its samples alone.",
+        )
     return BakedWorld(
         worlds.get(CAMERA, worlds[GLOSSY]),
         worlds[GLOSSY],
