@@ -21,6 +21,8 @@ from .unwrap import add_maps, remove_maps
 MARGIN = 8
 """Pixels around islands"""
 NON_COLOR = "Non-Color"
+LEAST_SAMPLES = 8
+"""Of what is not noisy: they smooth edges within pixels"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +110,7 @@ def _bake(
     unused = bpy.data.images.new("Curvrefl unused", 4, 4)
     shining = Shining(material, image, holds)
     other = Shining(material, unused, "normal")
+    samples = samples if shining.is_noisy else min(samples, LEAST_SAMPLES)
     try:
         with _own_scene(scene, samples) as own, _worn(objects, material, shining.material, other.material):
             view_layer = own.view_layers[0]

@@ -120,6 +120,33 @@ def _nodes(tree: Any, open_groups: set[int]) -> Iterator[Any]:
             yield from _nodes(group, open_groups | {tree.as_pointer()})
 
 
+NOISY = frozenset({"AMBIENT_OCCLUSION", "BEVEL", "MATERIAL_RAYCAST"})
+"""Types of nodes that follow rays: what comes of them takes samples"""
+
+
+def is_noisy(tree: Any, is_for_normals: bool) -> bool:
+    """Whether any such node is behind the tree's surface, or behind the normals and displacement alone."""
+    ends = [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"]
+    if not is_for_normals:
+        return _has_noisy([socket for node in ends for socket in node.inputs], set())
+    bent = [node.inputs["Normal"] for node in tree.nodes if "Normal" in node.inputs]
+    return _has_noisy([*bent, *(node.inputs["Displacement"] for node in ends)], set())
+
+
+def _has_noisy(sockets: list[Any], seen: set[int]) -> bool:
+    for socket in sockets:
+        for link in socket.links:
+            node = link.from_node
+            if node.as_pointer() in seen:
+                continue
+            seen.add(node.as_pointer())
+            group = getattr(node, "node_tree", None)
+            inside = group is not None and any(part.type in NOISY for part in _nodes(group, set()))
+            if inside or node.type in NOISY or _has_noisy(list(node.inputs), seen):
+                return True
+    return False
+
+
 class Shining:
     """A copy of a material that shines with what one image is to hold; `remove()` when done."""
 
@@ -131,6 +158,8 @@ class Shining:
         if holds != "normal":
             # (Only where some of several shaders is not there, colors are weighted by what is.)
             self._convert(tree, holds, shaders_of(tree).single is None, {})
+        self.is_noisy = is_noisy(tree, holds == "normal")
+        """It takes samples"""
         target = tree.nodes.new("ShaderNodeTexImage")
         target.image = image
         for node in tree.nodes:
