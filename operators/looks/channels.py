@@ -76,16 +76,30 @@ class Shaders:
             return self.found[0][0]
         return None
 
+    def constant(self, name: str) -> float | None:
+        """A channel's value where all shaders have the same; None where it may differ from place to place."""
+        values = {_known(node, getattr(kind, name)) for node, kind in self.found}
+        return values.pop() if len(values) == 1 else None
+
     def differs(self, image: str) -> bool:
         """Whether what the image would hold is not the same everywhere."""
-        names = PARTS[image]
-        shines = image == "emission" and any(kind.emission for _, kind in self.found)
-        if self.single is None:
-            if image in ("base_color", "surface"):
-                return True
-            return shines or any(getattr(kind, name) not in (NOTHING, 0.5) for _, kind in self.found for name in names)
-        node, kind = self.found[0]
-        return any(node.inputs[getattr(kind, name)].is_linked for name in names)
+        if image == "emission":
+            shines = any(kind.emission for _, kind in self.found)
+            node = self.single
+            return shines and (node is None or any(node.inputs[name].is_linked for name in EMISSION))
+        if image == "base_color":
+            return self.single is None or bool(self.single.inputs["Base Color"].is_linked)
+        return any(self.constant(name) is None for name in PARTS[image])
+
+
+EMISSION = ("Emission Color", "Emission Strength")
+
+
+def _known(node: Any, source: Source) -> float | None:
+    if isinstance(source, float):
+        return source
+    socket = node.inputs[source]
+    return None if socket.is_linked else float(socket.default_value)
 
 
 def shaders_of(tree: Any) -> Shaders:

@@ -117,9 +117,8 @@ def test_the_look_is_a_principled_of_images(tmp_path: Path) -> None:
     look = look_of(bpy.data.materials["Rust"])
     assert look is not None and look.is_current
     shader = next(node for node in look.material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    assert {socket.name for socket in shader.inputs if socket.is_linked} == {
-        "Base Color", "Metallic", "Roughness", "Alpha",
-    }  # fmt: skip
+    assert {socket.name for socket in shader.inputs if socket.is_linked} == {"Base Color", "Roughness"}
+    assert shader.inputs["Metallic"].default_value == pytest.approx(0.3) and shader.inputs["Alpha"].default_value == 1.0
     assert look.images["base_color"].has_data or look.images["base_color"].packed_file
 
 
