@@ -21,6 +21,8 @@ from .unwrap import add_maps, remove_maps
 MARGIN = 8
 """Pixels around islands"""
 NON_COLOR = "Non-Color"
+LEAST_SAMPLES = 8
+"""Of what is not noisy: they smooth edges within pixels"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +110,7 @@ def _bake(
     unused = bpy.data.images.new("Curvrefl unused", 4, 4)
     shining = Shining(material, image, holds)
     other = Shining(material, unused, "normal")
+    samples = samples if shining.is_noisy else min(samples, LEAST_SAMPLES)
     try:
         with _own_scene(scene, samples) as own, _worn(objects, material, shining.material, other.material):
             view_layer = own.view_layers[0]
@@ -175,11 +178,11 @@ def _worn(
 def _finish(material: Any, shaders: Shaders, images: dict[str, bpy.types.Image]) -> None:
     """Keep the images in the file, and let a material of them stand for this one."""
     if shaders.single is None and "base_color" in images:
-        _divide_by_alpha(images)
+        _divide_by_alpha(shaders, images)
     forget_look(material)
     for image in images.values():
         image.pack()
-    made = stand_in(material, shaders.single, images)
+    made = stand_in(material, shaders, images)
     material[KEY] = {"material": made, "signature": signature(material.node_tree), "images": dict(images)}
     material.update_tag()
 
@@ -194,8 +197,10 @@ def forget_look(material: Any) -> None:
         del material[KEY]
 
 
-def _divide_by_alpha(images: dict[str, Any]) -> None:
+def _divide_by_alpha(shaders: Shaders, images: dict[str, Any]) -> None:
     """Mixed shaders were weighted by what is there."""
+    if "surface" not in images or shaders.constant("alpha") is not None:
+        return
     alpha = _pixels(images["surface"])[:, 2:3]
     for holds, channels in (("surface", 2), ("base_color", 3), ("layers", 3)):
         if holds in images and (alpha < 1.0).any():

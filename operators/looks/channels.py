@@ -76,16 +76,30 @@ class Shaders:
             return self.found[0][0]
         return None
 
+    def constant(self, name: str) -> float | None:
+        """A channel's value where all shaders have the same; None where it may differ from place to place."""
+        values = {_known(node, getattr(kind, name)) for node, kind in self.found}
+        return values.pop() if len(values) == 1 else None
+
     def differs(self, image: str) -> bool:
         """Whether what the image would hold is not the same everywhere."""
-        names = PARTS[image]
-        shines = image == "emission" and any(kind.emission for _, kind in self.found)
-        if self.single is None:
-            if image in ("base_color", "surface"):
-                return True
-            return shines or any(getattr(kind, name) not in (NOTHING, 0.5) for _, kind in self.found for name in names)
-        node, kind = self.found[0]
-        return any(node.inputs[getattr(kind, name)].is_linked for name in names)
+        if image == "emission":
+            shines = any(kind.emission for _, kind in self.found)
+            node = self.single
+            return shines and (node is None or any(node.inputs[name].is_linked for name in EMISSION))
+        if image == "base_color":
+            return self.single is None or bool(self.single.inputs["Base Color"].is_linked)
+        return any(self.constant(name) is None for name in PARTS[image])
+
+
+EMISSION = ("Emission Color", "Emission Strength")
+
+
+def _known(node: Any, source: Source) -> float | None:
+    if isinstance(source, float):
+        return source
+    socket = node.inputs[source]
+    return None if socket.is_linked else float(socket.default_value)
 
 
 def shaders_of(tree: Any) -> Shaders:
@@ -120,6 +134,33 @@ def _nodes(tree: Any, open_groups: set[int]) -> Iterator[Any]:
             yield from _nodes(group, open_groups | {tree.as_pointer()})
 
 
+NOISY = frozenset({"AMBIENT_OCCLUSION", "BEVEL", "MATERIAL_RAYCAST"})
+"""Types of nodes that follow rays: what comes of them takes samples"""
+
+
+def is_noisy(tree: Any, is_for_normals: bool) -> bool:
+    """Whether any such node is behind the tree's surface, or behind the normals and displacement alone."""
+    ends = [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"]
+    if not is_for_normals:
+        return _has_noisy([socket for node in ends for socket in node.inputs], set())
+    bent = [node.inputs["Normal"] for node in tree.nodes if "Normal" in node.inputs]
+    return _has_noisy([*bent, *(node.inputs["Displacement"] for node in ends)], set())
+
+
+def _has_noisy(sockets: list[Any], seen: set[int]) -> bool:
+    for socket in sockets:
+        for link in socket.links:
+            node = link.from_node
+            if node.as_pointer() in seen:
+                continue
+            seen.add(node.as_pointer())
+            group = getattr(node, "node_tree", None)
+            inside = group is not None and any(part.type in NOISY for part in _nodes(group, set()))
+            if inside or node.type in NOISY or _has_noisy(list(node.inputs), seen):
+                return True
+    return False
+
+
 class Shining:
     """A copy of a material that shines with what one image is to hold; `remove()` when done."""
 
@@ -131,6 +172,8 @@ class Shining:
         if holds != "normal":
             # (Only where some of several shaders is not there, colors are weighted by what is.)
             self._convert(tree, holds, shaders_of(tree).single is None, {})
+        self.is_noisy = is_noisy(tree, holds == "normal")
+        """It takes samples"""
         target = tree.nodes.new("ShaderNodeTexImage")
         target.image = image
         for node in tree.nodes:

@@ -10,18 +10,23 @@ from typing import Any
 import bpy
 
 from ...curvrefl_addon.scene.programs.looks import UV_MAP
+from .channels import PARTS, Shaders
 
 SOCKETS = {
-    "surface": ("Metallic", "Roughness", "Alpha"),
-    "layers": ("Transmission Weight", "Specular IOR Level", "Coat Weight"),
+    "metallic": "Metallic",
+    "roughness": "Roughness",
+    "alpha": "Alpha",
+    "transmission": "Transmission Weight",
+    "level": "Specular IOR Level",
+    "coat": "Coat Weight",
 }
-"""What three channels of an image go into"""
+"""What channels of images go into"""
 
 
 def stand_in(
-    material: bpy.types.Material, principled: Any, images: Mapping[str, bpy.types.Image]
+    material: bpy.types.Material, shaders: Shaders, images: Mapping[str, bpy.types.Image]
 ) -> bpy.types.Material:
-    """`principled`: the node whose constants are taken over; None: there are several shaders."""
+    """What is the same everywhere is a constant: that alpha is 1 spares a look what is seen through."""
     # (Names that begin with a period are not listed by Blender.)
     made = bpy.data.materials.new(f".{material.name} look")
     if made.node_tree is None:
@@ -30,10 +35,8 @@ def stand_in(
     tree.nodes.clear()
     shader, output = tree.nodes.new("ShaderNodeBsdfPrincipled"), tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
-    if principled is not None:
-        _copy_constants(principled, shader)
-    elif "layers" not in images:
-        shader.inputs["Specular IOR Level"].default_value = 0.0
+    if shaders.single is not None:
+        _copy_constants(shaders.single, shader)
     place = tree.nodes.new("ShaderNodeUVMap")
     place.uv_map = UV_MAP
     found = {}
@@ -41,12 +44,13 @@ def stand_in(
         node = found[holds] = tree.nodes.new("ShaderNodeTexImage")
         node.image, node.extension = image, "EXTEND"
         tree.links.new(place.outputs[0], node.inputs[0])
-    for holds, sockets in SOCKETS.items():
-        if holds in found:
-            separate = tree.nodes.new("ShaderNodeSeparateColor")
-            tree.links.new(found[holds].outputs["Color"], separate.inputs[0])
-            for channel, name in zip(separate.outputs, sockets, strict=True):
-                tree.links.new(channel, shader.inputs[name])
+    for holds in ("surface", "layers"):
+        for number, name in enumerate(PARTS[holds]):
+            value = shaders.constant(name)
+            if value is None:
+                tree.links.new(_separated(tree, found[holds]).outputs[number], shader.inputs[SOCKETS[name]])
+            else:
+                shader.inputs[SOCKETS[name]].default_value = value
     if "base_color" in found:
         tree.links.new(found["base_color"].outputs["Color"], shader.inputs["Base Color"])
     if "emission" in found:
@@ -58,6 +62,16 @@ def stand_in(
         tree.links.new(found["normal"].outputs["Color"], bump.inputs["Color"])
         tree.links.new(bump.outputs[0], shader.inputs["Normal"])
     return made
+
+
+def _separated(tree: Any, texture: Any) -> Any:
+    """The node that takes a texture's channels apart."""
+    links = texture.outputs["Color"].links
+    if links:
+        return links[0].to_node
+    separate = tree.nodes.new("ShaderNodeSeparateColor")
+    tree.links.new(texture.outputs["Color"], separate.inputs[0])
+    return separate
 
 
 def _copy_constants(before: Any, shader: Any) -> None:

@@ -18,6 +18,7 @@ from curvrefl.curvrefl_addon.scene.programs.material_reader import MaterialReade
 from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute
 from curvrefl.operators.bake_look import CLASSES
 from curvrefl.operators.looks.bake import bake_look
+from curvrefl.operators.looks.channels import Shining, is_noisy
 from curvrefl.operators.looks.unwrap import is_layout
 
 COUNTED = ("materials", "images", "scenes", "objects", "meshes", "node_groups", "worlds")
@@ -116,9 +117,8 @@ def test_the_look_is_a_principled_of_images(tmp_path: Path) -> None:
     look = look_of(bpy.data.materials["Rust"])
     assert look is not None and look.is_current
     shader = next(node for node in look.material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    assert {socket.name for socket in shader.inputs if socket.is_linked} == {
-        "Base Color", "Metallic", "Roughness", "Alpha",
-    }  # fmt: skip
+    assert {socket.name for socket in shader.inputs if socket.is_linked} == {"Base Color", "Roughness"}
+    assert shader.inputs["Metallic"].default_value == pytest.approx(0.3) and shader.inputs["Alpha"].default_value == 1.0
     assert look.images["base_color"].has_data or look.images["base_color"].packed_file
 
 
@@ -260,6 +260,21 @@ def test_bumps_become_normals() -> None:
     assert values[:, :2].std() > 0.05
     lengths = np.linalg.norm(2.0 * values - 1.0, axis=1)
     assert np.median(np.abs(lengths - 1.0)) < 0.02
+
+
+def test_samples_are_for_what_follows_rays() -> None:
+    material, _ = rust()
+    tree = material.node_tree
+    assert is_noisy(tree, False) and not is_noisy(tree, True)
+    bevel = tree.nodes.new("ShaderNodeBevel")
+    assert not is_noisy(tree, True)
+    tree.links.new(bevel.outputs[0], tree.nodes["Principled BSDF"].inputs["Normal"])
+    assert is_noisy(tree, True)
+    image = bpy.data.images.new("i", 4, 4)
+    material.node_tree.nodes["Principled BSDF"].inputs["Emission Strength"].default_value = 1.0
+    shining = Shining(material, image, "emission")
+    assert not shining.is_noisy
+    shining.remove()
 
 
 def test_a_closed_bake_leaves_nothing_behind() -> None:
