@@ -14,7 +14,7 @@ from ....scene.programs.program import UV, Program, Shape
 from ...device.batches import full_screen_triangle
 from ...device.context import gpu_cache
 from ...device.frame_buffers import frame_buffer
-from ...device.shaders import FULL_SCREEN, Piece, build_shader
+from ...device.shaders import FULL_SCREEN, Piece, build_shader, knows
 from ...device.state import drawing_state, set_viewport
 from ...device.textures import empty_texture, read_texture
 from ...geometry.chunk_attributes import attributes_of
@@ -78,8 +78,10 @@ class CasterBake:
             shader.bind()
             self._materials.bind_program(shader, program.shape, (0, 0))
             self._materials.bind(shader, index)
-            shader.uniform_float("part", (*low, *size))
-            shader.uniform_float("pixels", pixels)
+            # (Alpha may look at no texture coordinates.)
+            for name, value in (("part", (*low, *size)), ("pixels", pixels)):
+                if knows(shader, name):
+                    shader.uniform_float(name, value)
             full_screen_triangle().draw(shader)
         return np.clip(read_texture(texture)[..., 0], 0.0, 1.0)
 
