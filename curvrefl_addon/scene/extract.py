@@ -17,8 +17,8 @@ import numpy as np
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
+from .instances.parts import SHOWN, parts_of, uid_of_part
 from .instances.values import comparable, values_of_instance
-from .lights import read_light
 from .materials.color_spaces import working_space
 from .materials.images import ImageReader
 from .meshes.mesh_store import MeshStore
@@ -29,29 +29,24 @@ from .reads import (
     PlainObject,
     ShownInstance,
     bounces_of,
-    is_same_light,
     listing_of,
     needs_of,
     object_of,
     oddities,
     only_of,
     require_reflectors,
+    shown_light,
     slot_materials,
     uid_of_block,
     unplaced,
     with_kept,
 )
 from .remarks import Remark, of_kind, sentences
-from .strands.particles import HairSystem, hair_systems
+from .strands.particles import HairSystem
 from .strands.reading import has_no_faces
 from .unseen import of_view_layer, unseen
 from .visibility import rays_of
 from .world import read_world
-
-SHOWN = ("LIGHT", "MESH", "CURVES", "POINTCLOUD")
-"""Curves, texts, surfaces, metaballs and what geometry nodes make come as instances of meshes, too"""
-HAIR = 1 << 32
-"""What numbers of objects are followed by for their hair: (1 + number of the system) times that"""
 
 
 def extract_scene(
@@ -173,11 +168,11 @@ class SceneReader:
 
     def only(self, scene: SceneArrays, objects: set[int]) -> SceneArrays:
         """What these objects (session_uid) show of the scene last read, themselves or by instancing."""
-        return only_of(scene, [item for key, item in self._shown.items() if (key[1] or key[0] % HAIR) in objects])
+        return only_of(scene, [item for key, item in self._shown.items() if (key[1] or uid_of_part(key[0])) in objects])
 
     def uid_of(self, object_id: int) -> int | None:
         """The `session_uid` of an object by its number in the scenes that were read; None where there is none."""
-        return next((uid % HAIR for uid, number in self._ids.items() if number == object_id), None)
+        return next((uid_of_part(uid) for uid, number in self._ids.items() if number == object_id), None)
 
     def _id(self, uid: int) -> int:
         """The number of an object, from 1; it stays the same in all that is read."""
@@ -209,22 +204,15 @@ class SceneReader:
         is_render = depsgraph.mode == "RENDER"
         for instance in depsgraph.object_instances:
             self._unseen += unseen(instance, view_layer)
-            obj = instance.object
-            parent = 0
-            if instance.is_instance:
-                parent = instance.parent.original.session_uid
-            uid = obj.original.session_uid
-            parts: list[tuple[int, HairSystem | None]] = [(uid, None)] * (obj.type in SHOWN and instance.show_self)
-            for hair in hair_systems(instance, view_layer, is_render):
-                parts.append((uid + HAIR * (1 + hair.number), hair))
-                self._instancers.add(uid)
-            for own, hair in parts:
-                if parent:
-                    self._instancers.add(parent)
-                number = counts.get((own, parent), 0)
-                counts[own, parent] = number + 1
-                key = (own, parent, number)
-                self._shown[key] = self._read_instance(instance, own, parent, view_layer, before.get(key), hair)
+            parent = instance.parent.original.session_uid if instance.is_instance else 0
+            for uid, hair in parts_of(instance, view_layer, is_render):
+                if parent or hair is not None:
+                    # (What moves it moves others.)
+                    self._instancers.add(parent or uid_of_part(uid))
+                number = counts.get((uid, parent), 0)
+                counts[uid, parent] = number + 1
+                key = (uid, parent, number)
+                self._shown[key] = self._read_instance(instance, uid, parent, view_layer, before.get(key), hair)
         self._meshes.end()
 
     def _read_instance(
@@ -238,19 +226,8 @@ class SceneReader:
     ) -> ShownInstance:
         self.counters["objects read"] += 1
         if instance.object.type == "LIGHT" and hair is None:
-            return self._read_light(instance, view_layer, before)
+            return shown_light(instance, view_layer, before)
         return self._read_surface(instance, uid, parent, view_layer, before, hair)
-
-    def _read_light(
-        self, instance: Any, view_layer: bpy.types.ViewLayer, before: ShownInstance | None
-    ) -> ShownInstance:
-        obj = instance.object
-        warnings: list[Remark | str] = []
-        matrix = np.array(instance.matrix_world, dtype=np.float64)
-        light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
-        if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
-            light = before.light
-        return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
 
     def _read_surface(
         self,
@@ -277,7 +254,8 @@ class SceneReader:
         found = (self._materials.materials[slot.index].program for slot in slots)
         programs = tuple(program for program in found if program is not None)
         needs = needs_of(obj, slots, programs, is_mirror, warnings)
-        stored = self._meshes.read(hair or obj, parent or uid % HAIR, needs, instance.matrix_world.determinant() < 0.0)
+        is_mirrored = instance.matrix_world.determinant() < 0.0
+        stored = self._meshes.read(hair or obj, parent or uid_of_part(uid), needs, is_mirrored)
         warnings += stored.remarks
         error = "" if isinstance(obj.data, bpy.types.Mesh) else f'"{name}" is no surface: choose another reflector.'
         if stored.dropped:

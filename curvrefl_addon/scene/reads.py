@@ -15,11 +15,13 @@ import numpy as np
 from ..errors import InputError
 from .arrays import UNLIMITED_BOUNCES, Float64Array, InstanceArrays, LightArrays, SceneArrays
 from .finite import problem_of_place
+from .lights import read_light
 from .meshes.meshes import MeshNeeds
 from .programs.looks import NO_UV_MAP, UV_MAP
 from .programs.material_reader import ReadMaterial
 from .programs.program import UV, Attribute, Program
 from .remarks import Remark
+from .visibility import rays_of
 
 SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
@@ -203,6 +205,17 @@ def needs_of(
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:
     plain = [item.name for item in fields(LightArrays) if item.name != "matrix"]
     return np.array_equal(one.matrix, other.matrix) and all(getattr(one, n) == getattr(other, n) for n in plain)
+
+
+def shown_light(instance: Any, view_layer: bpy.types.ViewLayer, before: ShownInstance | None) -> ShownInstance:
+    """What a lamp shows, of a `DepsgraphObjectInstance`; the same light as `before` where it has not changed."""
+    obj = instance.object
+    warnings: list[Remark | str] = []
+    matrix = np.array(instance.matrix_world, dtype=np.float64)
+    light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
+    if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
+        light = before.light
+    return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
 
 
 def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:

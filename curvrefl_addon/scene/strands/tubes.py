@@ -50,13 +50,15 @@ def tubes(name: str, strands: Strands, wanted: Sequence[Attribute]) -> MeshArray
     along = tangents(strands)
     across = _across(strands, along)
     third = np.cross(along, across)
+    normals: Float32Array
+    outward: Float32Array
     if sides == RIBBON:
         normals = np.repeat(third[:, None], 2, axis=1)
         outward = np.stack([across, -across], axis=1)
     else:
-        turns = (2.0 * np.pi * np.arange(sides) / sides).astype(np.float32)
-        normals = np.cos(turns)[None, :, None] * across[:, None] + np.sin(turns)[None, :, None] * third[:, None]
-        outward = normals
+        turns = 2.0 * np.pi * np.arange(sides) / sides
+        cosines, sines = (of(turns).astype(np.float32)[None, :, None] for of in (np.cos, np.sin))
+        outward = normals = cosines * across[:, None] + sines * third[:, None]
     edges = outward.shape[1]
     positions = strands.points[:, None] + np.float32(radius_factor(sides)) * strands.radii[:, None, None] * outward
     triangles, slots = _triangles(strands, sides)
@@ -69,13 +71,13 @@ def tubes(name: str, strands: Strands, wanted: Sequence[Attribute]) -> MeshArray
         for attribute, values in layers
     ]
     attributes = four_numbers(numbers, None)
-    positions, normals = positions.reshape(-1, 3), normals.reshape(-1, 3)
+    positions = positions.reshape(-1, 3)
     corner_vertex = np.arange(len(positions), dtype=np.int32)
     return MeshArrays(
         name=name,
         positions=positions,
         corner_vertex=corner_vertex,
-        corner_normals=normals,
+        corner_normals=normals.reshape(-1, 3),
         corner_uv=None,
         corner_color=None,
         triangles=triangles,
