@@ -89,7 +89,7 @@ def above_a_plane() -> tuple[bpy.types.Object, Any]:
 
 
 def of_strength(tilted: np.ndarray, strength: float) -> np.ndarray:
-    bent = np.array([strength * tilted[0], strength * tilted[1], 1.0 + strength * (tilted[2] - 1.0)])
+    bent = np.array([strength * tilted[0], strength * tilted[1], 1.0 + min(strength, 1.0) * (tilted[2] - 1.0)])
     return bent / np.linalg.norm(bent)
 
 
@@ -275,7 +275,7 @@ def test_tangents_are_those_of_the_map_that_is_named() -> None:
 
 def test_procedural_heights_are_shown() -> None:
     mirror, shader = above_a_plane()
-    node = plug(shader, "ShaderNodeBump", "Height", None)
+    node = plug(shader, "ShaderNodeBump", "Height", None, Distance=0.1)
     noise = shader.id_data.nodes.new("ShaderNodeTexNoise")
     shader.id_data.links.new(noise.outputs["Fac"], node.inputs["Height"])
     frame = frame_of(mirror)
