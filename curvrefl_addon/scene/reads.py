@@ -141,6 +141,7 @@ def listing_of(depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) 
         [(item.object.original.session_uid, item.show_self) for item in depsgraph.object_instances],
         list(layer_flags(view_layer.layer_collection)),
         uid_of_block(view_layer.material_override),
+        view_layer.use_strand,
     )
 
 

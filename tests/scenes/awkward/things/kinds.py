@@ -51,7 +51,8 @@ def nurbs_surface(folder: Path) -> None:
 
 @awkward("hair curves")
 def hair_curves(folder: Path) -> None:
-    stage(things=False)
+    # (What it is about is not how light goes from strand to strand.)
+    stage(things=False).cycles.diffuse_bounces = 0
     data: Any = bpy.data.hair_curves.new("Fur")
     data.add_curves([4] * 400)
     rng = np.random.default_rng(4)
@@ -69,7 +70,7 @@ def hair_curves(folder: Path) -> None:
 
 @awkward("a point cloud")
 def point_cloud(folder: Path) -> None:
-    stage()
+    stage().cycles.diffuse_bounces = 0
     bed = find("Green")
     tree: Any = bpy.data.node_groups.new("Points", "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
