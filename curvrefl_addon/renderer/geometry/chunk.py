@@ -60,8 +60,11 @@ class Placed:
 class Triangles(Protocol):
     """What passes over triangles draw: a chunk, or parts of one."""
 
-    positions: Any
-    corners: Any
+    @property
+    def positions(self) -> Any: ...
+
+    @property
+    def corners(self) -> Any: ...
 
     @property
     def attributes(self) -> CornerAttributes: ...
