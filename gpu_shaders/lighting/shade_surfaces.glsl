@@ -4,7 +4,7 @@
 // `materials`.
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
-#include "programs/layers.glsl"
+#include "programs/surface.glsl"
 
 // At a pixel of surface buffers.
 Surface surface_of(ivec2 pixel, vec4 position, vec4 normal, vec3 color)

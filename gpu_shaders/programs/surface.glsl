@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A surface as it is lit. What only some materials have is there in scenes with such alone
 // (renderer/paths/surface_features.py).
+#include "programs/material.glsl"
 
 struct Surface {
   vec3 position;   // world space
@@ -34,3 +35,28 @@ struct Surface {
   float translucency; // share of the base that shines on the other side
 #endif
 };
+
+// What of a Material only some scenes' surfaces have.
+void add_layers(inout Surface s, Material m)
+{
+#ifdef SURFACE_TINT
+  s.specular_tint = m.specular_tint;
+#endif
+#ifdef SURFACE_SHEEN
+  s.sheen = m.sheen_weight * m.sheen_tint;
+  s.sheen_roughness = m.sheen_roughness;
+#endif
+#ifdef SURFACE_COAT
+  s.coat_weight = m.coat_weight;
+  s.coat_roughness = m.coat_roughness;
+  s.coat_ior = m.coat_ior;
+  s.coat_tint = m.coat_tint;
+#endif
+#ifdef SURFACE_DIFFUSE_ROUGHNESS
+  s.diffuse_roughness = m.diffuse_roughness;
+  s.subsurface = m.subsurface;
+#endif
+#ifdef SURFACE_TRANSLUCENT
+  s.translucency = m.translucency;
+#endif
+}

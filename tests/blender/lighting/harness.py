@@ -138,7 +138,6 @@ class Harness:
 
 _MAIN = """
 #include "lighting/lighting.glsl"
-#include "programs/layers.glsl"
 
 vec3 mirror_at(Surface s, vec3 to_viewer)
 {

@@ -39,7 +39,6 @@ SURFACES = {
 MAIN = """
 #include "common/records.glsl"
 #include "lighting/ggx.glsl"
-#include "programs/layers.glsl"
 
 void main()
 {

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays
 from curvrefl.curvrefl_addon.scene.programs import looks
+from curvrefl.curvrefl_addon.scene.programs.images import ProgramImages
 from curvrefl.curvrefl_addon.scene.programs.looks import UV_MAP, look_of, may_help, signature
 from curvrefl.curvrefl_addon.scene.programs.material_reader import MaterialReader
 from curvrefl.curvrefl_addon.scene.programs.program import UV, Attribute
@@ -142,32 +142,21 @@ def test_a_look_holds_until_the_nodes_change() -> None:
     assert look_of(material) is None and counts()["images"] == before["images"] - 2
 
 
-class Images:
-    """Stands for the list of images."""
-
-    images: ClassVar[list[ImageArrays]] = []
-
-    def __init__(self) -> None:
-        self.asked: list[bpy.types.Image] = []
-
-    def index_of(self, node: Any, _note: Any, _splits_alpha: bool) -> int | None:
-        self.asked.append(node.image)
-        return len(self.asked) - 1
-
-
 def test_a_look_is_read_in_place_of_the_nodes() -> None:
     material, node = rust()
     cube(material)
     look = bake(material)
-    images = Images()
+    images = ProgramImages()
     reader = MaterialReader(images)
     found = reader.read(material)
-    assert not found.remarks and set(images.asked) == set(look.images.values())
+    assert not found.remarks
+    assert {source.name for source in images.sources} == {image.name for image in look.images.values()}
     assert Attribute(UV, UV_MAP) in reader.materials[found.index].program.attributes
     node.inside = True
-    images = Images()
+    images = ProgramImages()
     causes = [remark.cause for remark in MaterialReader(images).read(material).remarks]
-    assert looks.OUT_OF_DATE in causes and any("Ambient Occlusion" in cause for cause in causes) and not images.asked
+    assert looks.OUT_OF_DATE in causes and any("Ambient Occlusion" in cause for cause in causes)
+    assert not images.sources
 
 
 def test_signatures_see_groups_ramps_and_links() -> None:
