@@ -46,7 +46,7 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #endif
 #include "lighting/ggx.glsl"
 #include "lighting/shadow.glsl"
-#include "programs/lamp_looks.glsl"
+#include "emitters/lamp_looks.glsl"
 #include "lighting/world_light.glsl"
 #include "lighting/lamps.glsl"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-FileCopyrightText: 2011-2022 Blender Foundation (Apache-2.0)
-// SPDX-License-Identifier: GPL-3.0-or-later IES Texture: a port of kernel/util/ies.h of Cycles. `first`: of its
-// records, one number in each: how many angles there are about the axis and from it (two numbers), these angles,
-// intensities.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// IES Texture: a port of kernel/util/ies.h of Cycles. `first`: of its records, one number in each: how many angles
+// there are about the axis and from it (two numbers), these angles, intensities.
 #include "common/records.glsl"
 
 #define IES_PI 3.14159265358979

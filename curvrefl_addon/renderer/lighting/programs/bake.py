@@ -40,7 +40,7 @@ class Directions:
     width: int
     height: int
     frame: Float64Array
-    """(3, 3) rows: see `programs/bake.frag.glsl`"""
+    """(3, 3) rows: see `emitters/bake.frag.glsl`"""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     radius: float = 0.0
     """Of the lamp's ball"""
@@ -138,5 +138,5 @@ def _shader(
             fragment=Snippet("emitting program", text),
         ),
         instance_piece(("",)) if NEED in shape.needs else Piece(),
-        Piece(fragment="programs/bake.frag.glsl"),
+        Piece(fragment="emitters/bake.frag.glsl"),
     )

@@ -88,8 +88,8 @@ def _bake(world: WorldArrays) -> BakedWorld:
         warnings += ("Through glass the world is drawn as mirrors show it.",)
     if DIFFUSE in differs:
         warnings += (
-            "The world lights diffuse and glossy parts of surfaces as its Light Path nodes say, which Cycles asks for "
-            "a part of its samples alone.",
+            "The world lights diffuse and glossy parts of surfaces as its Light Path nodes say; Cycles follows them "
+            "for a part of its samples alone.",
         )
     return BakedWorld(
         worlds.get(CAMERA, worlds[GLOSSY]),

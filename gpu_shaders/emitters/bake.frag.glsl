@@ -3,9 +3,9 @@
 // What a program emits, by directions: those of an equirectangular image (SHAPE_SKY), of a disc of the sky about z
 // (SHAPE_DISC: x and y its radii, as long as its angular radius), all directions from a lamp with these axes,
 // octahedral about the world's (SHAPE_LAMP), those in the cone of a spot that shines along z (SHAPE_SPOT: x and y as
-// long as its half angle's tangent); or by places on an area lamp that shines along z (SHAPE_AREA: half axes x and
-// y). Records of `bake`: 0..2: x, y, z; 3: place and radius of a lamp; 4: width, height, shape, first of the
-// program's   parameters; 5: depths and kind of the rays; 6: which attributes are a UV map, as bits
+// long as its half angle's tangent); or by places on an area lamp that shines along z (SHAPE_AREA: half axes x and y).
+// Records of `bake`: 0..2: x, y, z; 3: place and radius of a lamp; 4: width, height, shape, first of the program's
+//   parameters; 5: depths and kind of the rays; 6: which attributes are a UV map, as bits
 
 #define BAKE_PI 3.14159265358979
 
