@@ -73,7 +73,7 @@ void main()
   s.normal = normalize(at_weights(NORMAL, triangle, w).xyz);
   s.true_normal = at_weights(INCOMING, triangle, w).xyz;
   s.incoming = s.true_normal;
-  s.is_back = false;
+  s.is_back = at_weights(NORMAL, triangle, w).w > 0.5;
   s.instance = 0;
   s.parametric = w.yz;
   s.ray = RAY_IS_CAMERA;

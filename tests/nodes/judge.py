@@ -52,17 +52,17 @@ def judge(make_tree: MakeTree, tolerance: float = TOLERANCE) -> Verdict:
     return judge_all({"tree": make_tree}, tolerance)["tree"]
 
 
-def judge_all(trees: Mapping[str, MakeTree], tolerance: float = TOLERANCE) -> dict[str, Verdict]:
-    """Many trees, with few pictures of Cycles."""
+def judge_all(trees: Mapping[str, MakeTree], tolerance: float = TOLERANCE, is_back: bool = False) -> dict[str, Verdict]:
+    """Many trees, with few pictures of Cycles; `is_back`: of the surface's back."""
     verdicts: dict[str, Verdict] = {}
     for names in batched(trees, MOST, strict=False):
-        verdicts.update(zip(names, _judged([trees[name] for name in names], tolerance), strict=True))
+        verdicts.update(zip(names, _judged([trees[name] for name in names], tolerance, is_back), strict=True))
     return verdicts
 
 
-def _judged(trees: Sequence[MakeTree], tolerance: float) -> list[Verdict]:
+def _judged(trees: Sequence[MakeTree], tolerance: float, is_back: bool) -> list[Verdict]:
     places = sampled_places(columns_for(len(trees)))
-    tiles = make_board(trees)
+    tiles = make_board(trees, is_back)
     pictures, board = render_board(len(tiles)), Board.of_scene()
     compiled = [board.compiled(tile.material_slots[0].material) for tile in tiles]
     board.load_images()

@@ -62,8 +62,8 @@ def place_on_tile(tile: bpy.types.Object, places: np.ndarray) -> np.ndarray:
     return ((places - np.array(center)) @ np.array(FRAME))[:, :2] / (SIZE / 2.0)
 
 
-def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
-    """A scene of nothing else; the tiles. The sockets judged are plugged into `Emission`."""
+def make_board(trees: Sequence[MakeTree], is_back: bool = False) -> list[bpy.types.Object]:
+    """A scene of nothing else; the tiles, of which the back may be seen. What is judged is plugged into `Emission`."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     columns = columns_for(len(trees))
@@ -73,7 +73,7 @@ def make_board(trees: Sequence[MakeTree]) -> list[bpy.types.Object]:
     scene.camera = bpy.data.objects.new("camera", camera)
     scene.collection.objects.link(scene.camera)
     scene.camera.matrix_world = Matrix.LocRotScale(ORIGIN + FRAME @ Vector((0.0, 0.0, CAMERA_DISTANCE)), FRAME, None)
-    mesh = tile_mesh()
+    mesh = tile_mesh(is_back)
     tiles = []
     for number, make_tree in enumerate(trees):
         tile = bpy.data.objects.new(f"tile {number}", mesh)
@@ -110,21 +110,22 @@ def judged_input(material: bpy.types.Material) -> Any:
     return material.node_tree.nodes["Judged"].inputs["Color"]
 
 
-def tile_mesh() -> bpy.types.Mesh:
+def tile_mesh(is_back: bool) -> bpy.types.Mesh:
     """With the UV maps "UVMap" (which renders use) and "Other", the colors "Paint", "Glow" (floats) and "Bytes", and
     the attributes "damp", "across", "up" (numbers), "wind", "place" (vectors) and "tier" (whole numbers of faces)."""
     to_own = _OWN.inverted()
+    order = (0, 3, 2, 1) if is_back else (0, 1, 2, 3)
     mesh = bpy.data.meshes.new("tile")
-    mesh.from_pydata([to_own @ (Vector((*corner, 0.0)) - _SHIFT) for corner in CORNERS], [], [(0, 1, 2, 3)])
+    mesh.from_pydata([to_own @ (Vector((*corner, 0.0)) - _SHIFT) for corner in CORNERS], [], [order])
     places = np.array(CORNERS)
     for name, axes, offset in (
         ("UVMap", ((0.6, -0.3), (0.2, 0.7)), (0.45, 0.55)),
         ("Other", ((1.1, 0.4), (-0.5, 0.9)), (-0.2, 0.3)),
     ):
         uv = places @ np.array(axes) + offset
-        mesh.uv_layers.new(name=name).data.foreach_set("uv", uv.astype(np.float32).ravel())
+        mesh.uv_layers.new(name=name).data.foreach_set("uv", uv[list(order)].astype(np.float32).ravel())
     shades = np.column_stack([0.5 + 0.3 * places[:, 0], 0.4 - 0.3 * places[:, 1], 0.2 + 0.1 * places.sum(1)])
-    rows = np.column_stack([shades, 0.6 + 0.3 * places[:, 0]]).astype(np.float32).ravel()
+    rows = np.column_stack([shades, 0.6 + 0.3 * places[:, 0]])[list(order)].astype(np.float32).ravel()
     mesh.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER").data.foreach_set("color", rows)
     mesh.color_attributes.new("Bytes", "BYTE_COLOR", "CORNER").data.foreach_set("color", rows)
     glow = np.column_stack([0.5 - 0.6 * places[:, 1], 0.8 + 0.7 * places[:, 0], 0.4 - 0.2 * places.sum(1), np.ones(4)])
@@ -144,7 +145,8 @@ def tile_mesh() -> bpy.types.Mesh:
     mesh.polygons[0].use_smooth = True
     # (Normals of a mesh go with the inverse transposed.)
     leaning = [_OWN.transposed() @ Vector((0.5 * x + 0.2, 0.3 * y - 0.2 * x, 1.0)) for x, y in CORNERS]
-    mesh.normals_split_custom_set([normal.normalized() for normal in leaning])
+    side = -1.0 if is_back else 1.0
+    mesh.normals_split_custom_set([side * leaning[corner].normalized() for corner in order])
     return mesh
 
 

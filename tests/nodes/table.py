@@ -51,8 +51,9 @@ class Judged:
         return any(verdict.is_silently_wrong for verdict in self.verdicts)
 
 
-def judged_rows(rows: Iterable[Row]) -> list[Judged]:
+def judged_rows(rows: Iterable[Row], is_back: bool = False) -> list[Judged]:
     """With as few pictures of Cycles as will do."""
     rows = list(rows)
-    verdicts = judge_all({f"{k} {n}": tree for k, row in enumerate(rows) for n, tree in enumerate(row.trees)})
+    trees = {f"{k} {n}": tree for k, row in enumerate(rows) for n, tree in enumerate(row.trees)}
+    verdicts = judge_all(trees, is_back=is_back)
     return [Judged(row, tuple(verdicts[f"{k} {n}"] for n in range(len(row.trees)))) for k, row in enumerate(rows)]

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.scene.programs.program import FACTOR, GEOMETRY, Pro
 from .stage import CAMERA_DISTANCE, CLIP_START, FRAME, place_on_tile
 
 PLACE, POSITION, NORMAL, INCOMING, FIRST_ATTRIBUTE = range(5)
-"""Quantities of corners; INCOMING has the ray's length too"""
+"""Quantities of corners; NORMAL says too whether it is a back's, INCOMING the ray's length"""
 
 
 def corner_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
@@ -27,10 +27,12 @@ def corner_records(program: Program, tile: bpy.types.Object) -> np.ndarray:
     world = own @ matrix[:3, :3].T + matrix[:3, 3]
     # (Normals go with the inverse transposed.)
     normals = mesh.corner_normals @ np.linalg.inv(matrix[:3, :3])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    is_back = (normals @ np.array(FRAME.col[2])).sum() < 0.0
     quantities = [
         place_on_tile(tile, world),
         world,
-        normals / np.linalg.norm(normals, axis=1, keepdims=True),
+        np.column_stack([-normals if is_back else normals, np.full(len(own), is_back)]),
         np.tile((*FRAME.col[2], CAMERA_DISTANCE - CLIP_START), (len(own), 1)),
     ]
     for attribute in program.attributes:

@@ -77,7 +77,6 @@ MATERIALS: dict[str, dict[str, Any]] = {
         **_pbr(baseColorTexture=_texture(ALPHA), baseColorFactor=[1.0, 1.0, 1.0, 0.75]),
     },
     "opaque": {"alphaMode": "OPAQUE", **_pbr(baseColorTexture=_texture(ALPHA))},
-    "double sided": {"doubleSided": True, **_pbr()},
     "texture transform": _pbr(baseColorTexture=_texture(SHADES, extensions=TRANSFORM)),
     "turned, of another map": _pbr(
         baseColorTexture=_texture(SHADES, extensions=TURN),
@@ -90,8 +89,8 @@ MATERIALS: dict[str, dict[str, Any]] = {
         clearcoatTexture=_texture(GRAYS),
         clearcoatRoughnessFactor=0.5,
         clearcoatRoughnessTexture=_texture(GRAYS),
-        clearcoatNormalTexture=_texture(NORMALS),
     ),
+    "bumpy coat": _extension("clearcoat", clearcoatFactor=0.8, clearcoatNormalTexture=_texture(NORMALS)),
     "transmission": _extension("transmission", transmissionFactor=0.75, transmissionTexture=_texture(GRAYS)),
     "sheen": _extension(
         "sheen",

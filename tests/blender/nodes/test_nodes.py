@@ -27,6 +27,14 @@ def test_no_node_is_silently_wrong(batch: str) -> None:
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.parametrize("batch", ["inputs", "vectors"])
+def test_no_node_is_silently_wrong_on_backs(batch: str) -> None:
+    # (On backs Cycles mirrors slopes of attributes, in one direction: its differences are those of the front.)
+    judged = judged_rows((row for row in BATCHES[batch] if row.node != "Bump"), is_back=True)
+    wrong = [f"{item.row.node}, {item.row.mode}: {item.error}" for item in judged if item.is_silently_wrong]
+    assert not wrong, "\n".join(wrong)
+
+
 def test_no_random_tree_is_silently_wrong() -> None:
     """(tools/nodes/judge_random_trees.py judges 500.)"""
     verdicts = judge_all(random_trees(0, 40))

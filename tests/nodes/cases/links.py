@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from ..trees import ACROSS, DAMP, PAINT, UP, WIND, Row, rows, shader_node
+from ..trees import ACROSS, DAMP, PAINT, PLACE, UP, WIND, Row, rows, shader_node
 
 
 def _group(inner: Any, default: float = 0.7) -> Any:
@@ -135,6 +135,18 @@ def several_outputs(tree: Any) -> Any:
     return _sum(tree, node.outputs[0], node.outputs[2])
 
 
+def mapped(kind: str) -> Any:
+    """A texture with a mapping of its own, which scripts and old files set."""
+
+    def adjust(node: Any) -> None:
+        mapping = node.texture_mapping
+        mapping.vector_type = kind
+        mapping.translation, mapping.rotation, mapping.scale = (0.2, -0.1, 0.3), (0.3, -0.2, 0.5), (1.5, 0.7, 1.2)
+        mapping.mapping_x, mapping.mapping_z = "Z", "X"
+
+    return shader_node("TexGradient", {"Vector": PLACE}, adjust=adjust)
+
+
 def framed(tree: Any) -> Any:
     socket = ACROSS(tree)
     socket.node.parent = tree.nodes.new("NodeFrame")
@@ -160,6 +172,10 @@ ROWS: list[Row] = [
         ("Without a way through", muted_without_way),
         ("With nothing plugged in", muted_without_link),
         ("Muted links", muted_link),
+    ),
+    *rows(
+        "Textures' own mapping",
+        *((kind.capitalize(), mapped(kind)) for kind in ("POINT", "TEXTURE", "VECTOR", "NORMAL")),
     ),
     *rows("Several outputs", ("", several_outputs)),
     *rows(
