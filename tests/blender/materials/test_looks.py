@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.scene.arrays import ImageArrays
+from curvrefl.curvrefl_addon.scene.arrays import ImageSource
 from curvrefl.curvrefl_addon.scene.programs import looks
 from curvrefl.curvrefl_addon.scene.programs.looks import UV_MAP, look_of, may_help, signature
 from curvrefl.curvrefl_addon.scene.programs.material_reader import MaterialReader
@@ -145,7 +145,7 @@ def test_a_look_holds_until_the_nodes_change() -> None:
 class Images:
     """Stands for the list of images."""
 
-    images: ClassVar[list[ImageArrays]] = []
+    images: ClassVar[list[ImageSource]] = []
 
     def __init__(self) -> None:
         self.asked: list[bpy.types.Image] = []
