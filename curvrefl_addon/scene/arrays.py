@@ -34,7 +34,7 @@ LARGEST_COORDINATE = 1e18
 class MeshArrays:
     """One evaluated mesh in object space.
 
-    A *corner* carries what may differ between the faces that meet in a vertex (normal, UV, color).
+    A *corner* carries what may differ between the faces that meet in a vertex (normal, UV, attributes).
     Where nothing differs, corners are the vertices themselves and `corner_vertex` is 0..N-1.
     """
 
@@ -46,9 +46,7 @@ class MeshArrays:
     corner_normals: Float32Array
     """(corners, 3) unit shading normals"""
     corner_uv: Float32Array | None
-    """(corners, 2) texture coordinates; None where no material needs them"""
-    corner_color: Float32Array | None
-    """(corners, 4) scene-linear vertex colors; None where no material needs them"""
+    """(corners, 2) of the UV map that methods search in; None where none does"""
     triangles: Int32Array
     """(triangles, 3) index into corners"""
     triangle_slot: Int32Array
@@ -59,19 +57,6 @@ class MeshArrays:
     """(corners, attributes, 4); None where there are none"""
     signature: int = 0
     """Changes when any array above changes"""
-
-
-@dataclass(frozen=True, slots=True)
-class ImageArrays:
-    """A texture, scene-linear, row 0 at the bottom (v = 0)."""
-
-    name: str
-    pixels: Float32Array
-    """(height, width, 4)"""
-    extension: str = "REPEAT"
-    """Beyond the border: 'REPEAT', 'EXTEND' (its texels go on), 'MIRROR' (repeated, every other one the other way
-    round) or 'CLIP' (black)"""
-    nearest: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,33 +78,6 @@ class ImageSource:
     """(height, width, 4), row 0 at the bottom; colors times alpha where Cycles keeps them so. OSError: they are gone"""
 
 
-@dataclass(frozen=True, slots=True)
-class ReliefArrays:
-    """What bends the shading normals of a surface: an image of normals in tangent space, or of heights."""
-
-    image: int
-    """Index into `SceneArrays.images`; of heights the first channel counts"""
-    is_bump: bool
-    """Heights, else normals"""
-    strength: float = 1.0
-    distance: float = 1.0
-    """Of heights: meters for a height of 1, negative where inverted"""
-    uv_scale: tuple[float, float] = (1.0, 1.0)
-    uv_turn: tuple[float, float] = (0.0, 0.0)
-    uv_offset: tuple[float, float] = (0.0, 0.0)
-
-
-@dataclass(frozen=True, slots=True)
-class ScalarsArrays:
-    """An image whose channels take the place of a material's roughness, metallic, transmission and alpha."""
-
-    image: int
-    """Index into `SceneArrays.images`"""
-    uv_scale: tuple[float, float] = (1.0, 1.0)
-    uv_turn: tuple[float, float] = (0.0, 0.0)
-    uv_offset: tuple[float, float] = (0.0, 0.0)
-
-
 class Glass(IntEnum):
     """What tints light at an interface that lets light through."""
 
@@ -137,14 +95,6 @@ class MaterialArrays:
 
     name: str
     base_color: tuple[float, float, float] = (0.8, 0.8, 0.8)
-    image: int = -1
-    """Index into `SceneArrays.images` of the base color texture, -1 for none; its coordinates are `uv_scale` * (u, v) +
-    `uv_turn` * (v, u) + `uv_offset`"""
-    uv_scale: tuple[float, float] = (1.0, 1.0)
-    uv_turn: tuple[float, float] = (0.0, 0.0)
-    uv_offset: tuple[float, float] = (0.0, 0.0)
-    uses_vertex_color: bool = False
-    """Base color is multiplied with the corner color"""
     metallic: float = 0.0
     roughness: float = 0.5
     ior: float = 1.5
@@ -154,15 +104,11 @@ class MaterialArrays:
     """Emitted radiance, strength included"""
     glossy_only: bool = False
     """A Glossy BSDF: reflectance is the base color at every angle, without diffuse part"""
-    relief: ReliefArrays | None = None
-    """Shown where it is a mirror's"""
     specular_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
     anisotropy: float = 0.0
     """Principled "Anisotropic", 0..1; -1..1 of a Glossy or Metallic BSDF"""
     anisotropic_rotation: float = 0.0
-    """Turns, of the tangent about the normal"""
-    tangent_by_uv: bool = False
-    """The tangent is that of the UV map, else about the object's Z axis"""
+    """Turns, of the tangent about the object's Z axis about the normal"""
     coat_weight: float = 0.0
     coat_roughness: float = 0.03
     coat_ior: float = 1.5
@@ -181,11 +127,6 @@ class MaterialArrays:
     """Share that is there at all; what is not lets light straight on"""
     transparent_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
     """Of light that goes straight on"""
-    alpha_threshold: float = -1.0
-    """From 0 up: alpha looked up above it counts as 1, else as 0"""
-    alpha_inverted: bool = False
-    """The other way round: what is above the threshold is not there"""
-    scalars: ScalarsArrays | None = None
     sheen_weight: float = 0.0
     sheen_roughness: float = 0.5
     sheen_tint: tuple[float, float, float] = (1.0, 1.0, 1.0)

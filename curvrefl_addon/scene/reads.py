@@ -197,7 +197,6 @@ def needs_of(
         warnings.append(Remark(NO_UV_MAP, "object", obj.name))
     return MeshNeeds(
         "" if is_mirror and len(layers) else None,
-        None,
         hidden if any(hidden) else (),
         tuple(sorted(attributes)),
     )

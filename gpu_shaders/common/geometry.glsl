@@ -4,15 +4,12 @@
 // Needs the samplers (FLOAT_2D) `positions` and `corners`.
 
 #include "common/records.glsl"
-#include "surfaces/vertex_color.glsl"
 
 struct Corner {
   vec3 position;  // world space
   int position_index;
   float object_id;
   vec3 normal;
-  vec2 uv;
-  vec3 color;  // vertex color, scene-linear
   float mirror;  // 1, 2, ... on a reflector
 };
 
@@ -26,8 +23,6 @@ Corner fetch_corner(int index)
   corner.position = place.xyz;
   corner.object_id = place.w;
   corner.normal = first.xyz;
-  corner.uv = second.xy;
-  corner.color = unpack_vertex_color(second.z);
   corner.mirror = second.w;
   return corner;
 }

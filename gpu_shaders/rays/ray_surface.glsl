@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The surface where a ray of ray_walk.glsl has hit: attributes of its triangle's corners by barycentric weights.
-#include "surfaces/vertex_color.glsl"
 #include "surfaces/reflecting_outward.glsl"
 
 struct RaySurface {
   vec3 position;  // world space
   vec3 normal;    // unit shading normal, world space, towards where the ray comes from
-  vec2 uv;
-  vec3 color;     // vertex color
   float object_id;
   float mirror;   // 1, 2, ... on a mirror
   bool is_back;   // seen from the inside
@@ -24,14 +21,8 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   vec4 numbers = fetch_record(rays, hit.triangle + 3);
   vec3 weights = vec3(1.0 - hit.place.x - hit.place.y, hit.place);
   vec3 normal = vec3(0.0);
-  vec3 uv_color = vec3(0.0);
-  vec3 color = vec3(0.0);
   for (int k = 0; k < 3; k++) {
-    int corner = REGION_UNIT * int(regions.z) + 2 * int(numbers[k]);
-    vec4 second = fetch_record(rays, corner + 1);
-    normal += weights[k] * fetch_record(rays, corner).xyz;
-    uv_color.xy += weights[k] * second.xy;
-    color += weights[k] * unpack_vertex_color(second.z);
+    normal += weights[k] * fetch_record(rays, REGION_UNIT * int(regions.z) + int(numbers[k])).xyz;
   }
   // Normals go with the transposed inverse, whose columns are the rows from world to object space.
   vec3 facing = cross(fetch_record(rays, hit.triangle + 1).xyz, fetch_record(rays, hit.triangle + 2).xyz);
@@ -54,8 +45,6 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
     vec3 facet = normalize(outward) * (dot(outward, direction) < 0.0 ? 1.0 : -1.0);
     surface.normal = reflecting_outward(facet, -direction, surface.normal);
   }
-  surface.uv = uv_color.xy;
-  surface.color = color;
   surface.object_id = about.x;
   surface.mirror = about.y;
   surface.is_back = !is_front;

@@ -24,7 +24,6 @@ def mesh(name: str, positions: np.ndarray, normals: np.ndarray, triangles: np.nd
         np.arange(len(positions), dtype=np.int32),
         normals.astype(np.float32),
         None,
-        None,
         triangles.astype(np.int32),
         np.zeros(len(triangles), np.int32),
     )

@@ -22,7 +22,6 @@ def mesh_of(positions: Float64Array, normals: Float64Array, triangles: np.ndarra
         corner_vertex=np.arange(len(positions), dtype=np.int32),
         corner_normals=unit(normals).astype(np.float32),
         corner_uv=None,
-        corner_color=None,
         triangles=triangles.astype(np.int32),
         triangle_slot=np.zeros(len(triangles), np.int32),
     )

@@ -141,7 +141,6 @@ def _mesh(positions: np.ndarray, normals: np.ndarray, triangles: np.ndarray) -> 
         np.arange(len(positions), dtype=np.int32),
         normals.astype(np.float32),
         None,
-        None,
         triangles.astype(np.int32),
         np.zeros(len(triangles), np.int32),
     )

@@ -33,7 +33,7 @@ def largest_texture() -> int:
 
 
 def texture_2d(array: np.ndarray, fmt: str = "RGBA32F", linear: bool = False, extension: str = "EXTEND") -> Any:
-    """Texture of a (height, width, channels) float array, row 0 at t = 0; `extension` as `ImageArrays`."""
+    """Texture of a (height, width, channels) float array, row 0 at t = 0; `extension`: of `_EXTENSIONS`."""
     height, width = array.shape[:2]
     texture = gpu.types.GPUTexture((width, height), format=fmt, data=_buffer_of(array))
     texture.filter_mode(linear)

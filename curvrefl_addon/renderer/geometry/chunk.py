@@ -18,7 +18,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
+from ...scene.arrays import InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import indexed_batch
 from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
@@ -105,23 +105,18 @@ class Chunk:
         sources = np.zeros((padded_count(self.position_count), 4), np.float32)
         corners = np.zeros((padded_count(2 * corner_count) // 2, 2, 4), np.float32)
         corners[:corner_count, 0, 3] = self.corner_position
-        corners[:, 1, 2] = 0xFFFFFF
         for index, mesh in enumerate(meshes):
             here = slice(self._position_starts[index], self._position_starts[index + 1])
             sources[here, :3] = mesh.positions
             sources[here, 3] = index
             here = slice(self._corner_starts[index], self._corner_starts[index + 1])
             corners[here, 0, :3] = mesh.corner_normals
-            if mesh.corner_uv is not None:
-                corners[here, 1, :2] = mesh.corner_uv
-            if mesh.corner_color is not None:
-                corners[here, 1, 2] = pack_color(mesh.corner_color)
         self._source_positions = record_texture(sources)
         self._source_corners = record_texture(corners.reshape(-1, 4))
         self.positions = empty_record_texture(self.position_count)
         """Records (world xyz, object_id)"""
         self.corners = empty_record_texture(2 * corner_count)
-        """Two consecutive records per corner: (normal xyz, position index), (u, v, packed color, mirror)"""
+        """Two consecutive records per corner: (normal xyz, position index), (0, 0, 0, mirror)"""
         self._table = np.zeros((len(meshes), INSTANCE_RECORDS, 4), np.float32)
         self._fill_table(range(len(meshes)))
         self._place(((0, self.position_count, 0, corner_count),))
@@ -274,19 +269,6 @@ def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
     return tuple(
         (int(number), indexed_batch(triangles[group])) for number, group in zip(materials, groups, strict=True)
     )
-
-
-def unpack_color(packed: Float32Array) -> Float32Array:
-    """(n, 3) scene-linear colors of what `pack_color` has packed (n,)."""
-    levels = np.rint(packed).astype(np.int32)
-    root = np.column_stack([levels & 255, levels >> 8 & 255, levels >> 16]).astype(np.float32) / np.float32(255.0)
-    return root * root
-
-
-def pack_color(color: Float32Array) -> Float32Array:
-    """24-bit color in a float (exact up to 2^24): vertex colors are smooth, 8 bits of their square root suffice."""
-    levels = np.rint(np.sqrt(np.clip(color[:, :3], 0.0, 1.0)) * 255.0).astype(np.int32)
-    return (levels[:, 0] + 256 * levels[:, 1] + 65536 * levels[:, 2]).astype(np.float32)
 
 
 @gpu_cache

@@ -75,7 +75,8 @@ def split_mesh(
     parents = np.arange(len(corners), dtype=np.int32)
     vertex_layers = [relative, mesh.positions]
     corner_layers = [mesh.corner_normals]
-    corner_layers += [layer for layer in (mesh.corner_uv, mesh.corner_color) if layer is not None]
+    if mesh.corner_uv is not None:
+        corner_layers.append(mesh.corner_uv)
     if mesh.corner_attributes is not None:
         corner_layers.append(mesh.corner_attributes.reshape(len(corner_vertex), -1))
 
@@ -115,7 +116,6 @@ def split_mesh(
         corner_vertex=corner_vertex,
         corner_normals=corner_layers[0],
         corner_uv=None if mesh.corner_uv is None else next(rest),
-        corner_color=None if mesh.corner_color is None else next(rest),
         corner_attributes=None
         if mesh.corner_attributes is None
         else next(rest).reshape(-1, *mesh.corner_attributes.shape[1:]),

@@ -34,7 +34,6 @@ def closed_companion(
         corner_vertex=np.arange(len(positions), dtype=np.int32),
         corner_normals=at.normal.astype(np.float32),
         corner_uv=None,
-        corner_color=None,
         triangles=triangles,
         triangle_slot=np.zeros(len(triangles), np.int32),
     )

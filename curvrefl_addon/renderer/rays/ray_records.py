@@ -16,7 +16,6 @@ from ...scene.arrays import (
     MeshArrays,
 )
 from ...scene.programs.program import Attribute
-from ..geometry.chunk import pack_color
 from ..geometry.chunk_attributes import places_of
 from .hierarchy import Hierarchy
 
@@ -101,14 +100,9 @@ def triangle_records(mesh: MeshArrays, order: NDArray[np.int64]) -> Float32Array
 
 
 def corner_records(mesh: MeshArrays) -> Float32Array:
-    records = np.zeros((len(mesh.corner_vertex), 2, 4), np.float32)
-    records[:, 0, :3] = mesh.corner_normals
-    records[:, 1, 2] = 0xFFFFFF
-    if mesh.corner_uv is not None:
-        records[:, 1, :2] = mesh.corner_uv
-    if mesh.corner_color is not None:
-        records[:, 1, 2] = pack_color(mesh.corner_color)
-    return records.reshape(-1, 4)
+    records = np.zeros((len(mesh.corner_vertex), 4), np.float32)
+    records[:, :3] = mesh.corner_normals
+    return records
 
 
 def attribute_records(mesh: MeshArrays) -> Float32Array:

@@ -27,7 +27,7 @@ from ...optics import status
 from ...scene.arrays import Float32Array, Int32Array
 from ...scene.camera.view import View
 from ..device.records import read_records, record_texture
-from ..geometry.chunk import Chunk, by_material, pack_color, unpack_color
+from ..geometry.chunk import Chunk, by_material
 from ..geometry.split import number_pairs, subdivide
 from .solution import Pieces, SolvedChunk, VertexSolution
 
@@ -168,10 +168,7 @@ class _Cutting:
         place[middle - count] = middle_place[halved]
         self.corner_position = np.concatenate([self.corner_position, place])
         self.halved.append(pairs)
-        ends = self.corner_records[pairs]
-        means = ends.mean(axis=1)
-        means[:, 6] = pack_color(np.mean([unpack_color(ends[:, end, 6]) for end in range(2)], axis=0))
-        self.corner_records = np.concatenate([self.corner_records, means])
+        self.corner_records = np.concatenate([self.corner_records, self.corner_records[pairs].mean(axis=1)])
         result = np.full(corners.shape, -1, np.int32)
         result[halved] = middle
         return result

@@ -44,31 +44,6 @@ def attribute_data(attribute: bpy.types.Attribute | None) -> Any:
     return attribute.data
 
 
-def corner_colors(mesh: bpy.types.Mesh, needed: VertexColors, corner_vertex: Int32Array) -> Float32Array:
-    """(corners, 4) scene-linear; black where the mesh has no such attribute, as in Cycles."""
-    name = needed.attribute
-    if needed.is_painted and not name:
-        name = mesh.attributes.default_color_name
-    attribute = mesh.attributes.get(name) if name else None
-    if attribute is None or attribute.data_type not in PARTS:
-        missing = 1.0 if needed.output == "Alpha" and not needed.is_painted else 0.0
-        return np.full((len(corner_vertex), 4), missing, np.float32)
-    values = at_corners(mesh, attribute.domain, values_of(attribute), corner_vertex)
-    parts = values.shape[1]
-    colors = np.ones((len(values), 4), np.float32)
-    if needed.output == "Fac":
-        # (Of two parts Cycles takes the first.)
-        colors[:, :3] = values[:, :1] if parts <= 2 else values[:, :3].mean(axis=1, keepdims=True)
-    elif needed.output == "Alpha":
-        colors[:, :3] = values[:, 3:] if parts == 4 else 1.0
-    elif parts == 1:
-        colors[:, :3] = values
-    else:
-        colors[:, parts:3] = 0.0
-        colors[:, :parts] = values
-    return colors
-
-
 def corner_coordinates(mesh: bpy.types.Mesh, name: str, corner_vertex: Int32Array) -> Float32Array | None:
     """(corners, 2) of an attribute as texture coordinates; None where the mesh has no such."""
     attribute = mesh.attributes.get(name)

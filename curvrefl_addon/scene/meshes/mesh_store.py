@@ -22,7 +22,6 @@ EMPTY = MeshArrays(
     corner_vertex=np.zeros(0, np.int32),
     corner_normals=np.zeros((0, 3), np.float32),
     corner_uv=None,
-    corner_color=None,
     triangles=np.zeros((0, 3), np.int32),
     triangle_slot=np.zeros(0, np.int32),
 )
@@ -112,8 +111,6 @@ class MeshStore:
                 "and are left out."
             )
         remarks += [Remark(cause, "object", obj.name) for cause in reading.repaired]
-        if reading.is_cut:
-            remarks.append(Remark("Vertex colors {of} are cut off below 0 and above 1.", "object", obj.name))
         return reading.mesh, reading.dropped, tuple(remarks)
 
     def _number(self, arrays: MeshArrays) -> int:

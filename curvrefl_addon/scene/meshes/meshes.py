@@ -16,7 +16,7 @@ from ..arrays import Float32Array, Float64Array, Int32Array, MeshArrays
 from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..programs.program import Attribute
 from ..signature import array_signature
-from .attributes import VertexColors, attribute_data, corner_colors, corner_coordinates
+from .attributes import attribute_data, corner_coordinates
 from .corners import merge_corners
 from .program_attributes import Corners, four_numbers, generated_of, read_layers, uv_of_map
 
@@ -33,7 +33,6 @@ class MeshNeeds:
     uv_map: str | None = None
     """Name of a UV map or another attribute, "" for the map active for rendering, GENERATED, OBJECT, or None for no
     texture"""
-    colors: VertexColors | None = None
     hidden_slots: tuple[bool, ...] = ()
     """For each slot whether its faces are left out, as those of volumes; empty where none are"""
     attributes: tuple[Attribute, ...] = ()
@@ -47,8 +46,6 @@ class MeshReading:
     mesh: MeshArrays
     dropped: int = 0
     """Triangles left out because a coordinate is not finite"""
-    is_cut: bool = False
-    """Its vertex colors have values beyond 0..1"""
     repaired: tuple[str, ...] = ()
     """Causes of remarks: what of it was no number and has been replaced"""
 
@@ -82,9 +79,6 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
 
     repaired: list[str] = []
     uv = _usable(_uv(mesh, needs.uv_map, positions, corner_vertex), "Texture coordinates", repaired)
-    colors = None if needs.colors is None else corner_colors(mesh, needs.colors, corner_vertex)
-    colors = _usable(colors, "Vertex colors", repaired)
-    is_cut = colors is not None and bool((colors < -1e-6).any() or (colors > 1.0 + 1e-6).any())
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
     known = Corners(positions, corner_vertex, normals, triangle_corners)
@@ -97,7 +91,6 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         corner_vertex = corner_vertex[used_corners]
         normals = normals if per_vertex_normals else normals[used_corners]
         uv = None if uv is None else uv[used_corners]
-        colors = None if colors is None else colors[used_corners]
         extra = [replace(layer, values=layer.values[used_corners]) for layer in extra]
     used_vertices, corner_vertex = _compact(corner_vertex, len(positions), complete=False)
     if used_vertices is not None:
@@ -105,7 +98,7 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         normals = normals[used_vertices] if per_vertex_normals else normals
 
     models: Int32Array | None = None
-    if per_vertex_normals and uv is None and colors is None and not extra:
+    if per_vertex_normals and uv is None and not extra:
         corner_count = len(positions)
         triangles = corner_vertex[triangle_corners]
         corner_vertex = np.arange(corner_count, dtype=np.int32)
@@ -113,13 +106,12 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         # Every face has its own normal: nothing to merge.
         triangles = triangle_corners
     else:
-        layers = [layer for layer in (None if per_vertex_normals else normals, uv, colors) if layer is not None]
+        layers = [layer for layer in (None if per_vertex_normals else normals, uv) if layer is not None]
         layers += [layer.values for layer in extra]
         merged, models = merge_corners(corner_vertex, len(positions), layers)
         triangles = merged[triangle_corners]
         normals = normals[corner_vertex[models]] if per_vertex_normals else normals[models]
         uv = None if uv is None else uv[models]
-        colors = None if colors is None else colors[models]
         corner_vertex = corner_vertex[models]
     if not np.isfinite(normals).all():
         normals = _repaired_normals(normals, positions, corner_vertex, triangles)
@@ -130,14 +122,13 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
         corner_vertex=corner_vertex,
         corner_normals=normals,
         corner_uv=uv,
-        corner_color=colors,
         triangles=triangles,
         triangle_slot=slots,
         attributes=tuple(layer.attribute for layer in extra),
         corner_attributes=attributes,
-        signature=array_signature(positions, corner_vertex, normals, uv, colors, triangles, slots, attributes),
+        signature=array_signature(positions, corner_vertex, normals, uv, triangles, slots, attributes),
     )
-    return MeshReading(arrays, dropped, is_cut, tuple(repaired))
+    return MeshReading(arrays, dropped, tuple(repaired))
 
 
 def mirrored(mesh: MeshArrays) -> MeshArrays:

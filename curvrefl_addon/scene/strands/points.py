@@ -46,7 +46,7 @@ def read_points(cloud: Any, needs: MeshNeeds) -> MeshReading:
         keep &= not needs.hidden_slots[0]
     layers = {item: values[keep] for item, values in layers.items()}
     arrays = balls(cloud.name, centers[keep], radii[keep], layers)
-    return MeshReading(arrays, int(np.count_nonzero(~good)), False, ())
+    return MeshReading(arrays, int(np.count_nonzero(~good)))
 
 
 def balls(
@@ -72,7 +72,6 @@ def balls(
         corner_vertex=corner_vertex,
         corner_normals=normals,
         corner_uv=None,
-        corner_color=None,
         triangles=triangles,
         triangle_slot=triangle_slot,
         attributes=tuple(ordered),

@@ -52,4 +52,4 @@ def read_strands(source: bpy.types.Object | HairSystem, needs: MeshNeeds) -> Mes
         repaired.append("Attributes {of} that are not usable numbers are taken for 0.")
         layers = ((item, np.where(np.abs(values) <= LARGEST_LIGHT, values, 0.0)) for item, values in strands.layers)
         strands = replace(strands, layers=tuple((item, values.astype(np.float32)) for item, values in layers))
-    return MeshReading(tubes(source.name, strands, needs.attributes), dropped, False, tuple(repaired))
+    return MeshReading(tubes(source.name, strands, needs.attributes), dropped, tuple(repaired))

@@ -79,7 +79,6 @@ def tubes(name: str, strands: Strands, wanted: Sequence[Attribute]) -> MeshArray
         corner_vertex=corner_vertex,
         corner_normals=normals.reshape(-1, 3),
         corner_uv=None,
-        corner_color=None,
         triangles=triangles,
         triangle_slot=slots,
         attributes=tuple(attribute for attribute, _ in layers),

@@ -171,7 +171,6 @@ def _mesh(
         corner_vertex=np.arange(len(positions), dtype=np.int32),
         corner_normals=unit(np.asarray(normals, np.float64)).astype(np.float32),
         corner_uv=None,
-        corner_color=None,
         triangles=np.ascontiguousarray(triangles, np.int32),
         triangle_slot=np.zeros(len(triangles), np.int32),
     )

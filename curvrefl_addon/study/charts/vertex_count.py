@@ -94,7 +94,6 @@ def _shell(shape: BakedShape, count: int) -> Chunk:
         corner_vertex=np.arange(count, dtype=np.int32),
         corner_normals=np.zeros((count, 3), np.float32),
         corner_uv=None,
-        corner_color=None,
         triangles=np.array([[0, 1, 2]], np.int32),
         triangle_slot=np.zeros(1, np.int32),
     )

@@ -53,7 +53,6 @@ def study_mesh(study: Study, columns: int = COLUMNS, rows: int = ROWS) -> MeshAr
         corner_vertex=np.arange(len(at.position), dtype=np.int32),
         corner_normals=at.normal.astype(np.float32),
         corner_uv=uv.reshape(-1, 2).astype(np.float32),
-        corner_color=None,
         triangles=triangles,
         triangle_slot=np.zeros(len(triangles), np.int32),
     )
@@ -70,7 +69,6 @@ def _point_meshes(vertices: Float64Array, size: int) -> Chunk:
             corner_vertex=np.arange(len(points), dtype=np.int32),
             corner_normals=np.zeros((len(points), 3), np.float32),
             corner_uv=None,
-            corner_color=None,
             triangles=np.zeros((1, 3), np.int32),
             triangle_slot=np.zeros(1, np.int32),
         )

@@ -11,12 +11,24 @@ import numpy as np
 
 from ...scene.arrays import InstanceArrays, LightArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from ...scene.camera.view import View
+from ...scene.programs.program import GEOMETRY, Attribute, Program, Shape
 from ..solvers.solver_table import study_view
 from ..solvers.study_reflector import study_mesh
 from ..solvers.study_surfaces import STUDIES
 
 FACES = ((0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1))
 PAINTS = ((0.75, 0.12, 0.08), (0.08, 0.3, 0.75), (0.1, 0.5, 0.15), (0.85, 0.6, 0.1), (0.6, 0.15, 0.6))
+COLORS = Attribute(GEOMETRY, "")
+_OF_COLORS = Program(
+    Shape(
+        "void material_program(ShadingPoint s, inout Material m)\n{\n  m.base_color = s.attributes[0].rgb;\n}\n",
+        attributes=1,
+        channels=("base_color",),
+    ),
+    np.zeros((0, 4), np.float32),
+    (COLORS,),
+)
+"""The base color is that of the corners"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,9 +128,9 @@ def _trial(
     materials = [
         MaterialArrays("mirror", (0.95, 0.95, 0.95), metallic=1.0, roughness=0.0),
         *(
-            MaterialArrays(mesh.name, PAINTS[index % len(PAINTS)], uses_vertex_color=mesh.corner_color is not None)
-            if mesh.corner_color is None
-            else MaterialArrays(mesh.name, (1.0, 1.0, 1.0), uses_vertex_color=True)
+            MaterialArrays(
+                mesh.name, PAINTS[index % len(PAINTS)], program=_OF_COLORS if COLORS in mesh.attributes else None
+            )
             for index, mesh in enumerate(things)
         ),
     ]
@@ -191,7 +203,8 @@ def _mesh(
         corner_vertex=np.arange(len(positions), dtype=np.int32),
         corner_normals=normals.astype(np.float32),
         corner_uv=None,
-        corner_color=None if colors is None else colors.astype(np.float32),
         triangles=triangles.astype(np.int32),
         triangle_slot=np.zeros(len(triangles), np.int32),
+        attributes=() if colors is None else (COLORS,),
+        corner_attributes=None if colors is None else colors.astype(np.float32)[:, None],
     )

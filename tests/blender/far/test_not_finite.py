@@ -164,9 +164,9 @@ def read(act: Act) -> tuple[SceneArrays, View]:
     act()
     scene, view = placed_room.read(ball, SIZE)
     numbers = [scene.world.color, scene.world.rotation, [] if scene.world.image is None else scene.world.image]
-    numbers += [image.pixels for image in scene.images]
+    numbers += [image.read() for image in scene.images]
     for mesh in scene.meshes:
-        layers = [mesh.positions, mesh.corner_normals, mesh.corner_uv, mesh.corner_color]
+        layers = [mesh.positions, mesh.corner_normals, mesh.corner_uv, mesh.corner_attributes]
         numbers += [layer for layer in layers if layer is not None]
     for thing in (*scene.materials, *scene.lights, *scene.instances):
         numbers += [value for value in values_of(thing) if isinstance(value, (float, tuple, np.ndarray))]

@@ -108,7 +108,6 @@ def scene_arrays(stage: Stage) -> SceneArrays:
             np.arange(count, dtype=np.int32),
             normals.astype(np.float32),
             None,
-            None,
             np.arange(count, dtype=np.int32).reshape(-1, 3),
             np.zeros(count // 3, np.int32),
         )

@@ -41,7 +41,6 @@ def mesh(shift: float, *attributes: Attribute) -> MeshArrays:
         corner_vertex=np.arange(3, dtype=np.int32),
         corner_normals=np.tile(np.array([0.0, 0.0, 1.0], np.float32), (3, 1)),
         corner_uv=None,
-        corner_color=None,
         triangles=np.array([[0, 1, 2]], np.int32),
         triangle_slot=np.zeros(1, np.int32),
         attributes=attributes,

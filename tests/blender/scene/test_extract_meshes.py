@@ -32,7 +32,7 @@ def test_a_smooth_cube_has_its_vertices_for_corners() -> None:
     np.testing.assert_array_equal(mesh.corner_vertex, np.arange(8))
     assert mesh.triangles.shape == (12, 3)
     np.testing.assert_allclose(mesh.corner_normals, np.array(CUBE_CORNERS) / np.sqrt(3.0), atol=1e-6)
-    assert mesh.corner_uv is None and mesh.corner_color is None
+    assert mesh.corner_uv is None
     assert mesh.positions.dtype == mesh.corner_normals.dtype == np.float32
     assert mesh.triangles.dtype == mesh.corner_vertex.dtype == mesh.triangle_slot.dtype == np.int32
 

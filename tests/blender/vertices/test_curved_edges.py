@@ -14,7 +14,6 @@ from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
 from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture
-from curvrefl.curvrefl_addon.renderer.geometry.chunk import unpack_color
 from curvrefl.curvrefl_addon.renderer.geometry.split import number_pairs
 from curvrefl.curvrefl_addon.renderer.mirrors.baked_shape import BakedShape
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection
@@ -27,6 +26,7 @@ from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays,
 from curvrefl.curvrefl_addon.scene.camera.view import View
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture
 from scenes.mirror_halls import slab
+from scenes.paths.programs import COLORS, UV_MAP, painted, with_attributes
 from scenes.star_meshes import star_mesh, torus
 from scenes.views import look_at
 
@@ -59,7 +59,7 @@ def room(surface: RadialSurface) -> SceneArrays:
     box = slab()
     uv = box.positions[box.corner_vertex][:, :2]
     color = np.concatenate([0.5 + 0.5 * box.positions[box.corner_vertex], np.ones((len(uv), 1))], axis=1)
-    box = replace(box, corner_uv=uv.astype(np.float32), corner_color=color.astype(np.float32))
+    box = with_attributes(box, uv=uv, colors=color)
     return SceneArrays(
         (star_mesh(surface, 48), box, torus(0.3, 0.1, 24)),
         (
@@ -71,7 +71,7 @@ def room(surface: RadialSurface) -> SceneArrays:
         ),
         (
             MaterialArrays("chrome", metallic=1.0, roughness=0.0),
-            MaterialArrays("paint", roughness=0.0, uses_vertex_color=True),
+            painted(MaterialArrays("paint", roughness=0.0), with_colors=True),
         ),
         (), (), WorldArrays((0.5, 0.5, 0.5)), (1,),
     )  # fmt: skip
@@ -199,8 +199,11 @@ def test_parts_have_the_attributes_of_what_they_are_parts_of() -> None:
                 continue
             own = np.rint(place[:, 3]) == instance.object_id
             local = (place[own, :3] - instance.matrix[:3, 3]) / np.diag(instance.matrix)[:3]
-            np.testing.assert_allclose(corners[own, 4:6], local[:, :2], atol=1e-4)
-            np.testing.assert_allclose(unpack_color(corners[own, 6]), 0.5 + 0.5 * local, atol=0.02)
+            attributes = part.chunk.attributes
+            assert attributes.values is not None
+            of_uv, of_colors = (attributes.values[own, attributes.own.index(item)] for item in (UV_MAP, COLORS))
+            np.testing.assert_allclose(of_uv[:, :2], local[:, :2], atol=1e-4)
+            np.testing.assert_allclose(of_colors[:, :3], 0.5 + 0.5 * local, atol=1e-4)
             normals = np.linalg.norm(corners[own, :3], axis=1)
             np.testing.assert_allclose(normals, 1.0, atol=1e-4)
             checked += int(own.sum())

@@ -36,7 +36,7 @@ def scene_of(
     corners = np.zeros((3, 3), np.float32)
     triangles = np.tile(np.arange(3, dtype=np.int32), (len(slots), 1))
     mesh = MeshArrays(
-        "mesh", corners, np.arange(3, dtype=np.int32), corners, None, None, triangles, np.array(slots, np.int32)
+        "mesh", corners, np.arange(3, dtype=np.int32), corners, None, triangles, np.array(slots, np.int32)
     )
     single = replace(mesh, triangle_slot=np.zeros(len(slots), np.int32))
     instances = (

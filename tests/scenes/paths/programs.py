@@ -28,7 +28,8 @@ def source_of(name: str, values: np.ndarray) -> ImageSource:
     height, width = values.shape[:2]
     is_bytes = values.dtype == np.uint8
     is_opaque = bool((values[..., 3] == (255 if is_bytes else 1)).all())
-    return ImageSource(name, width, height, is_bytes, False, is_opaque, lambda: values)
+    limits = (0.0, 1.0) if is_bytes else (float(values.min()), float(values.max()))
+    return ImageSource(name, width, height, is_bytes, False, is_opaque, limits, lambda: values)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,6 @@ def floor(size: float, height: float) -> MeshArrays:
         corner_vertex=np.arange(4, dtype=np.int32),
         corner_normals=np.tile(np.array([0, 0, 1], np.float32), (4, 1)),
         corner_uv=(corners / size).astype(np.float32),
-        corner_color=None,
         triangles=np.array([[0, 1, 2], [0, 2, 3]], np.int32),
         triangle_slot=np.array([3, 4], np.int32),
     )

@@ -29,7 +29,7 @@ def mesh(slots: tuple[int, ...] = (0,)) -> MeshArrays:
     points = np.zeros((3, 3), np.float32)
     corners = np.arange(3, dtype=np.int32)
     triangles = np.tile(corners, (count, 1))
-    return MeshArrays("mesh", points, corners, points, None, None, triangles, np.array(slots, np.int32))
+    return MeshArrays("mesh", points, corners, points, None, triangles, np.array(slots, np.int32))
 
 
 def scene_of(*materials: MaterialArrays, mirrors: tuple[int, ...] = (), **more: Any) -> SceneArrays:

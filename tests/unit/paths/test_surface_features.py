@@ -16,7 +16,7 @@ from curvrefl.curvrefl_addon.scene.programs.program import Program, Shape
 def scene(*materials: MaterialArrays, used: tuple[int, ...]) -> SceneArrays:
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
     order = np.arange(3, dtype=np.int32)
-    mesh = MeshArrays("m", corners, order, corners, None, None, order[None], np.zeros(1, np.int32))
+    mesh = MeshArrays("m", corners, order, corners, None, order[None], np.zeros(1, np.int32))
     return SceneArrays((mesh,), (InstanceArrays("a", 1, 0, np.eye(4), used),), materials, (), (), WorldArrays())
 
 
