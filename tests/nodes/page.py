@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from .judge import TOLERANCE
+from .shaders import JudgedShader
 from .table import Judged
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "nodes.md"
@@ -28,6 +29,15 @@ middle of each pixel; the program is asked at the same places. A mode is *drawn*
 {count} nodes and modes are drawn, {approximated} are approximated, {left_out} are not drawn: these are said once per
 material in the panel, where a scene has them.
 """
+SHADERS = """\
+## Shaders
+
+Squares of each shader, before a backdrop that shines, seen in a flat mirror and lit by one sun: how far their mean color
+is from that of Cycles. What is within 1/255 is drawn. (A Translucent BSDF takes in the backdrop's light in Cycles; here
+lamps and the world alone give light, and the panel says so.)
+
+| shader | error | said |
+|---|---|---|"""
 ADDING = """\
 ## How to add a node
 
@@ -37,7 +47,7 @@ judge it.
 """
 
 
-def page(judged: Iterable[Judged]) -> str:
+def page(judged: Iterable[Judged], shaders: Iterable[JudgedShader]) -> str:
     """All of it."""
     by_node: dict[str, list[Judged]] = {}
     for item in judged:
@@ -48,7 +58,7 @@ def page(judged: Iterable[Judged]) -> str:
     head = HEAD.format(count=len(drawn), approximated=len(near), left_out=len(everything) - len(drawn) - len(near))
     lines = ["| node | drawn | approximated | not drawn |", "|---|---|---|---|"]
     lines += [_line(node, items) for node, items in sorted(by_node.items())]
-    return "\n".join([head, *lines, "", ADDING])
+    return "\n".join([head, *lines, "", SHADERS, *map(_shader_line, shaders), "", ADDING])
 
 
 def is_approximated(item: Judged) -> bool:
@@ -69,6 +79,10 @@ def _line(node: str, items: list[Judged]) -> str:
             rest.setdefault(_said(item), []).append(mode_of(item))
     left_out = [f"{'; '.join(modes)}{said}" for said, modes in rest.items()]
     return f"| {node} | {'; '.join(drawn)} | {'; '.join(near)} | {'; '.join(left_out)} |"
+
+
+def _shader_line(item: JudgedShader) -> str:
+    return f"| {item.name} | {'drawn' if item.is_right else f'{item.error:.3f}'} | {' '.join(item.warnings)} |"
 
 
 def _said(item: Judged) -> str:

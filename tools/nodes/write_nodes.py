@@ -23,6 +23,7 @@ bootstrap.load_package()
 from curvrefl.curvrefl_addon.command.inputs import STDOUT, dropped  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from nodes.page import PAGE, mode_of, page  # noqa: E402
+from nodes.shaders import judged_shaders  # noqa: E402
 from nodes.table import BATCHES, judged_rows  # noqa: E402
 
 
@@ -35,7 +36,10 @@ def main() -> int:
             found = judged_rows(rows)
         print(f"{name}: {sum(item.is_drawn for item in found)} of {len(found)} are drawn", flush=True)
         judged += found
-    PAGE.write_text(page(judged), encoding="utf-8")
+    with dropped(STDOUT):
+        shaders = judged_shaders()
+    print(f"shaders: {sum(item.is_right for item in shaders)} of {len(shaders)} are drawn", flush=True)
+    PAGE.write_text(page(judged, shaders), encoding="utf-8")
     wrong = [item for item in judged if item.is_silently_wrong]
     for item in wrong:
         print(f"{item.row.node}, {mode_of(item)}: silently wrong, {'; '.join(map(str, item.verdicts))}")
