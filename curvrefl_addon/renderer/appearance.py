@@ -52,6 +52,14 @@ class Appearance:
         elif difference.moved and self.tracer is not None:
             self.tracer.move(scene)
 
+    def load_some(self, seconds: float) -> bool:
+        """See `Materials.load_some`."""
+        is_changed = self.materials.load_some(seconds)
+        if is_changed:
+            # (What of it casts no shadow can be told only now.)
+            self.lighting.follow(self._scene, Difference())
+        return is_changed
+
     def resample(self, samples: int) -> None:
         """For pictures of so many sub-frames."""
         self.lighting.free()

@@ -300,7 +300,7 @@ class Renderer:
 
     def load_some(self, seconds: float) -> None:
         """Go on with that: a program, or images for about so long."""
-        if self._appearance.materials.load_some(seconds):
+        if self._appearance.load_some(seconds):
             self.revision += 1
 
     @property

@@ -82,18 +82,6 @@ def _shine(material: MaterialArrays) -> float:
     return _shown(below + ORDINARY_CONTRAST * (metal * color + (1.0 - metal) * dielectric)) - _shown(below)
 
 
-def _emits(material: MaterialArrays) -> float:
-    """Its greatest radiance; endless where that is not known."""
-    if not _sets(material, "emission"):
-        return max(material.emission)
-    return next((high for name, _, high in material.ranges if name == "emission"), np.inf)
-
-
-def _sets(material: MaterialArrays, channel: str) -> bool:
-    """Whether its program does, from place to place."""
-    return material.program is not None and channel in material.program.shape.channels
-
-
 def _shown(radiance: float) -> float:
     """By sRGB's curve."""
     return float(linear_to_srgb(min(max(radiance, 0.0), 1.0)))

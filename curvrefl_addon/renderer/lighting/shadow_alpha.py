@@ -10,8 +10,7 @@ its share of them, to one.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -43,18 +42,23 @@ are not kept anyway, have one for each"""
 GRAY = 0.02
 """A tint's channels differ by no more"""
 
-type Bake = Callable[[SceneArrays, int], CasterImage]
-"""Of a material whose alpha differs from place to place"""
+
+class Bake(Protocol):
+    """Of materials whose alpha differs from place to place: `CasterBake`."""
+
+    def is_known(self, index: int) -> bool: ...
+    def __call__(self, scene: SceneArrays, index: int) -> CasterImage: ...
 
 
 class ShadowAlpha:
     """Of one scene."""
 
     def __init__(self, scene: SceneArrays, bake: Bake) -> None:
-        """`bake`: see `CasterBake`."""
         self._bake = bake
         self._materials: tuple[MaterialArrays, ...] = ()
         self._images: tuple[ImageSource, ...] = ()
+        self._known: frozenset[int] = frozenset()
+        """Those whose alpha differs from place to place, and can be told by now; others are opaque until then"""
         self._baked: dict[int, tuple[object, CasterImage]] = {}
         """By material, with what it was made of"""
         self.materials: frozenset[int] = frozenset()
@@ -69,10 +73,12 @@ class ShadowAlpha:
         self._scene = scene
         self.attributes = attributes_of(scene)
         """What programs read of meshes, in the order of their numbers"""
-        if scene.materials is self._materials and scene.images is self._images:
+        varying = [index for index, item in enumerate(scene.materials) if _varies(item)]
+        known = frozenset(index for index in varying if self._bake.is_known(index))
+        if scene.materials is self._materials and scene.images is self._images and known == self._known:
             return False
         before = (self.materials, [self._key(index) for index in sorted(self.materials)])
-        self._materials, self._images = scene.materials, scene.images
+        self._materials, self._images, self._known = scene.materials, scene.images, known
         through = [self._passes(index) for index in range(len(scene.materials))]
         self.materials = frozenset(index for index, share in enumerate(through) if share > 0.0)
         self.hashed = frozenset(index for index in self.materials if through[index] < 1.0)
@@ -89,7 +95,7 @@ class ShadowAlpha:
         found = [Remark(cause, "material", item.name) for item in tinted if np.ptp(item.transparent_tint) > GRAY]
         cause = "Shadows {of} let light through everywhere alike: its transparency is on no UV map."
         for index in sorted(self.hashed):
-            if self._varies(index) and self._image_of(index).attribute < 0:
+            if _varies(self._materials[index]) and self._image_of(index).attribute < 0:
                 found.append(Remark(cause, "material", self._materials[index].name))
         return sentences(found)
 
@@ -98,7 +104,7 @@ class ShadowAlpha:
         """Whether maps of one point differ, in what is there by chance: not so where all is there or not."""
         return any(
             np.mean(self._materials[index].transparent_tint) < 1.0
-            or not (self._varies(index) and self._image_of(index).is_binary)
+            or not (_varies(self._materials[index]) and self._image_of(index).is_binary)
             for index in self.hashed
         )
 
@@ -117,11 +123,6 @@ class ShadowAlpha:
         """Set what `SHADOW_ALPHA` names on a bound shader, once prepared."""
         shader.uniform_sampler("caster_alphas", self._texture)
 
-    def _varies(self, index: int) -> bool:
-        """Whether alpha differs from place to place."""
-        low, high = self._materials[index].range_of("alpha")
-        return low < high
-
     def _image_of(self, index: int) -> CasterImage:
         """The alpha of a material for which it `_varies`."""
         key = self._key(index)
@@ -132,7 +133,7 @@ class ShadowAlpha:
     def _key(self, index: int) -> tuple[object, ...]:
         """What shadows depend on."""
         item = self._materials[index]
-        if item.program is None or not self._varies(index):
+        if item.program is None or not _varies(item):
             return (item.alpha, item.transparent_tint)
         images = [id(self._images[use.image]) for use in item.program.images]
         return (item.transparent_tint, item.program.shape, item.program.records.tobytes(), images)
@@ -143,8 +144,8 @@ class ShadowAlpha:
         if not lets_straight_on(item):
             return 0.0
         tint = float(np.mean(item.transparent_tint))
-        if self._varies(index):
-            return 0.5 * min(tint, 1.0)
+        if _varies(item):
+            return 0.5 * min(tint, 1.0) if index in self._known else 0.0
         return (1.0 - item.range_of("alpha")[0]) * tint
 
     def _uploaded(self) -> Any:
@@ -152,7 +153,7 @@ class ShadowAlpha:
         `light_through.glsl`)."""
         records = np.zeros((padded_count(len(self._materials) * ALPHA_RECORDS), 4), np.float32)
         rows = [records.reshape(-1, ROW_TEXELS)]
-        images = {index: self._image_of(index) for index in sorted(self.materials) if self._varies(index)}
+        images = {index: self._image_of(index) for index in sorted(self.materials) if _varies(self._materials[index])}
         # (Fewer texels of each where all would not fit.)
         room = ((largest_texture() - len(rows[0])) // max(len(images), 1) - 1) * ROW_TEXELS
         for index in self.materials:
@@ -174,6 +175,12 @@ class ShadowAlpha:
             texels[: width * height] = alpha.ravel()
             rows.append(texels.reshape(-1, ROW_TEXELS))
         return record_texture(np.concatenate(rows).reshape(-1, 4))
+
+
+def _varies(material: MaterialArrays) -> bool:
+    """Whether alpha differs from place to place."""
+    low, high = material.range_of("alpha")
+    return low < high
 
 
 def _shrunk(alpha: Float32Array, room: int) -> Float32Array:

@@ -91,6 +91,11 @@ class ImagePages:
         for array, name in zip(self._ordered(), self.piece.samplers, strict=True):
             shader.uniform_sampler(name, array.texture if array.is_made else nothing())
 
+    def is_there(self, image: int) -> bool:
+        """Whether the image at this index is shown: it has been filled in, or is missing for good."""
+        place = self._places[self._images[image]]
+        return place.is_missing or (place.array is not None and place.is_filled)
+
     def records(self, image: int) -> list[tuple[float, float, float, float]]:
         """The IMAGE_RECORDS of the image at this index, all fields of which are set here: how an image is used
         (extension, interpolation, projection) is part of a program's shape.

@@ -94,6 +94,13 @@ class Programs:
         program = self._programs[material] if 0 <= material < len(self._programs) else None
         return program.shape if program is not None and program.shape in self._admitted else None
 
+    def is_whole(self, material: int) -> bool:
+        """Whether a material is drawn as it is."""
+        program = self._programs[material]
+        return program is None or (
+            program.shape in self._admitted and all(self._pages.is_there(use.image) for use in program.images)
+        )
+
     @property
     def is_loading(self) -> bool:
         """Programs are to be let in, or images to get there."""

@@ -146,8 +146,8 @@ OTHERWISE: dict[str, tuple[Act, str]] = {
         'of material "Gray" is not',
     ),
     "emission NaN": (painted("Gray", "Emission Strength", NAN), 'of material "Gray" is not'),
-    "UV NaN": (bad_uv, 'Texture coordinates of object "Floor"'),
-    "vertex color NaN": (bad_vertex_colors, 'Vertex colors of object "Floor" that are not'),
+    "UV NaN": (bad_uv, 'Attributes of object "Floor" that are not'),
+    "vertex color NaN": (bad_vertex_colors, 'Attributes of object "Floor" that are not'),
 }
 CAMERAS: dict[str, tuple[Act, str]] = {
     "place NaN": (placed("Eye", NAN), "is at no finite place"),
@@ -171,12 +171,15 @@ def read(act: Act) -> tuple[SceneArrays, View]:
     for thing in (*scene.materials, *scene.lights, *scene.instances):
         numbers += [value for value in values_of(thing) if isinstance(value, (float, tuple, np.ndarray))]
     for number in numbers:
-        assert (np.abs(np.asarray(number)) <= 1e20).all()
+        assert (np.abs(np.asarray(number, np.float64)) <= 1e20).all()
     return scene, view
 
 
 def values_of(thing: MaterialArrays | LightArrays | InstanceArrays) -> list[object]:
-    return [getattr(thing, item.name) for item in fields(thing)]
+    """Of its fields, those with numbers in the program in its place. (`ranges` may be endless: they are not known.)"""
+    values = [getattr(thing, item.name) for item in fields(thing) if item.name not in ("ranges", "values", "program")]
+    program = getattr(thing, "program", None)
+    return values if program is None else [*values, program.records]
 
 
 def picture_of(scene: SceneArrays, view: View, method: str) -> np.ndarray:

@@ -11,12 +11,15 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials
 from curvrefl.curvrefl_addon.scene.arrays import ImageSource, LightArrays, MaterialArrays, WorldArrays
 from lighting.cycles import cycles_picture
 from lighting.harness import our_picture
 from lighting.stage import Body, Cut, Stage, box, lamp, plane, scene_arrays
 from scenes.paths.programs import Looked, source_of
+from scenes.views import look_at
 
 pytestmark = pytest.mark.usefixtures("gpu")
 UNDER = {"eye": (0.0, -0.02, 0.9), "width": 1.0, "pixels": 24}
@@ -160,3 +163,19 @@ def test_shadows_follow_materials_and_images() -> None:
             fresh.prepare(index)
         kept, new = (np.array(one._lamp_maps.texture.read(), np.float32) for one in (lighting, fresh))
         assert np.array_equal(kept, new)
+
+
+def test_shadows_follow_images_that_get_there_by_and_by() -> None:
+    """As in the viewport."""
+    leaf = plane(1.2, 1.0, material=seen_through(), uv=UV, cut=Cut(threshold=0.5))
+    scene = scene_arrays(Stage([plane(20.0), leaf], [SUN], images=(leaf_image(),), **UNDER))
+    view = look_at(np.array([0.0, -4.0, 3.0]), np.zeros(3), 48, 36, 0.7)
+    pictures = []
+    for is_gradual in (False, True):
+        renderer = Renderer(scene, Settings(method="exact", samples=1), is_gradual=is_gradual)
+        renderer.render(view)
+        while renderer.is_loading:
+            renderer.load_some(1.0)
+        pictures.append(renderer.render(view).color())
+        renderer.free()
+    assert np.array_equal(*pictures)

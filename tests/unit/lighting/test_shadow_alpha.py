@@ -20,15 +20,23 @@ NOWHERE = replace(SOFT, name="nowhere")
 IMAGE = source_of("alpha", np.full((2, 2, 4), 0.5, np.float32))
 
 
-def bake(scene: SceneArrays, index: int) -> CasterImage:
-    """Stands for what the GPU makes of a program."""
-    material = scene.materials[index]
-    alpha = np.array([[0.0, 1.0] if "threshold" in material.name else [0.25, 0.75]], np.float32)
-    return CasterImage(alpha, -1 if material.name == "nowhere" else 0)
+class Bake:
+    """Stands for what the GPU makes of programs."""
+
+    def __init__(self, is_there: bool = True) -> None:
+        self.is_there = is_there
+
+    def is_known(self, index: int) -> bool:
+        return self.is_there
+
+    def __call__(self, scene: SceneArrays, index: int) -> CasterImage:
+        material = scene.materials[index]
+        alpha = np.array([[0.0, 1.0] if "threshold" in material.name else [0.25, 0.75]], np.float32)
+        return CasterImage(alpha, -1 if material.name == "nowhere" else 0)
 
 
 def alpha_of(material: MaterialArrays) -> ShadowAlpha:
-    return ShadowAlpha(replace(scene_of(CHROME, material), images=(IMAGE,)), bake)
+    return ShadowAlpha(replace(scene_of(CHROME, material), images=(IMAGE,)), Bake())
 
 
 @pytest.mark.parametrize(
@@ -66,7 +74,7 @@ def test_a_point_has_several_maps_where_they_differ() -> None:
 
 def test_a_state_that_changes_no_shadow_is_no_other() -> None:
     scene = replace(scene_of(CHROME, SOFT), images=(IMAGE,))
-    alpha = ShadowAlpha(scene, bake)
+    alpha = ShadowAlpha(scene, Bake())
     rougher = (scene.materials[0], replace(SOFT, roughness=0.9), *scene.materials[2:])
     assert not alpha.follow(replace(scene, materials=rougher))
     assert alpha.follow(replace(scene, images=(source_of("other", np.zeros((2, 2, 4), np.float32)),)))
@@ -78,3 +86,12 @@ def test_what_is_on_no_uv_map_is_said() -> None:
     (sentence,) = alpha_of(NOWHERE).warnings
     assert sentence.startswith('Shadows of material "nowhere" let light through everywhere alike')
     assert not alpha_of(SOFT).warnings
+
+
+def test_what_is_not_there_yet_is_opaque_until_then() -> None:
+    scene = replace(scene_of(CHROME, SOFT), images=(IMAGE,))
+    bake = Bake(is_there=False)
+    alpha = ShadowAlpha(scene, bake)
+    assert not alpha.materials and not alpha.follow(scene)
+    bake.is_there = True
+    assert alpha.follow(scene) and alpha.hashed == {1}

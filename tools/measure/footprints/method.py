@@ -6,7 +6,7 @@ The reflection points of a triangle's corners and of the middles of its edges, f
 grown by as much as the edges bend; a fragment in it reflects its own ray at the mirror's point and normal there and
 meets it with the triangle. Right, as `exact`, wherever the box holds the whole reflection; no proof says that it does.
 
-Needs a single closed convex mirror; base colors by images are not looked up.
+Needs a single closed convex mirror; materials have their constants, no programs.
 """
 
 from __future__ import annotations

@@ -53,6 +53,10 @@ class CasterBake:
     def __init__(self, materials: Materials) -> None:
         self._materials = materials
 
+    def is_known(self, index: int) -> bool:
+        """Whether a material's program, and its images, are there already."""
+        return self._materials.programs.is_whole(index)
+
     def __call__(self, scene: SceneArrays, index: int) -> CasterImage:
         """Of a material whose program sets alpha."""
         program = scene.materials[index].program
@@ -77,7 +81,10 @@ class CasterBake:
             set_viewport(0, 0, *pixels)
             shader.bind()
             self._materials.bind_program(shader, program.shape, (0, 0))
-            self._materials.bind(shader, index)
+            if knows(shader, "material"):
+                shader.uniform_float("material", float(index))
+            if knows(shader, "program_first"):
+                shader.uniform_int("program_first", self._materials.programs.firsts[index])
             # (Alpha may look at no texture coordinates.)
             for name, value in (("part", (*low, *size)), ("pixels", pixels)):
                 if knows(shader, name):

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Does this pixel's own reflected ray meet the triangle? Depth is the distance. Outputs as reflected.frag.glsl.
 #include "surfaces/material_records.glsl"
-#include "surfaces/vertex_color.glsl"
 
 void main()
 {
@@ -27,15 +26,12 @@ void main()
   gl_FragDepth = range / (range + depth_scale);
   vec3 weights = vec3(1.0 - place.x - place.y, place);
   vec3 normal = vec3(0.0);
-  vec3 color = vec3(0.0);
   for (int k = 0; k < 3; k++) {
-    int corner = 2 * int(corner_numbers[k] + 0.5);
-    normal += weights[k] * fetch_record(corners, corner).xyz;
-    color += weights[k] * unpack_vertex_color(fetch_record(corners, corner + 1).z);
+    normal += weights[k] * fetch_record(corners, 2 * int(corner_numbers[k] + 0.5)).xyz;
   }
   bool is_front = dot(cross(edge_b, edge_c), direction) < 0.0;
   vec4 base = fetch_record(materials, MATERIAL_RECORDS * int(about.y + 0.5) + 2);
   surface_position = vec4(origin + range * direction, about.x);
   surface_normal = vec4(normalize(normal) * (is_front ? 1.0 : -1.0), about.y);
-  surface_color_out = vec4(base.w > 0.5 ? base.rgb * color : base.rgb, 0.0);
+  surface_color_out = vec4(base.rgb, 0.0);
 }
