@@ -32,9 +32,9 @@ material in the panel, where a scene has them.
 SHADERS = """\
 ## Shaders
 
-Squares of each shader, before a backdrop that shines, seen in a flat mirror and lit by one sun: how far their mean color
-is from that of Cycles. What is within 1/255 is drawn. (A Translucent BSDF takes in the backdrop's light in Cycles; here
-lamps and the world alone give light, and the panel says so.)
+Squares of each shader, before a backdrop that shines, seen in a flat mirror and lit by one sun: how far their mean
+color is from that of Cycles. What is within 1/255 is drawn. (A Translucent BSDF takes in the backdrop's light in
+Cycles; here lamps and the world alone give light, and the panel says so.)
 
 | shader | error | said |
 |---|---|---|"""

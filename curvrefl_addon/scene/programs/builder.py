@@ -66,8 +66,6 @@ class Builder:
         self._needs: set[str] = set()
         self._depends: set[str] = set()
         self._open: set[Any] = set()
-        self.path_notes: list[str] = []
-        """Causes of remarks that count where paths go on: on mirrors and on what is seen through"""
 
     # Inputs of nodes
 
@@ -239,11 +237,6 @@ class Builder:
         """Something is not drawn as it is: the cause of a remark ("Wireframe nodes {of} are not drawn.")."""
         if cause not in self._notes:
             self._notes.append(cause)
-
-    def note_on_paths(self, cause: str) -> None:
-        """The same of what only those see who look closely: on mirrors and through glass."""
-        if cause not in self.path_notes:
-            self.path_notes.append(cause)
 
     # The end
 

@@ -37,8 +37,8 @@ class ReadMaterial:
     """Into `MaterialReader.materials`"""
     remarks: tuple[Remark, ...] = ()
     """What is not drawn as it is"""
-    path_remarks: tuple[Remark, ...] = ()
-    """What is not where it is a mirror or seen through"""
+    scenery_remarks: tuple[Remark, ...] = ()
+    """What is not where it is neither a mirror nor seen through"""
     is_hidden: bool = False
     """It has no surface: a volume, or full transparency"""
     is_seen_through: bool = False
@@ -47,7 +47,7 @@ class ReadMaterial:
 
     def remarks_as(self, is_mirror: bool) -> tuple[Remark, ...]:
         """All remarks where it is a mirror's or scenery's."""
-        return self.remarks + (self.path_remarks if is_mirror or self.is_seen_through else ())
+        return self.remarks + (() if is_mirror or self.is_seen_through else self.scenery_remarks)
 
 
 class MaterialReader:
@@ -94,24 +94,21 @@ class MaterialReader:
 
     def _read_anew(self, material: bpy.types.Material, key: int) -> ReadMaterial:
         notes: list[str] = []
-        path_notes: list[str] = []
         objects: set[int] = set()
-        arrays, is_hidden = self._arrays(material, notes, path_notes, objects)
+        arrays, is_hidden = self._arrays(material, notes, objects)
         arrays = usable_material(arrays, notes)
         if arrays.program is not None:
             arrays = replace(arrays, program=_usable(arrays.program, notes))
         if arrays.range_of("alpha")[0] < 1.0 and not is_hidden and not material.use_transparent_shadow:
             notes.append("Shadows {of} let light through, though its settings turn that off.")
-        always, on_paths = (
+        always, on_scenery = (
             tuple(Remark(cause, "material", material.name) for cause in dict.fromkeys(causes))
-            for causes in (notes, path_notes)
+            for causes in (notes, _left_out_of_scenery(arrays))
         )
         index, is_seen_through = self._place(key, arrays), arrays.is_seen_through
-        return ReadMaterial(index, always, on_paths, is_hidden, is_seen_through, frozenset(objects))
+        return ReadMaterial(index, always, on_scenery, is_hidden, is_seen_through, frozenset(objects))
 
-    def _arrays(
-        self, material: bpy.types.Material, notes: list[str], path_notes: list[str], objects: set[int]
-    ) -> tuple[MaterialArrays, bool]:
+    def _arrays(self, material: bpy.types.Material, notes: list[str], objects: set[int]) -> tuple[MaterialArrays, bool]:
         """The material, and whether it has no surface; the lists get causes of remarks, `objects` those whose place it
         knows (session_uid)."""
         tree = material.node_tree
@@ -131,7 +128,6 @@ class MaterialReader:
         is_bent = self._displaced(b, shown, material)
         surface = self._surface(b, shown)
         arrays = made_material(b, surface, material.name, is_bent)
-        path_notes += b.path_notes
         objects |= b.objects
         volume = output_source(tree, "Volume")
         if volume is not None:
@@ -178,6 +174,17 @@ class MaterialReader:
             self._places[key] = len(self.materials)
             self.materials.append(arrays)
         return self._places[key]
+
+
+def _left_out_of_scenery(arrays: MaterialArrays) -> list[str]:
+    """Causes of remarks: what only paths know that go on from a surface."""
+    found = []
+    reflects = arrays.may_be("metallic") or arrays.glossy_only or arrays.may_be("specular_level")
+    if reflects and arrays.range_of("anisotropy") != (0.0, 0.0):
+        found.append("Anisotropy {of} is left out where it is no mirror.")
+    if arrays.may_be("film_thickness"):
+        found.append("The thin film {of} is left out where it is no mirror.")
+    return found
 
 
 def _usable(program: Program, notes: list[str]) -> Program:

@@ -45,7 +45,7 @@ def write_images(folder: Path, count: int, side: int, kind: str) -> list[Path]:
         image = bpy.data.images.new(f"made {number}", side, side)
         coarse = np.random.default_rng(number).random((side // 8, side // 8, 4), np.float32)
         pixels = coarse.repeat(8, axis=0).repeat(8, axis=1)
-        image.pixels.foreach_set(pixels.ravel())  # type: ignore[attr-defined]
+        image.pixels.foreach_set(pixels.ravel())  # type: ignore[arg-type]
         image.filepath_raw = str(folder / f"{number}.{ENDINGS[kind]}")
         image.file_format = kind  # type: ignore[assignment]
         image.save()

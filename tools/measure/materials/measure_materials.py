@@ -41,7 +41,7 @@ def image(number: int) -> bpy.types.Image:
     made = bpy.data.images.new(f"image {number}", SIDE, SIDE)
     pixels = np.random.default_rng(number).random((SIDE, SIDE, 4), np.float32)
     pixels[..., 3] = 1.0
-    made.pixels.foreach_set(pixels.ravel())  # type: ignore[attr-defined]
+    made.pixels.foreach_set(pixels.ravel())  # type: ignore[arg-type]
     return made
 
 

@@ -171,9 +171,9 @@ def _conductor(b: Builder, source: Source) -> dict[str, Expression]:
     if n.constant is not None and k.constant is not None:
         fitted = fitted_conductor(_triple(n), _triple(k))
         if not fitted.is_close:
-            b.note_on_paths(cause)
+            b.note(cause)
         return {"base_color": constant(*fitted.color), "specular_tint": constant(*fitted.edge_tint)}
-    b.note_on_paths(cause)
+    b.note(cause)
     file = "nodes/conductor.glsl"
     n_text, k_text = (placed(b, settled(value)) for value in (n, k))
     return {

@@ -86,6 +86,6 @@ def note_distribution(b: Builder, source: Source, roughness: Expression) -> None
     """Say where facets are spread otherwise than drawn."""
     node: Any = source.node
     if roughness.high > SMOOTH and node.distribution in ("BECKMANN", "ASHIKHMIN_SHIRLEY"):
-        b.note_on_paths("Roughness {of} is drawn by the distribution GGX, not by its own.")
+        b.note("Roughness {of} is drawn by the distribution GGX, not by its own.")
     elif roughness.high > DARKENS and node.distribution == "GGX" and node.type != "BSDF_REFRACTION":
-        b.note_on_paths("Roughness {of} is drawn by the distribution Multiscatter GGX, which is brighter.")
+        b.note("Roughness {of} is drawn by the distribution Multiscatter GGX, which is brighter.")

@@ -40,7 +40,7 @@ def add(b: Builder, first: Closure, second: Closure, chance: Chance) -> Closure:
     if first.is_scalable and second.is_scalable:
         if any(one.get("metallic").high > 0.0 and one.get("roughness").high > DARKENS for one in (first, second)):
             # (Twice as bright a metal loses less between its facets.)
-            b.note_on_paths("Rough gloss {of} that is added to another shader is drawn a little too bright.")
+            b.note("Rough gloss {of} that is added to another shader is drawn a little too bright.")
         return _by_chance(b, first.scaled(b, 2.0), second.scaled(b, 2.0), HALF, chance)
     b.note("Of added shaders {of} only the first one and the light of both are drawn.")
     if first.is_opaque and second.is_opaque:
