@@ -43,7 +43,7 @@ class Appearance:
         before, self._scene = self._scene, scene
         if scene.materials is not before.materials or scene.images is not before.images:
             self.materials.follow(scene)
-        elif difference.moved or difference.structure:
+        elif difference.moved or difference.structure or scene.origin != before.origin:
             self.materials.move(scene)
         self.lighting.follow(scene, difference)
         self.shade.follow(scene)

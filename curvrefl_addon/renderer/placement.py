@@ -73,6 +73,7 @@ class Placement:
             meshes=tuple(placed for _, placed, _ in found),
             instances=tuple(self._instances[id(instance)][2] for instance in scene.instances),
             lights=self._lights[1],
+            origin=(float(self.origin[0]), float(self.origin[1]), float(self.origin[2])),
         )
 
     def _moved_instance(self, instance: InstanceArrays, middle: Float64Array | None) -> InstanceArrays:

@@ -287,5 +287,7 @@ class SceneArrays:
     """Interfaces that they follow light through"""
     transparent_bounces: int = UNLIMITED_BOUNCES
     """Surfaces that they follow light straight through"""
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Where in the world these coordinates have theirs"""
     diffuse_bounces: int = 0
     """Surfaces one after the other from which they follow scattered light"""

@@ -68,6 +68,7 @@ void main()
   s.ray_length = is_sky ? 3.4028235e38 : 1.0;
   s.depths = bake[5].xyz;
   s.more_depths = vec2(0.0);
+  s.origin = vec3(0.0);
   s.random = 0.5;
   s.records = int(bake[4].w);
   for (int k = 0; k <= ATTRIBUTES; k++) {

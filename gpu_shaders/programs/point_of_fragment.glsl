@@ -12,6 +12,7 @@ ShadingPoint point_of_fragment(vec3 normal)
   vec3 right = dFdx(world_position), up = dFdy(world_position);
   ShadingPoint s;
   s.position = world_position;
+  s.origin = fetch_record(program_records, 0).xyz;
   vec3 to_eye = view.eye.xyz - world_position * view.eye.w;
   s.incoming = normalize(to_eye);
   s.is_back = !gl_FrontFacing;

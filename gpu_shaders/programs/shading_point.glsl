@@ -15,7 +15,8 @@
 #define RAY_IS_SHADOW 64
 
 struct ShadingPoint {
-  vec3 position;      // world space; of a world its direction
+  vec3 position;      // world space about `origin`; of a world its direction
+  vec3 origin;        // of all places here, in world space (renderer/placement.py)
   vec3 normal;        // unit shading normal, turned to the side that the ray comes from
   vec3 true_normal;   // of the triangle, turned likewise
   vec3 incoming;      // unit, towards where the ray comes from

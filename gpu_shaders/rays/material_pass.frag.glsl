@@ -47,6 +47,7 @@ void main()
   vec3 ac = to_world_of(hit, fetch_record(rays, hit.triangle + 2).xyz);
   ShadingPoint s;
   s.position = place.xyz;
+  s.origin = fetch_record(program_records, 0).xyz;
   s.normal = surface.normal;
   s.true_normal = normalize(cross(ab, ac));
   s.true_normal *= dot(s.true_normal, direction) > 0.0 ? -1.0 : 1.0;

@@ -50,6 +50,7 @@ void main()
   s.ray_length = 1.0;
   s.depths = vec3(0.0);
   s.more_depths = vec2(0.0);
+  s.origin = vec3(0.0);
   s.random = place.w;
   s.records = FIRST_RECORD;
   for (int k = 0; k < ATTRIBUTES; k++) {

@@ -80,6 +80,7 @@ void main()
   s.ray_length = at_weights(INCOMING, triangle, w).w;
   s.depths = vec3(0.0);
   s.more_depths = vec2(0.0);
+  s.origin = vec3(0.0);
   s.random = 0.5;
   s.records = FIRST_RECORD;
   for (int k = 0; k < ATTRIBUTES; k++) {

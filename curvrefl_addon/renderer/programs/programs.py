@@ -75,7 +75,10 @@ class Programs:
         """By material, the first of its parameters; 0 where it has no program"""
 
     def move(self, scene: SceneArrays) -> None:
-        """Know a state that differs in its objects' places alone."""
+        """Know a state that differs in its objects' places alone, and maybe in its origin."""
+        is_elsewhere, self._scene = scene.origin != self._scene.origin, scene
+        if is_elsewhere:
+            self.firsts = self._upload()
         if self._instances is not None:
             self._instances.follow(scene)
 
@@ -146,8 +149,9 @@ class Programs:
 
     def _upload(self) -> list[int]:
         firsts = []
-        blocks: list[Float32Array] = []
-        size = 0
+        # (The first record is where the origin is.)
+        blocks: list[Float32Array] = [np.array([[*self._scene.origin, 0.0]], np.float32)]
+        size = 1
         for program in self._programs:
             if program is None:
                 firsts.append(0)
@@ -156,7 +160,7 @@ class Programs:
             firsts.append(size + len(block) - len(program.records))
             blocks.append(block)
             size += len(block)
-        self._texture: Any = record_texture(np.concatenate(blocks) if size else np.zeros((1, 4), np.float32))
+        self._texture: Any = record_texture(np.concatenate(blocks))
         return firsts
 
     def _block(self, program: Program) -> Float32Array:

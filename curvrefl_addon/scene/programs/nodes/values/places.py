@@ -91,7 +91,7 @@ def _object_coordinates(b: Builder, other: bpy.types.Object | None) -> Expressio
         b.objects.add(other.original.session_uid)
         matrix: Any = np.array(other.matrix_world.inverted_safe(), np.float64)
         first = b.table(matrix[:3])
-        rows = ", ".join(f"dot(P({first + row}), vec4(s.position, 1.0))" for row in range(3))
+        rows = ", ".join(f"dot(P({first + row}), vec4(s.position + s.origin, 1.0))" for row in range(3))
         return b.made("vector", f"vec3({rows})")
     if b.is_world:
         return Expression("s.position", "vector")
@@ -150,7 +150,7 @@ def _object_info(b: Builder, source: Source) -> Expression | None:
     needs_instance(b)
     if output == "Location":
         parts = ", ".join(f"instance_record(s, {row}).w" for row in range(3))
-        return b.made("vector", f"vec3({parts})")
+        return b.made("vector", f"vec3({parts}) + s.origin")
     texts = {"Alpha": "instance_record(s, 6).w", "Object Index": "instance_record(s, 7).y"}
     if output == "Color":
         return b.made("color", "instance_record(s, 6).xyz")

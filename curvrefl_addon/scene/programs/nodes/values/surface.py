@@ -50,7 +50,12 @@ def normal_input(b: Builder, source: Source, name: str = "Normal") -> Expression
 def _geometry(b: Builder, source: Source) -> Expression | None:
     output = source.socket.identifier
     b.depend("position")
-    texts = {"Position": "s.position", "Normal": "s.normal", "True Normal": "s.true_normal", "Incoming": "s.incoming"}
+    texts = {
+        "Position": "(s.position + s.origin)",
+        "Normal": "s.normal",
+        "True Normal": "s.true_normal",
+        "Incoming": "s.incoming",
+    }
     if b.is_world:
         texts = {"Position": "s.position"} | dict.fromkeys(("Normal", "True Normal", "Incoming"), "(-s.position)")
     if output in texts:
@@ -149,6 +154,10 @@ def _transform(b: Builder, source: Source) -> Expression:
     if "OBJECT" in (start, end) and not b.is_world:
         needs_instance(b)
         b.include(NORMALS_FILE)
+    # (Matrices are about the origin of what is drawn.)
+    is_place = kind == "POINT" and not b.is_world
+    if start == "WORLD" and is_place:
+        value = b.made("vector", f"{value.text} - s.origin")
     if start == "CAMERA":
         function = "view_to_world" if kind == "POINT" else "view_to_world_direction"
         value = b.call("vector", function, value)
@@ -162,6 +171,8 @@ def _transform(b: Builder, source: Source) -> Expression:
     elif end == "OBJECT" and not b.is_world:
         names = {"POINT": "to_object", "VECTOR": "to_object_direction", "NORMAL": "tangent_object_normal"}
         value = b.call("vector", names[kind], "s", value)
+    elif is_place:
+        value = b.made("vector", f"{value.text} + s.origin")
     return value
 
 
