@@ -10,11 +10,6 @@ from nodes.shaders import judged_shaders
 pytestmark = pytest.mark.usefixtures("gpu")
 LIMIT = 1.5 / 255.0
 LIMITS = {
-    "Glossy BSDF, ggx": 0.02,
-    "Glossy BSDF, beckmann": 0.04,
-    "Glossy BSDF, ashikhmin shirley": 0.09,
-    "Principled BSDF, thin film": 0.05,
-    "Principled BSDF, anisotropic": 0.015,
     "Glass BSDF": 0.015,
     "Principled BSDF, transmission": 0.015,
     "Principled BSDF, thin wall": 0.02,
