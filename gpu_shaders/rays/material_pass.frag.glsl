@@ -6,6 +6,7 @@
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "surfaces/material_at.glsl"
+#include "surfaces/fill_buffers.glsl"
 #include "common/hash.glsl"
 #ifdef OF_PATHS
 #include "paths/path_state.glsl"
@@ -111,13 +112,5 @@ void main()
   }
   surface_normal = vec4(normal, float(surface.material) + facing);
   surface_color_out = vec4(m.base_color, shows);
-#ifdef PROGRAM_SCALARS
-  scalars_out = packed_scalars(m);
-#endif
-#ifdef PROGRAM_SHINE
-  shine_out = packed_shine(m);
-#endif
-#ifdef PROGRAM_LAYERS
-  layers_out = packed_layers(m);
-#endif
+  fill_buffers(m);
 }

@@ -10,6 +10,7 @@
 #include "surfaces/material_at.glsl"
 #include "programs/point_of_fragment.glsl"
 #endif
+#include "surfaces/fill_buffers.glsl"
 
 void main()
 {
@@ -48,25 +49,8 @@ void main()
 #endif
   surface_color_out = vec4(color, shows);
 #ifdef PROGRAM
-#ifdef PROGRAM_SCALARS
-  scalars_out = packed_scalars(m);
-#endif
-#ifdef PROGRAM_SHINE
-  shine_out = packed_shine(m);
-#endif
-#ifdef PROGRAM_LAYERS
-  layers_out = packed_layers(m);
-#endif
+  fill_buffers(m);
 #else
-  // (Nobody looks at them.)
-#ifdef PROGRAM_SCALARS
-  scalars_out = vec4(0.0);
-#endif
-#ifdef PROGRAM_SHINE
-  shine_out = vec4(0.0);
-#endif
-#ifdef PROGRAM_LAYERS
-  layers_out = uvec4(0u);
-#endif
+  fill_buffers();
 #endif
 }

@@ -6,6 +6,7 @@
 #include "surfaces/material_at.glsl"
 #include "programs/point_of_fragment.glsl"
 #endif
+#include "surfaces/fill_buffers.glsl"
 
 vec3 towards_eye(vec3 point)
 {
@@ -68,26 +69,10 @@ void main()
   material_program(s, m);
   surface = m.normal;
   vec3 color = m.base_color;
-#ifdef PROGRAM_SCALARS
-  scalars_out = packed_scalars(m);
-#endif
-#ifdef PROGRAM_SHINE
-  shine_out = packed_shine(m);
-#endif
-#ifdef PROGRAM_LAYERS
-  layers_out = packed_layers(m);
-#endif
+  fill_buffers(m);
 #else
   vec3 color = base_color;
-#ifdef PROGRAM_SCALARS
-  scalars_out = vec4(0.0);
-#endif
-#ifdef PROGRAM_SHINE
-  shine_out = vec4(0.0);
-#endif
-#ifdef PROGRAM_LAYERS
-  layers_out = uvec4(0u);
-#endif
+  fill_buffers();
 #endif
   surface_position = vec4(world_position, object_id);
   surface_normal = vec4(surface, material);
