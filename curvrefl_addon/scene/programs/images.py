@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...memory import exceeds_memory
 from ..arrays import Float32Array, ImageSource
 from ..finite import usable_pixels
 from ..materials.color_spaces import REC709, working_space
@@ -36,6 +37,8 @@ from .image_pixels import (
 DATA = "Non-Color"
 """Blender's name of the space of what are no colors"""
 FIRST_TILE = 1001
+FLOAT_PIXEL_BYTES, BYTE_PIXEL_BYTES = 40, 12
+"""That reading an image takes at most"""
 _LINEAR = ("Linear", "Raw", "scene_linear")
 """Names of the working space beside its own"""
 
@@ -210,6 +213,8 @@ class _Reading:
     def _of_bytes(self, file: str | bytes, header: Header) -> ImageSource:
         """A file of bytes, or all of its bytes."""
         image = self._image
+        if exceeds_memory(BYTE_PIXEL_BYTES * header.width * header.height):
+            return self._too_large()
         is_opaque = header.is_opaque or image.alpha_mode == "NONE"
         multiplies = self._multiplies and not header.is_opaque
         if header.is_gray_alpha and isinstance(file, str):
@@ -227,6 +232,11 @@ class _Reading:
     def _of_blender(self) -> ImageSource:
         """What is generated, painted, or packed and more than bytes."""
         image = self._image
+        # (Asked for its size, Blender would generate it.)
+        is_generated = image.source == "GENERATED"
+        width, height = (image.generated_width, image.generated_height) if is_generated else image.size
+        if exceeds_memory(FLOAT_PIXEL_BYTES * width * height):
+            return self._too_large()
         pixels = blender_pixels(image)
         if pixels is None:
             return self._lost()
@@ -282,6 +292,10 @@ class _Reading:
         if count:
             self._remark(f"Pixels {{of}} that are not usable numbers ({count}) are drawn black.")
         return pixels
+
+    def _too_large(self) -> ImageSource:
+        self._remark("Memory does not do for the pixels {of}: drawn magenta.")
+        return _missing(self._image.name)
 
     def _lost(self) -> ImageSource:
         self._remark("The pixels {of} are missing: drawn magenta, as in Cycles.")
