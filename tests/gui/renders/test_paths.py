@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scene with all features of paths renders on both graphics backends, and to the same picture."""
+"""A scene with all features of paths, and programs that fill all buffers, renders on both graphics backends, and to
+the same picture."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ MARKED = (
 
 
 def all_that_paths_do(ball: Any) -> None:
-    """A brushed ball under a coat with a film, absorbing glass, a leaf with soft alpha and roughness by an image."""
+    """A brushed ball under a coat with a film, absorbing glass, a leaf with soft alpha and roughness by an image, and
+    rust by noise: bumps, light, coat."""
     import bpy
 
     def material(name: str, **inputs: float) -> Any:
@@ -49,6 +51,22 @@ def all_that_paths_do(ball: Any) -> None:
     bpy.ops.mesh.primitive_plane_add(size=1.5, location=(-1.6, -1.5, 0.0), rotation=(1.4, 0.0, 0.3))
     plane: Any = bpy.context.object
     plane.data.materials.append(leaf)
+    rust = material("rust", Coat_Weight=0.5)
+    tree: Any = rust.node_tree
+    noise, bump, place = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("TexNoise", "Bump", "ObjectInfo"))
+    shader: Any = tree.nodes["Principled BSDF"]
+    noise.inputs["Scale"].default_value = 3.0
+    for socket in ("Base Color", "Emission Color"):
+        tree.links.new(noise.outputs["Color"], shader.inputs[socket])
+    shader.inputs["Emission Strength"].default_value = 0.3
+    for socket in ("Coat Weight", "Roughness", "Metallic"):
+        tree.links.new(noise.outputs[0], shader.inputs[socket])
+    tree.links.new(noise.outputs[0], bump.inputs["Height"])
+    tree.links.new(bump.outputs["Normal"], shader.inputs["Normal"])
+    tree.links.new(place.outputs["Random"], shader.inputs["Sheen Weight"])
+    bpy.ops.mesh.primitive_cube_add(size=0.8, location=(1.5, -1.6, -0.5), rotation=(0.2, 0.3, 0.4))
+    cube: Any = bpy.context.object
+    cube.data.materials.append(rust)
     bpy.ops.object.light_add(type="AREA", location=(2.0, -3.0, 4.0))
     lamp: Any = bpy.context.object
     lamp.data.energy = 300.0
