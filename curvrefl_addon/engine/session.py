@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
-from ..options import mirrors_in, overrides_of, settings_of
+from ..options import current_options, mirrors_in, overrides_of, settings_of
 from ..renderer.device.context import require_gpu
 from ..renderer.frame import Frame
 from ..renderer.noise import Convergence
@@ -142,7 +142,7 @@ class RenderSession:
     def _up_to_date(self, arrays: SceneArrays) -> Renderer:
         require_gpu()
         if self._renderer is None:
-            self._renderer = Renderer(arrays, self._settings)
+            self._renderer = Renderer(arrays, self._settings, current_options().image_memory << 20)
             return self._renderer
         try:
             self._renderer.update(arrays)

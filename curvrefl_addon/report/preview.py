@@ -11,7 +11,7 @@ from typing import Self
 
 import bpy
 
-from ..options import overrides_of, settings_of
+from ..options import current_options, overrides_of, settings_of
 from ..renderer.renderer import Renderer
 from ..scene.arrays import Float32Array
 from ..scene.camera.film import on_film, rendered_size
@@ -54,7 +54,7 @@ class PreviewRenderer:
             overrides=overrides,
         )
         if self._renderer is None:
-            self._renderer = Renderer(still.scene, settings)
+            self._renderer = Renderer(still.scene, settings, current_options().image_memory << 20)
         else:
             self._renderer.update(still.scene)
         frame = self._renderer.render(still.view, moments=moments)
