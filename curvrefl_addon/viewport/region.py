@@ -30,7 +30,7 @@ from ..scene.camera.view import View
 if TYPE_CHECKING:
     from .shown_scene import ViewportScene
 
-LOADING_SECONDS = 0.1
+LOADING_SECONDS = 0.05
 """In each redraw, for images of materials that are not there yet"""
 SETTLED_SECONDS = 0.15
 """After the last change the full resolution is drawn again"""

@@ -46,20 +46,21 @@ class Filling:
         pixels = source.read()
         if pixels.shape != (source.height, source.width, 4) or (pixels.dtype == np.uint8) != source.is_bytes:
             raise OSError(f"{source.name} has changed")
-        for _ in range(place.halvings):
-            pixels = _halved(pixels)
-        place.factor = 1.0
-        if not source.is_bytes:
-            largest = float(np.abs(pixels).max(initial=0.0))
-            if largest > _LARGEST_HALF:
-                place.factor = 2.0 ** np.ceil(np.log2(largest / _LARGEST_HALF))
-        self._pixels = np.ascontiguousarray(pixels).reshape(-1, 4)
+        self._pixels: NDArray[Any] = pixels
+        self._halvings = place.halvings
         self._row = 0
 
     def copy_strip(self) -> bool:
-        """Copy some rows, all in one layer; says whether they were the last."""
+        """Copy some rows, all in one layer, or make the image smaller first; says whether all is copied."""
         place = self.place
         assert place.array is not None
+        if self._halvings:
+            # (By itself: that takes about as long as to read it.)
+            self._halvings -= 1
+            self._pixels = _halved(self._pixels)
+            return False
+        if self._row == 0:
+            self._make_ready()
         row = place.first_row + self._row
         layer, first = row >> place.array.bits, row & ((1 << place.array.bits) - 1)
         rows = min(STRIP_ROWS, (1 << place.array.bits) - first, place.rows - self._row)
@@ -80,6 +81,16 @@ class Filling:
             # (The time of all that was drawn counts.)
             wait_for(target)
         return is_last
+
+    def _make_ready(self) -> None:
+        """One pixel after the other, and the factor that floats need in half precision."""
+        place = self.place
+        place.factor = 1.0
+        if not place.source.is_bytes:
+            largest = float(np.abs(self._pixels).max(initial=0.0))
+            if largest > _LARGEST_HALF:
+                place.factor = 2.0 ** np.ceil(np.log2(largest / _LARGEST_HALF))
+        self._pixels = np.ascontiguousarray(self._pixels).reshape(-1, 4)
 
     def _strip(self, rows: int) -> Any:
         """Texture of the next rows, the end of the last one blank."""

@@ -5,7 +5,7 @@
     .venv/bin/python tools/measure/materials/measure_images.py [--count 41] [--side 2048] [--format JPEG] [--cap 1024]
 
 So many cubes around a mirror ball, each with an image of its own from a file. *Steps* are those of a viewport, which
-reads and copies for a tenth of a second in each redraw: the longest and how many.
+reads and copies for a moment in each redraw: the longest and how many.
 """
 
 from __future__ import annotations
