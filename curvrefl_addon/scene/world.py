@@ -46,9 +46,6 @@ class WorldImage:
             return None
         return stretched(other.pixels, *self.pixels.shape[:2])
 
-    def coarse(self) -> WorldImage:
-        return self
-
 
 def read_world(
     world: bpy.types.World | None, images: ImageReader, warnings: list[Remark], programs: ProgramImages | None = None

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a surface is made of at one place.
+#from scene.programs.bits import KIND_GLOSSY_ONLY, KIND_THIN_WALL, KIND_GLASS, KIND_REFRACTION
 
 struct Material {
   vec3 base_color;
@@ -35,8 +36,3 @@ struct Material {
   int glass;                  // scene/arrays.py, Glass: GLASS_PRINCIPLED, GLASS_GLASS, GLASS_REFRACTION
   vec3 absorption;            // per meter, inside
 };
-
-#define KIND_GLOSSY_ONLY 1
-#define KIND_THIN_WALL 2
-#define KIND_GLASS 4          // Glass in place of Principled
-#define KIND_REFRACTION 8

@@ -4,7 +4,7 @@
 // `world_position`, `attribute_0` and so on (ATTRIBUTE_CASES and
 // NEIGHBOR_CASES take each), `instance_number`, the
 // block `view` and the push constants `program_first` and `turn` (number of the sub-frame, 0).
-#include "common/hash.glsl"
+#include "programs/chance.glsl"
 
 // `normal`: unit, outward.
 ShadingPoint point_of_fragment(vec3 normal)
@@ -25,8 +25,7 @@ ShadingPoint point_of_fragment(vec3 normal)
   s.ray_length = view.eye.w > 0.0 ? length(to_eye) / view.eye.w : dot(to_eye, view.eye.xyz);
   s.depths = vec3(0.0);
   s.more_depths = vec2(0.0);
-  uint seed = hashed(uint(gl_FragCoord.x) | (uint(gl_FragCoord.y) << 16u)) + uint(turn.y);
-  s.random = fract(float(hashed(seed) >> 8u) * 5.9604644775390625e-8 + 0.61803398875 * float(turn.x));
+  s.random = chance_at(uvec2(gl_FragCoord.xy), turn);
   s.records = program_first;
   s.attributes[ATTRIBUTES] = vec4(0.0);
 #ifdef PROGRAM_BUMP

@@ -5,14 +5,8 @@
 // ATTRIBUTES, how many attributes it reads.
 #include "common/records.glsl"
 
-// Kinds of rays, as bits.
-#define RAY_IS_CAMERA 1
-#define RAY_IS_REFLECTION 2
-#define RAY_IS_TRANSMISSION 4
-#define RAY_IS_DIFFUSE 8
-#define RAY_IS_GLOSSY 16
-#define RAY_IS_SINGULAR 32
-#define RAY_IS_SHADOW 64
+#from scene.programs.bits import RAY_IS_CAMERA, RAY_IS_REFLECTION, RAY_IS_TRANSMISSION, RAY_IS_DIFFUSE, RAY_IS_GLOSSY
+#from scene.programs.bits import RAY_IS_SINGULAR, RAY_IS_SHADOW
 
 struct ShadingPoint {
   vec3 position;      // world space about `origin`; of a world its direction

@@ -7,7 +7,7 @@
 #include "rays/ray_surface.glsl"
 #include "surfaces/material_at.glsl"
 #include "surfaces/fill_buffers.glsl"
-#include "common/hash.glsl"
+#include "programs/chance.glsl"
 #ifdef OF_PATHS
 #include "paths/path_state.glsl"
 #endif
@@ -67,9 +67,7 @@ void main()
   s.depths = vec3(float(turn.y), 0.0, float(turn.y));
   s.more_depths = vec2(0.0);
 #endif
-  // (Of a pixel another number in each sub-frame, all of them well spread.)
-  uint seed = hashed(uint(pixel.x) | (uint(pixel.y) << 16u)) + uint(turn.y);
-  s.random = fract(float(hashed(seed) >> 8u) * 5.9604644775390625e-8 + 0.61803398875 * float(turn.x));
+  s.random = chance_at(uvec2(pixel), turn);
   s.records = int(held.z + 0.5);
   vec3 weights = vec3(1.0 - hit.place.x - hit.place.y, hit.place);
   s.attributes[ATTRIBUTES] = vec4(0.0);

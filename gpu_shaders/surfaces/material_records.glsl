@@ -7,7 +7,4 @@
 // sheen weight); (sheen roughness, subsurface, first of its program's parameters, which buffers its program fills:
 // VARIES_ bits).
 #include "common/records.glsl"
-
-#define VARIES_SCALARS 1
-#define VARIES_SHINE 2
-#define VARIES_LAYERS 4
+#from renderer.programs.buffers import VARIES_SCALARS, VARIES_SHINE, VARIES_LAYERS

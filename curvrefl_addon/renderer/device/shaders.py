@@ -18,6 +18,7 @@ import numpy as np
 
 from ....gpu_shaders.loader import Part, Source, load
 from .compile_log import captured_output, explain
+from .context import gpu_cache
 from .records import ROW_BITS
 
 MOST_GROUPS = 1 << 15
@@ -100,6 +101,7 @@ def set_matrix(shader: Any, name: str, matrix: np.ndarray) -> None:
     shader.uniform_float(name, Matrix(matrix.tolist()))
 
 
+@gpu_cache
 def knows(shader: Any, constant: str) -> bool:
     """Whether a shader has a push constant: drivers drop those that do nothing in it."""
     try:

@@ -22,6 +22,9 @@ _OF_BUFFERS = {
     ),
 }
 """Channels in each"""
+VARIES_SCALARS, VARIES_SHINE, VARIES_LAYERS = 1, 2, 4
+"""Of a material's record: which of them its program fills"""
+_VARIES = {SCALARS: VARIES_SCALARS, SHINE: VARIES_SHINE, LAYERS: VARIES_LAYERS}
 _FORMATS = {SCALARS: "RGBA16F", SHINE: "RGBA16F", LAYERS: "RGBA32UI"}
 _OUTPUTS = {SCALARS: ("scalars_out", "VEC4"), SHINE: ("shine_out", "VEC4"), LAYERS: ("layers_out", "UVEC4")}
 _SAMPLERS = {
@@ -41,8 +44,8 @@ def buffers_for(channels: Iterable[str]) -> Buffers:
 
 
 def varies_bits(buffers: Buffers) -> int:
-    """VARIES_ bits of `material_records.glsl`."""
-    return sum(1 << number for number, name in enumerate(_OF_BUFFERS) if name in buffers)
+    """As one number."""
+    return sum(_VARIES[name] for name in buffers)
 
 
 def fills(buffers: Buffers) -> Piece:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,11 +18,12 @@ from ..device.shaders import Piece, flags, named
 from ..geometry.chunk_attributes import attributes_of
 from .buffers import NONE, Buffers, buffers_for
 from .image_pages import ImagePages
+from .instance_table import NEED as INSTANCE
 from .instance_table import InstanceTable, instance_piece, is_needed
 
 MOST_PROGRAMS = 4095
 """That a depth texture tells apart"""
-IMAGES, INSTANCE = "PROGRAM_IMAGES", "PROGRAM_INSTANCE"
+IMAGES = "PROGRAM_IMAGES"
 """Of a shape's needs"""
 
 
@@ -57,7 +59,9 @@ class Programs:
         programs = [program for program in self._programs if program is not None]
         self.shapes: list[Shape] = list(dict.fromkeys(program.shape for program in programs))[:MOST_PROGRAMS]
         """In the order of their numbers"""
-        self._numbers = {shape: number for number, shape in enumerate(self.shapes)}
+        numbers = {shape: number for number, shape in enumerate(self.shapes)}
+        self._numbers = [-1 if item is None else numbers.get(item.shape, -1) for item in self._programs]
+        """By material, into `shapes`"""
         self.attributes = attributes_of(scene)
         """All that they read of meshes, in the order of their numbers"""
         # (Others are the world's and lamps'.)
@@ -70,7 +74,9 @@ class Programs:
         else:
             self._admitted = set(self.shapes)
             self._pages.fill()
-        self.around = self._found_surroundings()
+        names = () if self._instances is None else self._instances.names
+        buffers = NONE.union(*(buffers_for(shape.channels) for shape in self.shapes))
+        self.around = surroundings_of(self._pages, names, buffers)
         self.firsts = self._upload()
         """By material, the first of its parameters; 0 where it has no program"""
 
@@ -89,13 +95,12 @@ class Programs:
 
     def number_of(self, material: int) -> int:
         """Of a material's program; -1 where there is none yet, or none at all."""
-        shape = self.shape_of(material)
-        return -1 if shape is None else self._numbers[shape]
+        return -1 if self.shape_of(material) is None else self._numbers[material]
 
     def shape_of(self, material: int) -> Shape | None:
         """Of a material's program; None where it is drawn by its constants."""
-        program = self._programs[material] if 0 <= material < len(self._programs) else None
-        return program.shape if program is not None and program.shape in self._admitted else None
+        number = self._numbers[material] if 0 <= material < len(self._numbers) else -1
+        return self.shapes[number] if number >= 0 and self.shapes[number] in self._admitted else None
 
     def is_whole(self, material: int) -> bool:
         """Whether a material is drawn as it is."""
@@ -140,13 +145,6 @@ class Programs:
         if IMAGES in shape.needs:
             self._pages.bind(shader)
 
-    def _found_surroundings(self) -> Surroundings:
-        piece = self._pages.piece
-        images = tuple((name, int(value)) for name, value in piece.defines.items())
-        names = () if self._instances is None else self._instances.names
-        buffers = NONE.union(*(buffers_for(shape.channels) for shape in self.shapes))
-        return Surroundings(images, tuple(piece.samplers), names, buffers)
-
     def _upload(self) -> list[int]:
         firsts = []
         # (The first record is where the origin is.)
@@ -156,23 +154,32 @@ class Programs:
             if program is None:
                 firsts.append(0)
                 continue
-            block = self._block(program)
+            numbers = [self.attributes.index(attribute) for attribute in program.attributes]
+            numbers += [self.around.names.index(name) for name in program.instance_attributes]
+            block = parameters_of(program, numbers, self._pages)
             firsts.append(size + len(block) - len(program.records))
             blocks.append(block)
             size += len(block)
         self._texture: Any = record_texture(np.concatenate(blocks))
         return firsts
 
-    def _block(self, program: Program) -> Float32Array:
-        """A program's parameters, and before them, backwards, the numbers of its attributes and instance values."""
-        numbers = [self.attributes.index(attribute) for attribute in program.attributes]
-        numbers += [self.around.names.index(name) for name in program.instance_attributes]
-        head = np.zeros((len(numbers), 4), np.float32)
-        head[:, 0] = numbers[::-1]
-        records = np.array(program.records, np.float32)
-        for use in program.images:
-            records[use.record : use.record + IMAGE_RECORDS] = self._pages.records(use.image)
-        return np.concatenate([head, records])
+
+def surroundings_of(pages: ImagePages, names: tuple[str, ...] = (), buffers: Buffers = NONE) -> Surroundings:
+    """For programs whose images are on these pages."""
+    piece = pages.piece
+    images = tuple((name, int(value)) for name, value in piece.defines.items())
+    return Surroundings(images, tuple(piece.samplers), names, buffers)
+
+
+def parameters_of(program: Program, numbers: Sequence[int], pages: ImagePages) -> Float32Array:
+    """(n, 4) a program's parameters with the places of its images, and before them, backwards, the `numbers` of its
+    attributes and of its values of instances."""
+    head = np.zeros((len(numbers), 4), np.float32)
+    head[:, 0] = numbers[::-1]
+    records = np.array(program.records, np.float32)
+    for use in program.images:
+        records[use.record : use.record + IMAGE_RECORDS] = pages.records(use.image)
+    return np.concatenate([head, records])
 
 
 def program_piece(shape: Shape, around: Surroundings) -> Piece:

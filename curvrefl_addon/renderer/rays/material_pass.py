@@ -48,7 +48,8 @@ class MaterialPass:
     def __init__(self, width: int, height: int) -> None:
         self._size = (width, height)
         self._depth: Any = None
-        """Numbers of programs"""
+        """Numbers of programs; made when first asked for, as its frame buffer"""
+        self._classes: Any = None
         self._targets: list[tuple[Any, Buffers, Any]] = []
 
     def draw(
@@ -69,7 +70,8 @@ class MaterialPass:
         """
         if self._depth is None:
             self._depth = depth_texture(*self._size)
-        with drawing_state("ALWAYS", depth_write=True), frame_buffer(depth=self._depth).bind(), scissored(window):
+            self._classes = frame_buffer(depth=self._depth)
+        with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(window):
             set_viewport(0, 0, *self._size)
             shader = _classes_shader()
             shader.bind()

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from ...scene.arrays import Glass, MaterialArrays, SceneArrays
+from ...scene.programs.bits import KIND_GLASS, KIND_GLOSSY_ONLY, KIND_REFRACTION, KIND_THIN_WALL
 from ...scene.programs.program import Shape
 from ..device.records import record_texture
 from ..device.shaders import Piece, knows, named
-from ..geometry.chunk import HOLDOUT, Triangles
+from ..geometry.chunk import HOLDOUT, Batches, Triangles
 from ..geometry.chunk_attributes import CORNER_ATTRIBUTES, CORNER_INSTANCES
 from ..geometry.scene_geometry import SceneGeometry
 from ..programs.buffers import Buffers, buffers_for, varies_bits
@@ -32,8 +33,6 @@ PLAIN = Piece(constants={"base_color": "VEC3", **DRAWN.constants})
 """What passes over triangles need of each material, of one without a program: `Materials.bind`"""
 OF_PATHS = Piece(constants={"seen_through": "FLOAT"}, defines={"PATHS": "", "SEEN_THROUGH": SEEN_THROUGH})
 """What the primary pass needs in scenes with paths"""
-GLOSSY_ONLY, THIN_WALL, GLASS, REFRACTION = 1, 2, 4, 8
-"""KIND_ bits of `programs/material.glsl`"""
 _HOLDOUT = MaterialArrays("holdout", base_color=(0.0, 0.0, 0.0))
 
 
@@ -116,6 +115,14 @@ class Materials:
         """Of a material's program; None where it is the same everywhere."""
         return None if self._programs is None else self._programs.shape_of(index)
 
+    def by_shape(self, batches: Batches) -> dict[Shape | None, Batches]:
+        """Batches of materials that one shader draws together."""
+        groups: dict[Shape | None, Batches] = {}
+        for item in batches:
+            shape = self.shape_of(item[0])
+            groups[shape] = (*groups.get(shape, ()), item)
+        return groups
+
     @property
     def is_loading(self) -> bool:
         """Some materials are still drawn by their constants, or without their images."""
@@ -134,11 +141,13 @@ class Materials:
 
     def bind(self, shader: Any, index: int) -> None:
         """Set a bound shader with `DRAWN` to a material, and one with `forward_pieces` to its program's parameters."""
+        if self.shape_of(index) is None:
+            shader.uniform_float("material", float(index))
+            shader.uniform_float("base_color", self._of(index).base_color)
+            return
         if knows(shader, "material"):
             shader.uniform_float("material", float(index))
-        if self.shape_of(index) is None:
-            shader.uniform_float("base_color", self._of(index).base_color)
-        elif knows(shader, "program_first"):
+        if knows(shader, "program_first"):
             shader.uniform_int("program_first", self.programs.firsts[index])
 
     def bind_program(self, shader: Any, shape: Shape, turn: tuple[int, int]) -> None:
@@ -167,10 +176,10 @@ class Materials:
 def kind_of(material: MaterialArrays) -> int:
     """KIND_ bits."""
     return (
-        GLOSSY_ONLY * material.glossy_only
-        | THIN_WALL * material.thin_wall
-        | GLASS * (material.glass is Glass.GLASS)
-        | REFRACTION * (material.glass is Glass.REFRACTION)
+        KIND_GLOSSY_ONLY * material.glossy_only
+        | KIND_THIN_WALL * material.thin_wall
+        | KIND_GLASS * (material.glass is Glass.GLASS)
+        | KIND_REFRACTION * (material.glass is Glass.REFRACTION)
     )
 
 

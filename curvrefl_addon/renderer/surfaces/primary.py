@@ -76,13 +76,10 @@ def draw_primary(
     """
     groups: dict[_Kind, list[tuple[Chunk, Batches]]] = {}
     for chunk, batches in seen:
-        by_shape: dict[Shape | None, list[tuple[int, Any]]] = {}
-        for item in batches:
-            by_shape.setdefault(materials.shape_of(item[0]), []).append(item)
-        for shape, chosen in by_shape.items():
+        for shape, chosen in materials.by_shape(batches).items():
             smooth = shape is not None and is_smooth(chunk)
             kind = _Kind(shape, is_followed(chunk), smooth, depths is not None, has_paths, materials.around)
-            groups.setdefault(kind, []).append((chunk, tuple(chosen)))
+            groups.setdefault(kind, []).append((chunk, chosen))
     with drawing_state("LESS_EQUAL", depth_write=True, mirrored=mirrored):
         with target.frame_buffer.bind():
             target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)

@@ -13,7 +13,7 @@ from ...scene.programs.program import Shape
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..geometry.chunk import CHUNK
+from ..geometry.chunk import CHUNK, Batches
 from ..programs.buffers import fills
 from ..programs.programs import Surroundings
 from ..surfaces.materials import DRAWN, PLAIN, Materials, forward_pieces
@@ -48,10 +48,13 @@ def draw_reflected(
     """
     if window[2] <= 0 or window[3] <= 0:
         return
-    shapes = {materials.shape_of(material): None for part in scenery for material, _ in part.batches}
+    groups: dict[Shape | None, list[tuple[SolvedChunk, Batches]]] = {}
+    for part in scenery:
+        for shape, chosen in materials.by_shape(part.batches).items():
+            groups.setdefault(shape, []).append((part, chosen))
     with drawing_state("LESS_EQUAL", depth_write=True), target.target(materials.buffers).bind(), scissored(window):
         set_viewport(0, 0, target.width, target.height)
-        for shape in shapes:
+        for shape, parts in groups.items():
             shader = _reflected_shader(back_faces is not None, shape, materials.around)
             shader.bind()
             shader.uniform_block("view", view_uniforms)
@@ -67,10 +70,7 @@ def draw_reflected(
                 shader.uniform_sampler(name, texture)
             if back_faces is not None:
                 shader.uniform_sampler("back_faces", back_faces.distance)
-            for part in scenery:
-                chosen = [item for item in part.batches if materials.shape_of(item[0]) == shape]
-                if not chosen:
-                    continue
+            for part, chosen in parts:
                 shader.uniform_float("stretched", STRETCHED_COSINE if part.image == 0 else STRETCHED_COSINE_IN_REGION)
                 materials.bind_triangles(shader, part.chunk, shape)
                 shader.uniform_sampler("reflection_points", part.solution.reflection_points)

@@ -14,6 +14,7 @@ from ...memory import exceeds_memory
 from ..arrays import Float32Array
 from ..camera.srgb import linear_to_srgb, srgb_to_linear
 from ..finite import usable_pixels
+from ..programs.image_pixels import four_channels
 from ..remarks import Remark
 from .color_spaces import rec709_to_scene
 from .pixels import stretched
@@ -141,7 +142,7 @@ def _own_pixels(image: bpy.types.Image) -> tuple[Float32Array, bool] | None:
         image_pixels.foreach_get(pixels)
     if pixels.size == 0 or not image.has_data:
         return None
-    return _four_channels(pixels.reshape(height, width, -1)), bool(image.is_float)
+    return four_channels(pixels.reshape(height, width, -1)), bool(image.is_float)
 
 
 def _frame_pixels(path: str) -> tuple[Float32Array, bool] | None:
@@ -157,7 +158,7 @@ def _frame_pixels(path: str) -> tuple[Float32Array, bool] | None:
         loaded.free()
     is_float = values.dtype != np.uint8
     pixels = values.astype(np.float32) if is_float else values.astype(np.float32) / np.float32(255.0)
-    return _four_channels(pixels.reshape(*values.shape[:2], -1)), is_float
+    return four_channels(pixels.reshape(*values.shape[:2], -1)), is_float
 
 
 def _use_alpha(pixels: Float32Array, image: bpy.types.Image, is_float: bool, splits_alpha: bool) -> None:
@@ -216,15 +217,3 @@ def _decode_srgb(pixels: Float32Array) -> None:
 def _srgb_table() -> Float32Array:
     """(256,) linear value of each byte."""
     return srgb_to_linear(np.arange(256, dtype=np.float32) / 255.0)
-
-
-def _four_channels(pixels: Float32Array) -> Float32Array:
-    """(h, w, 1..4) to (h, w, 4): gray is spread, alpha is 1."""
-    height, width, channels = pixels.shape
-    if channels == 4:
-        return pixels
-    result = np.ones((height, width, 4), np.float32)
-    result[..., :3] = pixels[..., :3] if channels == 3 else pixels[..., :1]
-    if channels == 2:
-        result[..., 3] = pixels[..., 1]
-    return result

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A color as nodes make it: a constant times a texture times vertex colors."""
+"""A color as nodes make it: a constant times a texture."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from ..meshes.attributes import VertexColors
 from .pixels import Pixels
 
 type Change = Callable[..., Any]
@@ -29,25 +28,21 @@ class Texture(Protocol):
     def aligned(self, other: Any) -> Pixels | None:
         """(h, w, 3) colors of another texture at this one's pixels; None where they do not lie on each other."""
 
-    def coarse(self) -> Self:
-        """The same in few pixels, of which a mean is soon found."""
-
 
 @dataclass(frozen=True, slots=True)
 class NodeColor:
-    """`factor` times texture times vertex colors."""
+    """`factor` times texture."""
 
     factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
     texture: Any | None = None
     """A `Texture`"""
-    vertex_colors: VertexColors | None = None
 
     @property
     def is_constant(self) -> bool:
-        return self.texture is None and self.vertex_colors is None
+        return self.texture is None
 
     def mean(self) -> tuple[float, float, float]:
-        """The nearest constant; vertex colors count as white."""
+        """The nearest constant."""
         if self.texture is None:
             return self.factor
         return triple(np.asarray(self.factor) * self.texture.colors().reshape(-1, 3).mean(axis=0, dtype=np.float64))
@@ -73,11 +68,8 @@ def product(a: NodeColor, b: NodeColor, factor: NodeColor) -> NodeColor | None:
         return None
     if a.texture is not None and b.texture is not None:
         return None
-    if a.vertex_colors is not None and b.vertex_colors is not None:
-        return None
     texture = a.texture if a.texture is not None else b.texture
-    paint = a.vertex_colors if a.vertex_colors is not None else b.vertex_colors
-    return NodeColor(triple(np.multiply(a.factor, b.factor)), texture, paint)
+    return NodeColor(triple(np.multiply(a.factor, b.factor)), texture)
 
 
 def plain(value: Any) -> NodeColor:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .color_spaces import luminance_weights
-from .node_color import NodeColor, gray, product, spread, triple
+from .node_color import NodeColor, gray, product, spread
 from .node_formulas import (
     BLENDS,
     FROM_RGB,
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 CURVE_STEPS = 256
 """As Cycles tabulates color ramps and curves"""
-
-NEVER_FOLLOWED = ("Is Shadow Ray", "Is Diffuse Ray", "Is Volume Scatter Ray")
-"""Outputs of the Light Path node that are 0 for whatever is seen, directly, in mirrors and through glass"""
 
 _MIXED = {
     "RGBA": ("Factor_Float", "A_Color", "B_Color"),
@@ -65,8 +62,6 @@ def _mix(reader: ColorReader, source: Source) -> NodeColor | None:
         b = read(source.input(names[2]))
         plain = product(a, b, factor) if blend == "MULTIPLY" else None
         result = reader.made(operation, a, b, factor) if plain is None else plain
-    # (Vertex colors are drawn from 0 to 1 as it is.)
-    clamps = clamps and result.vertex_colors is None
     return reader.made(lambda c: np.clip(c, 0.0, 1.0), result) if clamps else result
 
 
@@ -152,9 +147,6 @@ def _ramp(reader: ColorReader, source: Source) -> NodeColor:
     table = np.array([node.color_ramp.evaluate(place) for place in places])
     table = table[:, [3, 3, 3]] if source.socket.identifier == "Alpha" else table[:, :3]
     factor = source.input("Fac")
-    if factor.node is not None and factor.node.type.startswith("TEX_") and reader.read_texture(factor) is None:
-        reader.note("A Color Ramp {of} is drawn as its mean.")
-        return NodeColor(triple(table.mean(axis=0)))
 
     def ramp(colors: Any) -> Any:
         place = np.clip(colors[..., 0], 0.0, 1.0)
@@ -200,14 +192,6 @@ def _gamma(c: Any, exponent: Any) -> Any:
     return np.where(c > 0.0, power(np.maximum(c, 0.0), exponent), c)
 
 
-def _light_path(reader: ColorReader, source: Source) -> NodeColor | None:
-    """What is the same for all rays that are followed here."""
-    if source.socket.identifier not in NEVER_FOLLOWED:
-        return None
-    reader.note("Shadows {of} are those of what is seen of it: its Light Path node is read for rays that are seen.")
-    return gray(0.0)
-
-
 type _Handler = Callable[[ColorReader, Source], NodeColor | None]
 HANDLERS: dict[str, _Handler] = {
     "GAMMA": lambda reader, source: reader.changed(source, _gamma, "Color", "Gamma"),
@@ -219,7 +203,6 @@ HANDLERS: dict[str, _Handler] = {
     "RGBTOBW": lambda reader, source: reader.changed(
         source, lambda c: spread(c @ luminance_weights().astype(c.dtype)), "Color"
     ),
-    "LIGHT_PATH": _light_path,
     "MIX": _mix,
     "MIX_RGB": _mix,
     "MATH": _math,

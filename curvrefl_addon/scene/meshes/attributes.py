@@ -4,25 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ..arrays import Float32Array, Int32Array
-
-
-@dataclass(frozen=True, slots=True)
-class VertexColors:
-    """What of an attribute is a color, or a gray."""
-
-    attribute: str
-    output: str = "Color"
-    """'Color', 'Fac' (the mean of its parts) or 'Alpha', as the nodes' outputs"""
-    is_painted: bool = False
-    """By a Color Attribute node: without a name it is the default color attribute"""
-
 
 PARTS = {
     "FLOAT": ("value", 1),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Float32Array, Float64Array, Int32Array
+from .jenkins import hashed_to_unit
 
 POINTINESS, ISLAND = ".pointiness", ".random_per_island"
 """Names of attributes"""
@@ -38,7 +39,7 @@ def pointiness(positions: Float32Array, normals: Float32Array, edges: Int32Array
 def island_numbers(vertices: int, edges: Int32Array) -> Float32Array:
     """(vertices,) a number from 0 to 1, the same in all that edges (n, 2) join."""
     roots = _roots(vertices, edges)
-    return _random(roots.astype(np.uint32))
+    return hashed_to_unit(roots.astype(np.uint32))
 
 
 def _roots(vertices: int, edges: Int32Array) -> NDArray[np.int64]:
@@ -64,25 +65,6 @@ def _roots(vertices: int, edges: Int32Array) -> NDArray[np.int64]:
         if ranks[a] == ranks[b]:
             ranks[a] += 1
     return np.array([root_of(vertex) for vertex in range(vertices)], np.int64)
-
-
-def _random(numbers: NDArray[np.uint32]) -> Float32Array:
-    """Cycles' hash_uint_to_float."""
-
-    def turned(value: NDArray[np.uint32], by: int) -> NDArray[np.uint32]:
-        return value << np.uint32(by) | value >> np.uint32(32 - by)
-
-    start = np.uint32((0xDEADBEEF + (1 << 2) + 13) & 0xFFFFFFFF)
-    a = numbers + start
-    b, c = np.full_like(numbers, start), np.full_like(numbers, start)
-    c = (c ^ b) - turned(b, 14)
-    a = (a ^ c) - turned(c, 11)
-    b = (b ^ a) - turned(a, 25)
-    c = (c ^ b) - turned(b, 16)
-    a = (a ^ c) - turned(c, 4)
-    b = (b ^ a) - turned(a, 14)
-    c = (c ^ b) - turned(b, 24)
-    return (c.astype(np.float32) * np.float32(1.0 / 0xFFFFFFFF)).astype(np.float32)
 
 
 def _summed(places: NDArray[np.int64], vectors: Float64Array, count: int) -> Float64Array:

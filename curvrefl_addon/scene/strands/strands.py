@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Float32Array, Int32Array
+from ..meshes.jenkins import hashed_to_unit
 from ..programs.program import GEOMETRY, Attribute
 
 IS_STRAND, INTERCEPT, LENGTH = ".curve_is_strand", ".curve_intercept", ".curve_length"
@@ -106,18 +107,4 @@ def own_layers(strands: Strands, wanted: Sequence[Attribute]) -> tuple[tuple[Att
 
 def random_of_numbers(count: int) -> Float32Array:
     """(count,) Cycles' hash_uint2_to_float(number, 0) of 0, 1, ..."""
-    start = np.uint32((0xDEADBEEF + (2 << 2) + 13) & 0xFFFFFFFF)
-    a = np.arange(count, dtype=np.uint32) + start
-    b, c = np.full(count, start), np.full(count, start)
-
-    def turned(value: NDArray[np.uint32], by: int) -> NDArray[np.uint32]:
-        return value << np.uint32(by) | value >> np.uint32(32 - by)
-
-    c = (c ^ b) - turned(b, 14)
-    a = (a ^ c) - turned(c, 11)
-    b = (b ^ a) - turned(a, 25)
-    c = (c ^ b) - turned(b, 16)
-    a = (a ^ c) - turned(c, 4)
-    b = (b ^ a) - turned(a, 14)
-    c = (c ^ b) - turned(b, 24)
-    return (c.astype(np.float32) * np.float32(1.0 / 0xFFFFFFFF)).astype(np.float32)
+    return hashed_to_unit(np.arange(count, dtype=np.uint32), words=2)

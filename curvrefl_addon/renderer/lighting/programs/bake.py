@@ -9,27 +9,38 @@ from typing import Any
 
 import numpy as np
 
-from .....gpu_shaders.loader import Snippet
 from ....scene.arrays import LARGEST_COORDINATE, Float32Array, Float64Array, ImageSource
-from ....scene.programs.program import IMAGE_RECORDS, UV, Program
+from ....scene.programs.bits import (
+    RAY_IS_CAMERA,
+    RAY_IS_DIFFUSE,
+    RAY_IS_GLOSSY,
+    RAY_IS_REFLECTION,
+    RAY_IS_SINGULAR,
+    RAY_IS_TRANSMISSION,
+)
+from ....scene.programs.program import UV, Program
 from ....scene.programs.program import Shape as ProgramShape
 from ...device.batches import full_screen_triangle
 from ...device.context import gpu_cache
 from ...device.frame_buffers import frame_buffer
 from ...device.records import record_texture
-from ...device.shaders import FULL_SCREEN, Block, Piece, build_shader, flags, named, uniform_block
+from ...device.shaders import FULL_SCREEN, Block, Piece, build_shader, flags, uniform_block
 from ...device.state import drawing_state, set_viewport
 from ...device.textures import empty_texture, read_texture
 from ...programs.image_pages import ImagePages
-from ...programs.instance_table import NEED, PLAIN_VALUES, instance_piece
+from ...programs.instance_table import NEED, PLAIN_VALUES
+from ...programs.programs import IMAGES, Surroundings, parameters_of, program_piece, surroundings_of
 
 SKY, DISC, LAMP, SPOT, AREA = 0, 1, 2, 3, 4
 """Shapes of directions: an equirectangular image, a disc of the sky, all about a lamp (octahedral), in a spot's cone;
 and places on an area lamp"""
-CAMERA, GLOSSY, DIFFUSE, TRANSMISSION, LIGHTING = 1, 2 + 16 + 32, 2 + 8, 4, 0
-"""Rays, as bits of `shading_point.glsl`; LIGHTING: Cycles tells shaders of light nothing of the rays that ask it"""
+CAMERA, TRANSMISSION, LIGHTING = RAY_IS_CAMERA, RAY_IS_TRANSMISSION, 0
+GLOSSY, DIFFUSE = RAY_IS_REFLECTION | RAY_IS_GLOSSY | RAY_IS_SINGULAR, RAY_IS_REFLECTION | RAY_IS_DIFFUSE
+"""Rays; LIGHTING: Cycles tells shaders of light nothing of the rays that ask it"""
 _SHAPES = {"SKY": SKY, "DISC": DISC, "LAMP": LAMP, "SPOT": SPOT, "AREA": AREA}
 BAKE_RECORDS = 7
+NO_VALUES = ("",)
+"""Names of values of instances: one, which is 0"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,26 +76,22 @@ class Baker:
         self._pages.follow(images)
         self._pages.fill()
         self.warnings = self._pages.warnings
-        # Before the parameters lie the numbers of attributes and values of instances: 0, of which there is no value.
+        # (Attributes and values of instances are all number 0, of which there is no value.)
         self._first = program.shape.attributes + len(program.instance_attributes)
-        records = np.vstack([np.zeros((self._first, 4), np.float32), program.records])
-        for use in program.images:
-            start = self._first + use.record
-            records[start : start + IMAGE_RECORDS] = self._pages.records(use.image)
-        self._records = record_texture(records)
+        self._records = record_texture(parameters_of(program, [0] * self._first, self._pages))
         self._instance = record_texture(np.zeros((PLAIN_VALUES + 1, 4)) if instance is None else instance)
 
     def bake(self, directions: Directions, rays: int, without_suns: bool = False) -> Float32Array:
         """(height, width, 3) radiance, row 0 lowest; what is no usable number is black."""
-        pages = self._pages.piece
-        shader = _shader(self._shape, without_suns, tuple(pages.samplers), tuple(pages.defines.items()))
+        shader = _shader(self._shape, surroundings_of(self._pages, NO_VALUES), without_suns)
         target = empty_texture(directions.width, directions.height)
         buffer = frame_buffer(target)
         with drawing_state(), buffer.bind():
             set_viewport(0, 0, directions.width, directions.height)
             shader.bind()
             shader.uniform_sampler("program_records", self._records)
-            self._pages.bind(shader)
+            if IMAGES in self._shape.needs:
+                self._pages.bind(shader)
             if NEED in self._shape.needs:
                 shader.uniform_sampler("instance_table", self._instance)
             block = uniform_block(self._numbers(directions, rays).ravel())
@@ -111,32 +118,18 @@ def _depths(rays: int) -> tuple[float, float, float]:
 
 
 @gpu_cache
-def _shader(
-    shape: ProgramShape, without_suns: bool, images: tuple[str, ...], image_defines: tuple[tuple[str, Any], ...]
-) -> Any:
-    text = "\n".join(
-        (
-            '#include "programs/shading_point.glsl"',
-            '#include "programs/material.glsl"',
-            *(f'#include "{file}"' for file in shape.files),
-            shape.text,
-        )
-    )
+def _shader(shape: ProgramShape, around: Surroundings, without_suns: bool) -> Any:
     return build_shader(
         "emitting program",
         FULL_SCREEN,
+        program_piece(shape, around),
         Piece(
-            samplers={"program_records": "FLOAT_2D", **named("FLOAT_2D_ARRAY", *images)},
             blocks={"bake": Block("vec4", length=BAKE_RECORDS)},
             outputs={"color": "VEC4"},
             defines={
-                **flags(*sorted(shape.needs), *(("PROGRAM_WITHOUT_SUNS",) if without_suns else ())),
-                **dict(image_defines),
-                "ATTRIBUTES": shape.attributes,
+                **(flags("PROGRAM_WITHOUT_SUNS") if without_suns else {}),
                 **{f"SHAPE_{name}": number for name, number in _SHAPES.items()},
             },
-            fragment=Snippet("emitting program", text),
+            fragment="emitters/bake.frag.glsl",
         ),
-        instance_piece(("",)) if NEED in shape.needs else Piece(),
-        Piece(fragment="emitters/bake.frag.glsl"),
     )

@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from ..bits import KIND_GLASS, KIND_GLOSSY_ONLY, KIND_REFRACTION, KIND_THIN_WALL
 from ..builder import Builder
 from ..expression import Expression
 from .arithmetic import constant, is_at, product
 
-GLOSSY_ONLY, THIN_WALL, GLASS, REFRACTION = 1.0, 2.0, 4.0, 8.0
+GLOSSY_ONLY, THIN_WALL = float(KIND_GLOSSY_ONLY), float(KIND_THIN_WALL)
+GLASS, REFRACTION = float(KIND_GLASS), float(KIND_REFRACTION)
 """Bits of the channel "kind", as in `programs/material.glsl`"""
 
 PLAIN_NORMAL = Expression("s.normal", "vector")
