@@ -4,14 +4,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ..optics.catalog import Method
 from ..scene.arrays import SceneArrays
 from .geometry.scene_geometry import Difference, SceneGeometry
+from .indirect.indirect import IndirectLight
 from .lighting.lighting import Lighting
 from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
+from .rays.ray_scene import RayScene
 from .shading.shade import ShadePass
 from .surfaces.materials import Materials
 from .tracing.tracer import PathTracer
@@ -34,6 +37,7 @@ class Appearance:
         self.materials = Materials(scene, image_memory, is_gradual, geometry)
         self.lighting = Lighting(scene, geometry, self.materials, samples)
         self.shade = ShadePass(scene, self.lighting, self.materials)
+        self.indirect = IndirectLight(scene, geometry)
         self.tracer: PathTracer | None = None
         """Where rays do not only go from sharp mirror to sharp mirror"""
         self._follow_paths(mirrors)
@@ -47,10 +51,20 @@ class Appearance:
             self.materials.move(scene)
         self.lighting.follow(scene, difference)
         self.shade.follow(scene)
+        self.indirect.follow(scene, difference)
         if difference.structure or not same_for_paths(before, scene):
             self._follow_paths(mirrors)
         elif difference.moved and self.tracer is not None:
             self.tracer.move(scene)
+
+    def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any) -> bool:
+        """Find the light between surfaces, as far as that is not known; returns whether there was something to do."""
+        if not self.indirect.is_wanted and self.indirect.irradiance is None:
+            return False
+        is_changed = self.indirect.prepare(rays(), self.materials, self.lighting, view_uniforms)
+        if is_changed:
+            self.lighting.use(self.indirect.irradiance)
+        return is_changed
 
     def load_some(self, seconds: float) -> bool:
         """See `Materials.load_some`."""
@@ -65,6 +79,7 @@ class Appearance:
         self.lighting.free()
         self.lighting = Lighting(self._scene, self._geometry, self.materials, samples)
         self.shade = ShadePass(self._scene, self.lighting, self.materials)
+        self.lighting.use(self.indirect.irradiance)
         self.tracer = self._new_tracer()
 
     def warnings(self, method: Method) -> tuple[str, ...]:

@@ -53,7 +53,7 @@ class Reflection:
     """What `auto` has chosen, and why"""
     coarse_shadows: tuple[bool, bool] = (False, False)
     """Of lamps and of the world: their maps are too coarse for the view"""
-    follows_shadows: bool = False
+    at_rest: bool = False
     """By rays, where that is so"""
     calm: CalmHistory | None = None
     """The view moves: rough mirrors show what sharp ones would, blurred, in place of one noisy path"""
@@ -62,7 +62,7 @@ class Reflection:
 
     def ray_shadows(self, rays: Callable[[], RayScene]) -> RayShadows | None:
         """What takes the place of shadow maps; None where these serve. `rays`: makes the scene as rays need it."""
-        if not self.follows_shadows or not any(self.coarse_shadows):
+        if not self.at_rest or not any(self.coarse_shadows):
             return None
         return RayShadows(rays(), *self.coarse_shadows, everywhere=True)
 
@@ -79,7 +79,7 @@ class Reflection:
         """Nothing is left that `reflect` would do for a view at rest alone."""
         if self.calm is not None:
             return False
-        return all(shown.is_final for shown in self.shown) and (self.follows_shadows or not any(self.coarse_shadows))
+        return all(shown.is_final for shown in self.shown) and (self.at_rest or not any(self.coarse_shadows))
 
     @property
     def methods(self) -> tuple[str, ...]:

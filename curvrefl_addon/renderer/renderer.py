@@ -38,6 +38,7 @@ from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
 from .shown.targets import TargetPool
 from .surfaces.canvas import Canvas
 from .surfaces.pixel_filter import offsets
+from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
 
@@ -151,7 +152,16 @@ class Renderer:
     @property
     def _stage(self) -> Stage:
         made = self._appearance
-        return Stage(self.mirrors, self.geometry, made.materials, made.lighting, made.shade, self.rays, made.tracer)
+        return Stage(
+            self.mirrors,
+            self.geometry,
+            made.materials,
+            made.lighting,
+            made.shade,
+            self.rays,
+            made.indirect,
+            made.tracer,
+        )
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -228,6 +238,7 @@ class Renderer:
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
         view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
+        self._appearance.light_surfaces(self.rays, view_block(view))
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
         if last is not None and not np.array_equal(last.origin, origin):
@@ -322,7 +333,8 @@ class Renderer:
         self, reflection: Reflection, window: Window | None = None, everywhere: bool = False, index: int = 0
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index)
+        gathered = reflection.at_rest
+        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index, gathered)
 
     def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
         if revision != self.revision:

@@ -21,14 +21,20 @@ def draw_seen(
     window: Window | None = None,
     everywhere: bool = False,
     index: int = 0,
+    gathered: bool = False,
 ) -> SubFrame:
     """Draw it from where the reflection's view looks, in `window` alone if given, but `everywhere` if asked for.
 
-    `index`: number of the sub-frame.
+    `index`: number of the sub-frame; `gathered`: rays find the light between surfaces.
     """
     view, geometry = reflection.view, stage.geometry
     targets, shadows = pool.of(view.width, view.height), reflection.ray_shadows(stage.rays)
-    sub_frame = SubFrame(stage, view, view_block(view), targets, window, shadows, index)
+    uniforms = view_block(view)
+    gathers = None
+    if gathered:
+        made = (stage.materials, stage.lighting)
+        gathers = stage.indirect.gathering(stage.rays, *made, uniforms, index)
+    sub_frame = SubFrame(stage, view, uniforms, targets, window, shadows, index, gathers)
     mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
     if not reflection.shown and not settings.entry.solves_vertices:
         mirrors = list(stage.mirrors)

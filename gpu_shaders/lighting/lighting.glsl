@@ -49,6 +49,19 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #include "emitters/lamp_looks.glsl"
 #include "lighting/world_light.glsl"
 #include "lighting/lamps.glsl"
+#ifdef LIGHTING_INDIRECT
+#include "indirect/cells.glsl"
+#endif
+
+#ifdef LIGHTING_INDIRECT
+// Radiance towards the viewer of what arrives from other surfaces, as their patches know it.
+vec3 surfaces_on(Surface s, Lobes lobes)
+{
+  int place = patch_at(s.position, s.normal);
+  vec3 arriving = place < 0 ? vec3(0.0) : fetch_record(patch_light, place).rgb / LIGHTING_PI;
+  return (lobes.diffuse + lobes.specular_albedo) * arriving;
+}
+#endif
 
 vec3 emission_of(Surface s, Lobes lobes)
 {
@@ -68,7 +81,11 @@ vec3 shade_surface(Surface s, vec3 to_viewer)
     cos_viewer = -cos_viewer;
   }
   Lobes lobes = lobes_of(s, cos_viewer);
-  return emission_of(s, lobes) + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+  vec3 sum = emission_of(s, lobes) + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+#if defined(LIGHTING_INDIRECT) && !defined(GATHERED)
+  sum += surfaces_on(s, lobes);
+#endif
+  return sum;
 }
 
 // What a mirror shows besides its reflection, of which sheen, coat and tints are left out: emission and the diffuse
@@ -98,6 +115,9 @@ vec3 shade_under_mirror(Surface s, vec3 to_viewer)
   if (largest(below) > 0.0) {
     lobes.metal_weight = lobes.dielectric_weight = lobes.specular_albedo = vec3(0.0);
     sum += lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
+#ifdef LIGHTING_INDIRECT
+    sum += surfaces_on(s, lobes);
+#endif
   }
   return sum;
 }

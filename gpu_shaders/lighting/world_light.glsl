@@ -277,7 +277,12 @@ vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
     vec4 coat = world_lobe(coat_middle, coat_shape.y);
     coat.rgb *= lobes.coat_albedo * (1.0 - lost_above.x / max(coat.a, 1e-9));
 #endif
+#ifdef GATHERED
+    // (Rays off the lobe find the world.)
+    vec4 lobe = vec4(0.0);
+#else
     vec4 lobe = world_lobe(middle, shape.y);
+#endif
 #ifdef LIGHTING_PARTS
     seen *= lighting_data[6].y;
     lobe.rgb *= lighting_data[6].z;

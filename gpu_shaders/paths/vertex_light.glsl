@@ -43,6 +43,9 @@ vec3 light_of_vertex(Surface s, PathVertex v, vec3 to_viewer)
   sum += lamps_on(s, lobes, to_viewer);
 #ifdef PATHS_BASE
   sum += world_on(s, lobes, to_viewer);
+#ifdef LIGHTING_INDIRECT
+  sum += surfaces_on(s, lobes);
+#endif
 #endif
 #endif
   return v.material.alpha * sum;

@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one program makes of the surfaces that rays have hit: base color, normal and the other buffers that the scene's
 // programs fill. Goes behind the program. `turn`: numbers of the sub-frame and of the bounce. With OF_PATHS of
-// a step of paths, else of rays from mirror to mirror.
+// a step of paths, with IS_GATHERED of rays for light between surfaces, else of rays from mirror to mirror.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "surfaces/material_at.glsl"
 #include "surfaces/fill_buffers.glsl"
 #include "programs/chance.glsl"
-#ifdef OF_PATHS
 #include "paths/path_state.glsl"
-#endif
 
 vec3 to_world_of(Hit hit, vec3 direction)
 {
@@ -33,12 +31,18 @@ void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 place = texelFetch(vertex_position, pixel, 0);
+#ifdef IS_GATHERED
+  vec4 path = texelFetch(path_way, pixel, 0);
+  vec3 direction = way_direction(path);
+  float range = path.w;
+#else
   vec3 way = place.xyz - texelFetch(before_position, pixel, 0).xyz;
   float range = length(way);
+#endif
 #ifdef OF_PATHS
   vec3 direction = way_direction(texelFetch(path_way, pixel, 0));
   PathState state = unpack_state(texelFetch(path_throughput, pixel, 0).w);
-#else
+#elif !defined(IS_GATHERED)
   vec3 direction = way / max(range, 1e-30);
 #endif
   Hit hit = unpacked_hit(texelFetch(path_hit, pixel, 0));
@@ -57,7 +61,11 @@ void main()
   s.instance = row_of_instance(hit.instance);
   s.parametric = hit.place;
   s.ray_length = range;
-#ifdef OF_PATHS
+#ifdef IS_GATHERED
+  s.ray = RAY_IS_DIFFUSE | RAY_IS_REFLECTION;
+  s.depths = vec3(2.0, 1.0, 1.0);
+  s.more_depths = vec2(0.0);
+#elif defined(OF_PATHS)
   s.ray = state.kind == RAY_CAMERA ? RAY_IS_CAMERA :
           (RAY_IS_GLOSSY | RAY_IS_SINGULAR | (state.kind == RAY_REFLECTED ? RAY_IS_REFLECTION : RAY_IS_TRANSMISSION));
   s.depths = vec3(float(state.reflected + state.transmitted), 0.0, float(state.reflected));

@@ -4,6 +4,7 @@
 // the surface's frame: z is the normal, x the tangent. `alpha`: widths along x and y.
 
 #include "common/ggx_table.glsl"
+#include "scattering/frame.glsl"
 
 // The smallest width that single precision bears.
 #define SMALLEST_ALPHA 1e-4
@@ -16,24 +17,6 @@ bool is_sharp_alpha(float alpha)
 #else
   return true;
 #endif
-}
-
-const float PI = 3.14159265358979;
-
-// Right-handed, x towards the tangent where it is not along the normal.
-mat3 surface_frame(vec3 normal, vec3 tangent)
-{
-  vec3 y = cross(normal, tangent);
-  float square = dot(y, y);
-  if (!(square > 1e-8)) {
-    // Duff et al., "Building an Orthonormal Basis, Revisited" (2017).
-    float side = normal.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (side + normal.z);
-    y = vec3(normal.x * normal.y * a, side + normal.y * normal.y * a, -normal.y);
-    square = 1.0;
-  }
-  y *= inversesqrt(square);
-  return mat3(cross(y, normal), y, normal);
 }
 
 // Density of microfacet normals, Walter et al. (2007), eq. 33, stretched.

@@ -22,6 +22,7 @@ from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
+from .cells import CELLS, SurfaceLight
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
@@ -62,6 +63,8 @@ FEATURES: Features = frozenset(
     f"LIGHTING_{name}"
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
+INDIRECT = "LIGHTING_INDIRECT"
+"""Of `FEATURES`: light that comes from other surfaces is known (`renderer/indirect`)"""
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 
@@ -75,7 +78,9 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **world_samplers(features),
             **look_samplers(features),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
+            **({**CELLS.samplers, "patch_light": "FLOAT_2D"} if INDIRECT in features else {}),
         },
+        constants=CELLS.constants if INDIRECT in features else {},
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
         defines={
             **flags(*sorted(features)),
@@ -86,6 +91,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **WORLD_DEFINES,
             **GGX_DEFINES,
             **SHADOW_ALPHA.defines,
+            **CELLS.defines,
         },
     )
 
@@ -104,6 +110,7 @@ class Lighting:
         self._blocks: dict[int, tuple[Any, list[int], list[int]]] = {}
         """By sub-frame its uniform block and the views of its lamps' and the world's maps"""
         self._bound: Any = None
+        self._surfaces: SurfaceLight | None = None
         self._looks = LampLooks()
         self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
@@ -203,7 +210,14 @@ class Lighting:
         flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
         flagged[ALPHA] = bool(self._alpha.materials)
         found |= {name for name, is_so in flagged.items() if is_so}
+        if self._surfaces is not None:
+            found.add(INDIRECT)
         return frozenset(found) | self._world_textures.features | self._looks.features | self._of_surfaces
+
+    def use(self, surfaces: SurfaceLight | None) -> None:
+        """Have light from other surfaces, or none."""
+        self._surfaces = surfaces
+        self.features = self._found_features()
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
@@ -241,6 +255,8 @@ class Lighting:
         self._world_textures.bind(shader)
         self._looks.bind(shader)
         shader.uniform_sampler("lighting_ggx", self.ggx)
+        if self._surfaces is not None:
+            self._surfaces.bind(shader, of_hits=False)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""

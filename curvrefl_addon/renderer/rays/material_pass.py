@@ -36,10 +36,12 @@ class Hits:
     hits: Any
     """Of `packed_hit` (`ray_surface.glsl`)"""
     before: Any
-    """Positions where the rays began"""
+    """Positions where the rays began; None where the way says how far they are"""
     way: Any = None
     throughput: Any = None
     """Of paths; None of rays from mirror to mirror"""
+    is_gathered: bool = False
+    """By rays for the light between surfaces: the last number of the way is how far they have gone"""
 
 
 class MaterialPass:
@@ -85,17 +87,19 @@ class MaterialPass:
         with drawing_state("EQUAL"), target.bind(), scissored(window):
             set_viewport(0, 0, *self._size)
             for number, shape in materials.programs.admitted:
-                shader = _pass_shader(shape, materials.programs.around, hits.way is not None)
+                shader = _pass_shader(shape, materials.programs.around, hits.way is not None, hits.is_gathered)
                 shader.bind()
                 rays.bind(shader)
                 materials.bind_program(shader, shape, turn)
                 shader.uniform_float("program_number", float(number))
                 shader.uniform_block("view", view_uniforms)
                 shader.uniform_sampler("vertex_position", hits.position)
-                shader.uniform_sampler("before_position", hits.before)
                 shader.uniform_sampler("path_hit", hits.hits)
+                if hits.before is not None:
+                    shader.uniform_sampler("before_position", hits.before)
                 if hits.way is not None:
                     shader.uniform_sampler("path_way", hits.way)
+                if hits.throughput is not None:
                     shader.uniform_sampler("path_throughput", hits.throughput)
                 full_screen_triangle().draw(shader)
 
@@ -125,7 +129,9 @@ def _classes_shader() -> Any:
 
 
 @gpu_cache
-def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool) -> Any:
+def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool, is_gathered: bool) -> Any:
+    gathered = Piece(samplers={"path_way": "FLOAT_2D"}, defines=flags("IS_GATHERED"))
+    before = Piece(samplers={"before_position": "FLOAT_2D"})
     paths = Piece(
         samplers=named("FLOAT_2D", "path_way", "path_throughput"),
         defines={**flags("OF_PATHS", "PATH_STEP"), "SEEN_THROUGH": SEEN_THROUGH},
@@ -139,9 +145,10 @@ def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool) -> Any:
         TABLE,
         Piece(outputs=named("VEC4", "surface_normal", "surface_color_out")),
         fills(around.buffers),
-        *((paths,) if of_paths else ()),
+        *((gathered,) if is_gathered else (before,)),
+        *((paths,) if of_paths and not is_gathered else ()),
         Piece(
-            samplers=named("FLOAT_2D", "vertex_position", "before_position", "path_hit"),
+            samplers=named("FLOAT_2D", "vertex_position", "path_hit"),
             constants={"program_number": "FLOAT", "turn": "IVEC2"},
             defines={"PROGRAM_STEPS": PROGRAM_STEPS, **flags("WITH_HITS")},
             fragment="rays/material_pass.frag.glsl",

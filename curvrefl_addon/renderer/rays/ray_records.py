@@ -45,6 +45,8 @@ class InstanceFlag(IntFlag):
     """A hole for rays of the camera"""
     CASTS_IN_PART = 256
     """Shadows; light goes straight on through some of it"""
+    SEEN_BY_DIFFUSE = 512
+    """By rays off what scatters light"""
 
 
 def seen_by(instance: InstanceArrays, is_clear: bool) -> int:
@@ -54,6 +56,7 @@ def seen_by(instance: InstanceArrays, is_clear: bool) -> int:
         | InstanceFlag.CASTS_SHADOWS * instance.visible_shadow
         | InstanceFlag.SEEN_BY_CAMERA * instance.visible_camera
         | InstanceFlag.SEEN_THROUGH_GLASS * instance.visible_transmission
+        | InstanceFlag.SEEN_BY_DIFFUSE * instance.visible_diffuse
         | InstanceFlag.HOLDS_OUT * instance.holdout
         | InstanceFlag.CASTS_IN_PART * (instance.visible_shadow and is_clear)
     )

@@ -13,14 +13,15 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
+from ..indirect.gather import Gathering, GatherPicture, Source
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..paths.features import has_base
 from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
-from ..rays.paths import ON_PATHS, Bounce
+from ..rays.paths import ON_PATHS, PATH_DEPTH, Bounce
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import TABLE, Materials
-from ..surfaces.pixel_classes import CLASS, PixelClass, PixelClasses
+from ..surfaces.pixel_classes import CLASS, CLASS_COUNT, PixelClass, PixelClasses
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
@@ -33,6 +34,8 @@ MIRRORS_END = "MIRRORS_END"
 """Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
 RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
+GATHERED = "GATHERED"
+"""Beside the features of lighting: rays find what other surfaces send, and what lobes see of the world"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
 LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
@@ -93,6 +96,7 @@ class ShadePass:
         film_transparent: bool = False,
         by_camera: bool = True,
         shown_apart: Canvas | None = None,
+        gathers: Gathering | None = None,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -102,7 +106,8 @@ class ShadePass:
         take the place of maps. `chosen`: record texture by mirrors' numbers, 1 of those that are lit, None for
         all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
         `by_camera`: what sees all this is the camera, else a mirror. `shown_apart`: gets what mirrors show, with a
-        weight of 1, in place of the picture.
+        weight of 1, in place of the picture. `gathers`: rays find the light that surfaces send to each other, in place
+        of the light of patches.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
@@ -115,14 +120,49 @@ class ShadePass:
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
-                self._add_shown(seen, reflected, view_uniforms, strength, shadows)
+                self._add_shown(seen, reflected, view_uniforms, strength, shadows, gathers is not None)
             with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
                 if not mirrors_only:
-                    self._add_others(seen, view_uniforms, weight, shadows, film_transparent, by_camera)
+                    self._add_others(
+                        seen, view_uniforms, weight, shadows, film_transparent, by_camera, gathers is not None
+                    )
                 self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
+        gathered = None
+        if gathers is not None:
+            gathered = gathers.picture(seen.width, seen.height, mirrors)
+            self._gather(gathers, gathered, classes.depth, seen, reflected, mirrors_only)
         for bounce in later or ():
-            self._add_path(shown, bounce, view_uniforms, strength, shadows)
+            self._add_path(shown, bounce, view_uniforms, strength, shadows, gathered is not None)
+            if gathers is not None and gathered is not None and not bounce.ends:
+                self._gather_later(gathers, gathered, bounce)
+        if gathers is not None and gathered is not None:
+            gathered.add(gathers, canvas, weight, self._lighting.features)
+
+    def _gather(
+        self,
+        by: Gathering,
+        gathered: GatherPicture,
+        classes: Any,
+        seen: SurfaceBuffer,
+        reflected: SurfaceBuffer | Sequence[Environment] | None,
+        mirrors_only: bool,
+    ) -> None:
+        """Follow rays from what is seen, and from what mirrors show first."""
+        surface = (seen.position, seen.normal, seen.color)
+        if not mirrors_only:
+            gathered.follow(by, Source.SEEN, surface, seen.made, (), (classes, PixelClass.SURFACE / CLASS_COUNT))
+        if isinstance(reflected, SurfaceBuffer) and self.mirror_bounces > 0:
+            shown = (reflected.position, reflected.normal, reflected.color)
+            kind = PixelClass.MIRROR_OF_SURFACE / CLASS_COUNT
+            gathered.follow(by, Source.SHOWN, shown, reflected.made, surface, (classes, kind))
+
+    @staticmethod
+    def _gather_later(by: Gathering, gathered: GatherPicture, bounce: Bounce) -> None:
+        path = bounce.path
+        surface = (path.position, path.normal, path.color)
+        others = (path.direction, path.throughput)
+        gathered.follow(by, Source.LATER, surface, path.made, others, (path.depth, PATH_DEPTH), bounce.goes_on)
 
     def _add_others(
         self,
@@ -132,12 +172,13 @@ class ShadePass:
         shadows: RayShadows | None,
         film_transparent: bool,
         by_camera: bool,
+        is_gathered: bool,
     ) -> None:
         """Background and surfaces, seen directly."""
         for kind in (PixelClass.BACKGROUND, PixelClass.SURFACE):
             features = self._lighting.features
             if kind is PixelClass.SURFACE:
-                features = features_for(self._lighting, shadows, is_seen=True)
+                features = features_for(self._lighting, shadows, is_seen=True, is_gathered=is_gathered)
             if kind is PixelClass.BACKGROUND and film_transparent:
                 if not features & LAMPS:
                     continue
@@ -155,6 +196,7 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         shadows: RayShadows | None,
+        is_gathered: bool,
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
@@ -162,7 +204,9 @@ class ShadePass:
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0)
+                features = features_for(
+                    self._lighting, shadows, ends=self.mirror_bounces == 0, is_gathered=is_gathered
+                )
                 shader = _shade_shader(kind, features, self._materials.buffers)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
@@ -206,10 +250,16 @@ class ShadePass:
             self._draw(shader, kind, seen, view_uniforms, weight)
 
     def _add_path(
-        self, canvas: Canvas, bounce: Bounce, view_uniforms: Any, weight: float, shadows: RayShadows | None
+        self,
+        canvas: Canvas,
+        bounce: Bounce,
+        view_uniforms: Any,
+        weight: float,
+        shadows: RayShadows | None,
+        is_gathered: bool,
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
-        features = features_for(self._lighting, shadows, ends=bounce.ends)
+        features = features_for(self._lighting, shadows, ends=bounce.ends, is_gathered=is_gathered)
         shader = _path_shader(bounce.goes_on, features, self._materials.buffers)
         path = bounce.path
         target = canvas.with_depth(path.depth)
@@ -271,9 +321,18 @@ _SEEN_BY_MIRROR = Piece(defines=flags("SEEN_BY_MIRROR"))
 _OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
 
 
-def features_for(lighting: Lighting, shadows: RayShadows | None, is_seen: bool = False, ends: bool = False) -> Features:
-    """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow."""
+def features_for(
+    lighting: Lighting,
+    shadows: RayShadows | None,
+    is_seen: bool = False,
+    ends: bool = False,
+    is_gathered: bool = False,
+) -> Features:
+    """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow;
+    `is_gathered`: rays find what other surfaces send."""
     features = lighting.features
+    if is_gathered:
+        features |= {GATHERED}
     if ends:
         # (What has its own light alone is in no shadow.)
         return features | {MIRRORS_END}

@@ -54,6 +54,7 @@ class ShownRays(Shown):
             with_others=light.with_others,
             film_transparent=light.film_transparent,
             shown_apart=None if calm is None else calm.sharp,
+            gathers=sub_frame.gathers if calm is None else None,
         )
         if calm is not None:
             history = light.calm if sub_frame.index == 0 else None
@@ -82,6 +83,7 @@ def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame
             shadows=shadows,
             chosen=chosen_mirrors([], len(stage.mirrors)),
             film_transparent=light.film_transparent,
+            gathers=sub_frame.gathers,
         )
     sees_through = tracer.sees_through and not mirrors_only
     window = sub_frame.window if sees_through else union([shown.mirror.window(sub_frame.view) for shown in members])
@@ -99,6 +101,7 @@ def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame
         _may_meet_another(members, sub_frame),
         shadows,
         light.film_transparent,
+        sub_frame.gathers,
     )
 
 
@@ -118,6 +121,7 @@ def trace_seen_through(
         chosen_mirrors([], len(sub_frame.stage.mirrors)),
         shadows=sub_frame.shadows,
         film_transparent=settings.film_transparent,
+        gathers=sub_frame.gathers,
     )
 
 

@@ -19,6 +19,8 @@ from ...scene.arrays import Float32Array
 from ...scene.camera.view import View
 from ..device.records import record_texture
 from ..geometry.scene_geometry import SceneGeometry
+from ..indirect.gather import Gathering
+from ..indirect.indirect import IndirectLight
 from ..lighting.lighting import Lighting
 from ..mirrors.mirror import Mirror
 from ..rays.ray_scene import RayScene
@@ -49,6 +51,7 @@ class Stage:
     shade: ShadePass
     rays: Callable[[], RayScene]
     """The scene as rays need it, made when first asked for"""
+    indirect: IndirectLight
     tracer: PathTracer | None = None
     """Where rays do not only go from sharp mirror to sharp mirror"""
 
@@ -69,6 +72,8 @@ class SubFrame:
     """Where maps are too coarse for the view"""
     index: int = 0
     """Its number"""
+    gathers: Gathering | None = None
+    """See `ShadePass.add`"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +150,7 @@ class Shown(ABC):
             chosen=light.chosen,
             with_others=light.with_others,
             film_transparent=light.film_transparent,
+            gathers=sub_frame.gathers,
         )
 
     @classmethod

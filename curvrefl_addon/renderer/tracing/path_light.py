@@ -34,6 +34,8 @@ class PathLight:
     film_transparent: bool
     has_base: bool
     """Surfaces from which paths go on have a base below their lobes, or shine"""
+    is_gathered: bool = False
+    """Rays find what other surfaces send to where paths stop"""
 
     def add(
         self,
@@ -97,7 +99,8 @@ class PathLight:
             if self.lights_samples:
                 names.add("PATH_LOBES")
         if needs_shadows:
-            features = features_for(self.lighting, self.shadows, is_seen=not on_path)
+            is_gathered = self.is_gathered and kind is PathClass.STOPS
+            features = features_for(self.lighting, self.shadows, is_seen=not on_path, is_gathered=is_gathered)
         if kind is PathClass.MISSES and self.film_transparent:
             names.add(FILM_TRANSPARENT)
         buffers = self.around.materials.buffers

@@ -8,12 +8,14 @@ from typing import Any
 
 from ...scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..device.textures import depth_texture
+from ..indirect.gather import Gathering, Source
 from ..lighting.lighting import Lighting
 from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
 from ..shading.shade import RayShadows
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
+from ..surfaces.pixel_classes import CLASS_COUNT
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
 from .media import absorbing
@@ -99,12 +101,13 @@ class PathTracer:
         meets_mirrors: bool = True,
         shadows: RayShadows | None = None,
         film_transparent: bool = False,
+        gathers: Gathering | None = None,
     ) -> None:
         """Add the light of one sample of the paths that begin in `window` at mirrors and, if it `sees_through` them, at
         other surfaces that do not stop the light, times `weight`. `meets_mirrors`: rays off mirrors may meet mirrors.
 
         `chosen`: record texture by mirrors' numbers, 1 of those whose paths are followed; None is all. `sub_frame`:
-        number of the sample.
+        number of the sample. `gathers`: see `ShadePass.add`.
         """
         window = window or (0, 0, seen.width, seen.height)
         if window[2] <= 0 or window[3] <= 0:
@@ -120,7 +123,8 @@ class PathTracer:
             view_uniforms,
             window,
         )
-        light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base)
+        light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base, gathers is not None)
+        gathered = None if gathers is None else gathers.picture(seen.width, seen.height, window)
         limits = self.limits(bounces)
         classes.sort_seen(seen, window, chosen, sees_through and self.sees_through)
         light.add(canvas, weight, PathClass.GOES_ON, seen, classes.depth(0))
@@ -137,7 +141,13 @@ class PathTracer:
                 kinds.append(PathClass.GOES_ON)
             for kind in kinds:
                 light.add(canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame)
+            if gathers is not None and gathered is not None:
+                stops = (classes.depth(step), PathClass.STOPS / CLASS_COUNT)
+                surface = (met.position, met.normal, met.color)
+                gathered.follow(gathers, Source.PATHS, surface, met.made, (met.way, met.throughput), stops)
             before = met
+        if gathers is not None and gathered is not None:
+            gathered.add(gathers, canvas, weight, self._lighting.features)
 
     def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
         size = (seen.width, seen.height)

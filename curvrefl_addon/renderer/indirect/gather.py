@@ -1,0 +1,259 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Final gather: a ray for each pixel and sub-frame from what it shows to the surfaces that send light there.
+
+Where it gets to the light of patches is looked up (Reichert, "A two-pass radiosity method driven by lights and viewer
+position", 1992); lobes see that lit as what mirrors show, as edges are seen in them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, IntEnum
+from typing import Any
+
+from ...optics.scattering.sampler import path_point
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from ..device.state import drawing_state, scissored, set_viewport
+from ..device.textures import depth_texture, empty_texture
+from ..lighting.cells import CELLS
+from ..lighting.ggx import GGX_DEFINES
+from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..programs.buffers import Buffers, MaterialBuffers, reads
+from ..rays.material_pass import Hits, MaterialPass
+from ..rays.ray_scene import RAYS, RayScene
+from ..surfaces.canvas import Canvas
+from ..surfaces.materials import TABLE, Materials
+from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from ..surfaces.view_block import VIEW
+from ..surfaces.windows import Window
+from .irradiance import Irradiance
+
+GATHER_BOUNCE = 61
+"""Number of the random numbers of these rays, among those of paths' bounces"""
+MOST_SIZES = 3
+"""Of pictures whose targets are kept"""
+_MET = ("vertex_position", "vertex_normal", "vertex_color")
+
+
+class Source(Enum):
+    """Where rays begin: names of the buffers, beside the three of the surface there."""
+
+    SEEN = ()
+    SHOWN = ("mirror_position", "mirror_normal", "mirror_color")
+    LATER = ("path_direction", "path_throughput")
+    PATHS = ("path_way", "path_throughput")
+
+
+class _Kind(IntEnum):
+    """Of what a ray has met."""
+
+    LOBE_MISSES = 1
+    LOBE_MEETS = 2
+    BASE_MEETS = 3
+    BASE_MISSES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Gathering:
+    """What sub-frames of one picture gather by."""
+
+    irradiance: Irradiance
+    pool: GatherPool
+    rays: RayScene
+    materials: Materials
+    lighting: Lighting
+    view_uniforms: Any
+    sub_frame: int
+
+    def picture(self, width: int, height: int, window: Window | None) -> GatherPicture:
+        """To begin with, without any ray."""
+        picture = self.pool.of(width, height)
+        picture.begin(window, self.materials.has_programs)
+        return picture
+
+
+class GatherPool:
+    """Targets by their size."""
+
+    def __init__(self) -> None:
+        self._pictures: dict[tuple[int, int], GatherPicture] = {}
+
+    def of(self, width: int, height: int) -> GatherPicture:
+        """Made when first asked for."""
+        if (width, height) not in self._pictures:
+            while len(self._pictures) >= MOST_SIZES:
+                del self._pictures[next(iter(self._pictures))]
+            self._pictures[width, height] = GatherPicture(width, height)
+        return self._pictures[width, height]
+
+
+class GatherPicture:
+    """What rays have met, one for each pixel."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.width, self.height = width, height
+        self._position, self._normal = empty_texture(width, height), empty_texture(width, height)
+        self._color = empty_texture(width, height, "RGBA16F")
+        self._way, self._weight = empty_texture(width, height), empty_texture(width, height)
+        self._made = MaterialBuffers(width, height)
+        self._hits: Any = None
+        self._depth = depth_texture(width, height)
+        self._classes = frame_buffer(depth=self._depth)
+        self._weights = frame_buffer(self._weight)
+        self._targets: list[tuple[Any, Any]] = []
+        self._pass = MaterialPass(width, height)
+        self._window: Window | None = None
+
+    def begin(self, window: Window | None, has_programs: bool) -> None:
+        self._window = window
+        if has_programs != (self._hits is not None):
+            self._hits = empty_texture(self.width, self.height) if has_programs else None
+            self._targets = []
+        with self._weights.bind():
+            self._weights.clear(color=(0.0, 0.0, 0.0, 0.0))
+
+    def follow(
+        self,
+        by: Gathering,
+        source: Source,
+        surface: tuple[Any, Any, Any],
+        made: MaterialBuffers,
+        others: tuple[Any, ...],
+        classes: tuple[Any, float],
+        skips_mirrors: bool = False,
+    ) -> None:
+        """Follow rays from a class of pixels. `surface`: position, normal and color there; `others`: as `source` names
+        them; `classes`: depth texture, and the class over CLASS_COUNT. With
+        `skips_mirrors` rays off mirrors go on in another pass."""
+        lighting, materials = by.lighting, by.materials
+        shader = _gather_shader(source, materials.buffers, lighting.features, self._hits is not None)
+        with drawing_state("EQUAL"), self._target(classes[0]).bind(), scissored(self._window):
+            set_viewport(0, 0, self.width, self.height)
+            shader.bind()
+            by.rays.bind(shader)
+            shader.uniform_block("view", by.view_uniforms)
+            shader.uniform_float("pixel_class", classes[1] * CLASS_COUNT)
+            if source is Source.LATER:
+                shader.uniform_float("skips_mirrors", float(skips_mirrors))
+            shader.uniform_int("path_point", path_point(by.sub_frame, GATHER_BOUNCE, lighting.sub_frames))
+            shader.uniform_sampler("materials", materials.table)
+            shader.uniform_sampler("lighting_ggx", lighting.ggx)
+            for name, texture in zip((*_MET, *source.value), (*surface, *others), strict=True):
+                shader.uniform_sampler(name, texture)
+            made.bind(shader, materials.buffers)
+            full_screen_triangle().draw(shader)
+
+    def add(self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features) -> None:
+        """Add the light of all rays, times `weight`. `lobe_features`: of the lighting of what lobes see."""
+        materials = by.materials
+        with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(self._window):
+            set_viewport(0, 0, self.width, self.height)
+            shader = _classes_shader()
+            shader.bind()
+            shader.uniform_sampler("gather_weight", self._weight)
+            shader.uniform_sampler("vertex_position", self._position)
+            full_screen_triangle().draw(shader)
+        if self._hits is not None:
+            window = self._window or (0, 0, self.width, self.height)
+            hits = Hits(self._position, self._normal, self._color, self._hits, None, self._way, is_gathered=True)
+            for kind in (_Kind.BASE_MEETS, _Kind.LOBE_MEETS):
+                followed = (self._depth, float(kind) / CLASS_COUNT)
+                turn = (by.sub_frame, GATHER_BOUNCE)
+                self._pass.draw(
+                    hits, self._made, followed, by.rays, materials, by.view_uniforms, window, turn
+                )
+        target = canvas.with_depth(self._depth)
+        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self._window):
+            set_viewport(0, 0, self.width, self.height)
+            for kind in (_Kind.BASE_MEETS, _Kind.LOBE_MEETS, _Kind.LOBE_MISSES):
+                features = lobe_features if kind is _Kind.LOBE_MEETS else by.lighting.features
+                shader = _light_shader(kind, materials.buffers, features)
+                shader.bind()
+                shader.uniform_float("pixel_class", float(kind))
+                shader.uniform_float("weight", weight)
+                shader.uniform_sampler("materials", materials.table)
+                for name, texture in zip(_MET, (self._position, self._normal, self._color), strict=True):
+                    shader.uniform_sampler(name, texture)
+                shader.uniform_sampler("path_way", self._way)
+                shader.uniform_sampler("gather_weight", self._weight)
+                shader.uniform_block("view", by.view_uniforms)
+                self._made.bind(shader, materials.buffers)
+                by.lighting.bind(shader)
+                by.irradiance.bind(shader, of_hits=kind is _Kind.BASE_MEETS)
+                full_screen_triangle().draw(shader)
+
+    def _target(self, depth: Any) -> Any:
+        for known, target in self._targets:
+            if known is depth:
+                return target
+        hits = [] if self._hits is None else [self._hits]
+        textures = (self._position, self._normal, self._color, *hits, self._way, self._weight)
+        target = frame_buffer(*textures, depth=depth)
+        self._targets = [*self._targets[-7:], (depth, target)]
+        return target
+
+
+@gpu_cache
+def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hits: bool) -> Any:
+    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
+    hits = named("VEC4", "hit_out") if with_hits else {}
+    return build_shader(
+        f"gather {source.name}",
+        CLASS,
+        VIEW,
+        RAYS,
+        TABLE,
+        reads(buffers),
+        SURFACE_OUTPUTS,
+        Piece(
+            samplers=named("FLOAT_2D", *_MET, *source.value, "lighting_ggx"),
+            constants={"path_point": "IVEC4", **({"skips_mirrors": "FLOAT"} if source is Source.LATER else {})},
+            outputs={**hits, **named("VEC4", "way_out", "weight_out")},
+            defines={
+                **GGX_DEFINES,
+                **flags("PATHS_ROUGH", f"OF_{source.name}", *(("WITH_HITS",) if with_hits else ()), *surfaces),
+            },
+            fragment="indirect/gather.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _classes_shader() -> Any:
+    return build_shader(
+        "gather classes",
+        FULL_SCREEN,
+        Piece(
+            samplers=named("FLOAT_2D", "gather_weight", "vertex_position"),
+            defines={"CLASS_COUNT": float(CLASS_COUNT), **{kind.name: float(kind) for kind in _Kind}},
+            writes_depth=True,
+            fragment="indirect/gather_classes.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _light_shader(kind: _Kind, buffers: Buffers, features: Features) -> Any:
+    rays = features & {"RAY_SHADOWS", "WORLD_RAYS"}
+    return build_shader(
+        f"gathered {kind.name}",
+        CLASS,
+        VIEW,
+        TABLE,
+        reads(buffers),
+        CELLS,
+        lighting_piece(features),
+        *((RAYS,) if rays else ()),
+        Piece(
+            samplers=named("FLOAT_2D", *_MET, "path_way", "gather_weight", "patch_light"),
+            constants={"weight": "FLOAT"},
+            outputs={"color": "VEC4"},
+            defines=flags(f"LIGHTS_{kind.name}", "PATH_LIGHT"),
+            fragment="indirect/gather_light.frag.glsl",
+        ),
+    )

@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light between the scene's surfaces: radiosity over patches, whose form factors are rays (links) that are followed once.
+
+Each patch sends rays over its hemisphere, by the cosine. Where a ray gets to is kept: which patch is there, and how
+much that sends on. Then light goes from patch to patch any number of times without another ray, and again when only
+lamps have changed (Goral et al., "Modeling the interaction of light between diffuse surfaces", 1984; the rays are the
+Monte Carlo form factors of Shirley, "Radiosity via ray tracing", 1991).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
+from ..device.frame_buffers import frame_buffer
+from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
+from ..device.state import blended, drawing_state, set_viewport
+from ..device.textures import depth_texture, empty_texture, texture_2d
+from ..lighting.cells import CELLS
+from ..lighting.ggx import GGX_DEFINES
+from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..programs.buffers import Buffers, MaterialBuffers, reads
+from ..rays.material_pass import Hits, MaterialPass
+from ..rays.ray_scene import RAYS, RayScene
+from ..surfaces.materials import TABLE, Materials
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from .points import POINTS, Patches
+
+RAYS_AT_ONCE = 16
+"""Of each patch in a batch"""
+PICTURE_WIDTH = 1024
+"""Of the picture that has a pixel for each ray of a batch"""
+FOLLOWED = 0.5
+"""Depth of all its pixels"""
+MOST_SWEEPS = 8
+"""Surfaces that light bounces off at most"""
+_POINTS = Piece(samplers={"patch_points": "FLOAT_2D"}, constants={"patches": "INT"}, defines={"PATCH_POINTS": POINTS})
+_BATCH = {"RAYS_AT_ONCE": RAYS_AT_ONCE, "PICTURE_WIDTH": PICTURE_WIDTH}
+_VERTICES = ("vertex_position", "vertex_normal", "vertex_color")
+
+
+class Irradiance:
+    """Of one scene's patches, on the GPU."""
+
+    def __init__(self, patches: Patches, is_solid: NDArray[np.bool_]) -> None:
+        """`is_solid`: (instances,) nothing looks at it from within."""
+        self.patches = patches
+        solids = np.zeros((len(is_solid), 4), np.float32)
+        solids[:, 0] = is_solid
+        self._solids = record_texture(solids)
+        count = patches.count
+        points = np.zeros((count, 2, POINTS, 4), np.float32)
+        points[:, 0, :, :3], points[:, 1, :, :3] = patches.positions, patches.normals
+        self._points = record_texture(points.reshape(-1, 4))
+        rows = padded_count(len(patches.table)) // TEXTURE_WIDTH
+        table = np.full((rows * TEXTURE_WIDTH, 1), -1.0, np.float32)
+        table[: len(patches.table), 0] = patches.table
+        self._table = texture_2d(table.reshape(rows, TEXTURE_WIDTH, 1), "R32F")
+        self._direct = _Records(count * POINTS)
+        self._swept = _Records(count)
+        self._sent = [_record_pair(count), _record_pair(count)]
+        """(all light that patches send on if white, what of it has come from surfaces), of the last two sweeps"""
+        self._links: list[Any] = []
+        """A texture for each batch"""
+        self._picture: _Picture | None = None
+
+    @property
+    def batches(self) -> int:
+        """Of rays that have been followed"""
+        return len(self._links)
+
+    def bind(self, shader: Any, of_hits: bool) -> None:
+        """See `SurfaceLight`."""
+        self._bind_cells(shader)
+        shader.uniform_sampler("patch_light", self._sent[1].sent if of_hits else self._sent[0].arriving)
+
+    def _bind_cells(self, shader: Any) -> None:
+        grid = self.patches.grid
+        shader.uniform_sampler("cell_table", self._table)
+        if knows(shader, "cell_grid"):
+            shader.uniform_float("cell_grid", (*grid.focus, grid.half))
+            shader.uniform_float("cell_levels", float(grid.levels))
+
+    def follow_rays(self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any) -> None:
+        """Another batch of rays."""
+        if self._picture is None:
+            self._picture = _Picture(self.patches.count)
+        picture = self._picture
+        picture.follow(rays, materials, view_uniforms, (self._points, self._solids), self.patches.count, self.batches)
+        links = empty_texture(picture.width, picture.height)
+        target = frame_buffer(links)
+        shader = _links_shader(materials.buffers, lighting.features)
+        with drawing_state(), target.bind():
+            set_viewport(0, 0, picture.width, picture.height)
+            shader.bind()
+            self._bind_cells(shader)
+            shader.uniform_sampler("materials", materials.table)
+            shader.uniform_sampler("lighting_ggx", lighting.ggx)
+            for name, texture in zip(_VERTICES, (picture.position, picture.normal, picture.color), strict=True):
+                shader.uniform_sampler(name, texture)
+            shader.uniform_sampler("path_way", picture.way)
+            picture.made.bind(shader, materials.buffers)
+            full_screen_triangle().draw(shader)
+        self._links.append(links)
+
+    def light(self, lighting: Lighting, sub_frames: int) -> None:
+        """Find what lamps and the world send straight to the patches: the mean of so many sub-frames' lights."""
+        shader = _light_shader(lighting.features)
+        target = self._direct.target
+        with target.bind():
+            target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        for index in range(sub_frames):
+            lighting.prepare(index * lighting.sub_frames // sub_frames)
+            with blended("ADDITIVE_PREMULT"), target.bind():
+                set_viewport(0, 0, self._direct.texture.width, self._direct.texture.height)
+                shader.bind()
+                shader.uniform_sampler("patch_points", self._points)
+                shader.uniform_int("patches", self.patches.count)
+                shader.uniform_float("weight", 1.0 / sub_frames)
+                lighting.bind(shader)
+                full_screen_triangle().draw(shader)
+
+    def sweep(self, bounces: int) -> None:
+        """Let light go from patch to patch, off `bounces` surfaces at most."""
+        self._sum(is_first=True)
+        for _ in range(min(bounces, MOST_SWEEPS)):
+            shader = _sweep_shader()
+            target = self._swept.target
+            with target.bind():
+                target.clear(color=(0.0, 0.0, 0.0, 0.0))
+            with blended("ADDITIVE_PREMULT"), target.bind():
+                set_viewport(0, 0, self._swept.texture.width, self._swept.texture.height)
+                shader.bind()
+                shader.uniform_int("patches", self.patches.count)
+                shader.uniform_sampler("patch_sent", self._sent[0].sent)
+                for links in self._links:
+                    shader.uniform_sampler("links", links)
+                    full_screen_triangle().draw(shader)
+            self._sum(is_first=False)
+
+    def _sum(self, is_first: bool) -> None:
+        """The next pair of what is sent."""
+        self._sent.reverse()
+        if is_first:
+            with self._swept.target.bind():
+                self._swept.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        pair = self._sent[0]
+        shader = _sum_shader()
+        with drawing_state(), pair.target.bind():
+            set_viewport(0, 0, pair.sent.width, pair.sent.height)
+            shader.bind()
+            shader.uniform_int("patches", self.patches.count)
+            shader.uniform_sampler("patch_swept", self._swept.texture)
+            shader.uniform_sampler("patch_direct", self._direct.texture)
+            shader.uniform_sampler("links", self._links[0])
+            full_screen_triangle().draw(shader)
+
+
+class _Records:
+    """A record texture that is drawn to."""
+
+    def __init__(self, count: int) -> None:
+        self.texture = empty_record_texture(count)
+        self.target = frame_buffer(self.texture)
+
+
+class _Pair:
+    def __init__(self, count: int) -> None:
+        self.sent, self.arriving = empty_record_texture(count), empty_record_texture(count)
+        self.target = frame_buffer(self.sent, self.arriving)
+
+
+def _record_pair(count: int) -> _Pair:
+    return _Pair(count)
+
+
+class _Picture:
+    """What the rays of a batch have met, a pixel for each."""
+
+    def __init__(self, patches: int) -> None:
+        self.width, self.height = PICTURE_WIDTH, -(-patches * RAYS_AT_ONCE // PICTURE_WIDTH)
+        size = (self.width, self.height)
+        self.position, self.normal = empty_texture(*size), empty_texture(*size)
+        self.color = empty_texture(*size, "RGBA16F")
+        self.way = empty_texture(*size)
+        self.made = MaterialBuffers(*size)
+        self.hits: Any = None
+        self._depth = depth_texture(*size)
+        self._target: Any = None
+        self._pass = MaterialPass(*size)
+
+    def follow(
+        self, rays: RayScene, materials: Materials, view_uniforms: Any, records: tuple[Any, Any], patches: int, batch: int
+    ) -> None:
+        has_programs = materials.has_programs
+        if self._target is None or has_programs != (self.hits is not None):
+            self.hits = empty_texture(self.width, self.height) if has_programs else None
+            hits = [] if self.hits is None else [self.hits]
+            self._target = frame_buffer(self.position, self.normal, self.color, *hits, self.way, depth=self._depth)
+            with self._target.bind():
+                self._target.clear(depth=FOLLOWED)
+        shader = _rays_shader(has_programs)
+        with drawing_state(), self._target.bind():
+            set_viewport(0, 0, self.width, self.height)
+            shader.bind()
+            rays.bind(shader)
+            shader.uniform_sampler("materials", materials.table)
+            shader.uniform_sampler("patch_points", records[0])
+            shader.uniform_sampler("solids", records[1])
+            shader.uniform_int("patches", patches)
+            shader.uniform_int("batch", batch)
+            full_screen_triangle().draw(shader)
+        if has_programs:
+            hits = Hits(self.position, self.normal, self.color, self.hits, None, self.way, is_gathered=True)
+            window = (0, 0, self.width, self.height)
+            self._pass.draw(
+                hits, self.made, (self._depth, FOLLOWED), rays, materials, view_uniforms, window, (batch, 1)
+            )
+
+
+@gpu_cache
+def _light_shader(features: Features) -> Any:
+    return build_shader(
+        "light of patches",
+        FULL_SCREEN,
+        lighting_piece(features),
+        _POINTS,
+        Piece(
+            constants={"weight": "FLOAT"},
+            outputs={"color": "VEC4"},
+            fragment="indirect/patch_light.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _rays_shader(with_hits: bool) -> Any:
+    outputs = {**(named("VEC4", "hit_out") if with_hits else {}), **named("VEC4", "way_out")}
+    return build_shader(
+        "rays of patches",
+        FULL_SCREEN,
+        RAYS,
+        TABLE,
+        SURFACE_OUTPUTS,
+        _POINTS,
+        Piece(
+            samplers={"solids": "FLOAT_2D"},
+            constants={"batch": "INT"},
+            outputs=outputs,
+            defines={**_BATCH, **GGX_DEFINES, **(flags("WITH_HITS") if with_hits else {})},
+            fragment="indirect/patch_rays.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _links_shader(buffers: Buffers, features: Features) -> Any:
+    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
+    return build_shader(
+        "links of patches",
+        FULL_SCREEN,
+        TABLE,
+        reads(buffers),
+        CELLS,
+        Piece(
+            samplers=named("FLOAT_2D", *_VERTICES, "path_way", "lighting_ggx"),
+            outputs={"link_out": "VEC4"},
+            defines={**GGX_DEFINES, **flags(*surfaces)},
+            fragment="indirect/links.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _sweep_shader() -> Any:
+    return build_shader(
+        "sweep",
+        FULL_SCREEN,
+        Piece(
+            samplers=named("FLOAT_2D", "patch_sent", "links"),
+            constants={"patches": "INT"},
+            outputs={"color": "VEC4"},
+            defines=_BATCH,
+            fragment="indirect/sweep.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _sum_shader() -> Any:
+    return build_shader(
+        "sum of patches",
+        FULL_SCREEN,
+        Piece(
+            samplers=named("FLOAT_2D", "patch_swept", "patch_direct", "links"),
+            constants={"patches": "INT"},
+            outputs=named("VEC4", "sent_out", "arriving_out"),
+            defines={**_BATCH, "PATCH_POINTS": POINTS},
+            fragment="indirect/patch_sum.frag.glsl",
+        ),
+    )

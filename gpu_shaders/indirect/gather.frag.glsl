@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One ray for the light that other surfaces send to what a pixel shows: off its base, by the cosine, or off the lobe
+// above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
+// mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
+// multiplied by; w: 1 off the base, 2 off the lobe.
+#include "lighting/ggx.glsl"
+#include "rays/ray_walk.glsl"
+#include "rays/ray_surface.glsl"
+#include "lighting/shade_surfaces.glsl"
+#include "lighting/mirror_tint.glsl"
+#include "scattering/microfacet.glsl"
+#include "indirect/directions.glsl"
+#include "paths/path_state.glsl"
+#include "paths/random.glsl"
+
+#define START_OFFSET 2e-6
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 place = texelFetch(vertex_position, pixel, 0);
+  vec4 facing = texelFetch(vertex_normal, pixel, 0);
+  Surface s = surface_of(pixel, place, facing, texelFetch(vertex_color, pixel, 0).rgb);
+  vec3 throughput = vec3(1.0);
+#ifdef OF_SEEN
+  vec3 incoming = normalize(s.position * view.eye.w - view.eye.xyz);
+#elif defined(OF_SHOWN)
+  vec3 mirror_place = texelFetch(mirror_position, pixel, 0).xyz;
+  vec4 mirror_facing = texelFetch(mirror_normal, pixel, 0);
+  vec3 eye_ray = normalize(mirror_place * view.eye.w - view.eye.xyz);
+  throughput = mirror_tint(int(mirror_facing.w + 0.5), texelFetch(mirror_color, pixel, 0).rgb,
+                           max(-dot(mirror_facing.xyz, eye_ray), 0.0));
+  vec3 incoming = normalize(s.position - mirror_place);
+#elif defined(OF_LATER)
+  vec3 incoming = texelFetch(path_direction, pixel, 0).xyz;
+  throughput = texelFetch(path_throughput, pixel, 0).rgb;
+  bool goes_on = skips_mirrors > 0.5 && texelFetch(vertex_color, pixel, 0).w > 0.5;
+  throughput *= place.w == 0.0 || goes_on ? 0.0 : 1.0;
+#else
+  vec3 incoming = way_direction(texelFetch(path_way, pixel, 0));
+  vec4 state = texelFetch(path_throughput, pixel, 0);
+  throughput = unpack_state(state.w).ends ? vec3(0.0) : state.rgb;
+#endif
+  float cos_viewer = -dot(s.normal, incoming);
+  if (cos_viewer < 0.0) {
+    s.normal = -s.normal;
+    cos_viewer = -cos_viewer;
+  }
+  Lobes lobes = lobes_of(s, cos_viewer);
+  vec4 random = path_random(pixel);
+  float of_base = mean_of(lobes.diffuse);
+  float of_lobe = mean_of(lobes.specular_albedo);
+  // (Few rays look at a lobe that hardly reflects: at least so many that none counts for much.)
+  float chance = of_lobe > 0.0 ? of_lobe / max(of_base + of_lobe, 1e-9) : 0.0;
+  bool is_lobe = random.z < chance;
+  mat3 frame = surface_frame(s.normal, s.normal);
+  vec3 direction;
+  float density = 0.0;
+  vec3 weight;
+  if (is_lobe) {
+    vec3 viewer = -incoming * frame;
+    viewer.z = max(viewer.z, 1e-4);
+    viewer = normalize(viewer);
+    vec3 h = vec3(0.0, 0.0, 1.0);
+    if (lobes.alpha > GGX_SINGULAR_ALPHA) {
+      vec2 alpha = vec2(lobes.alpha);
+      float bound = cap_bound(viewer, alpha);
+      h = visible_normal(viewer, alpha, bound, random.xy);
+      density = reflected_density(viewer, h, alpha, bound);
+    }
+    direction = frame * reflect(-viewer, h);
+    weight = lobes.specular_albedo / chance;
+  }
+  else {
+    direction = frame * cosine_direction(random.xy);
+    weight = lobes.diffuse / (1.0 - chance);
+  }
+  weight *= throughput;
+  bool is_alive = largest(weight) > 0.0 && dot(direction, s.normal) > 0.0;
+  vec3 size = abs(s.position);
+  vec3 start = s.position + s.normal * (START_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
+  int seen_by = is_lobe ? SEEN_IN_MIRRORS : SEEN_BY_DIFFUSE;
+  Hit hit = walk(start, direction, is_alive ? 3e38 : -1.0, seen_by, 0.0, false);
+  surface_position = vec4(start, 0.0);
+  surface_normal = surface_color_out = vec4(0.0);
+#ifdef WITH_HITS
+  hit_out = vec4(0.0);
+#endif
+  way_out = pack_way(direction, density, hit.range);
+  weight_out = is_alive ? vec4(weight, is_lobe ? 2.0 : 1.0) : vec4(0.0);
+  if (hit.instance >= 0) {
+    RaySurface surface = surface_of_hit(hit, start, direction);
+    surface_position = vec4(surface.position, surface.object_id);
+    surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
+    surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, 0.0);
+#ifdef WITH_HITS
+    hit_out = packed_hit(hit);
+#endif
+  }
+}

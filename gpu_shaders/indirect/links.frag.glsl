@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a ray from a patch has met, as a link: number of the patch there, -1 for none; how much of what arrives there it
+// sends on. A ray that began inside of a solid thing counts for nothing (-2).
+#include "lighting/ggx.glsl"
+#include "surfaces/material_at.glsl"
+#include "surfaces/material_number.glsl"
+#include "indirect/cells.glsl"
+#include "paths/path_state.glsl"
+#include "indirect/sent_on.glsl"
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 position = texelFetch(vertex_position, pixel, 0);
+  vec4 way = texelFetch(path_way, pixel, 0);
+  link_out = vec4(-1.0, vec3(0.0));
+  if (way.z > 0.5) {
+    link_out.x = -2.0;
+  }
+  else if (position.w > 0.5) {
+    vec4 normal = texelFetch(vertex_normal, pixel, 0);
+    link_out.x = float(patch_at(position.xyz, normal.xyz));
+    Material m = material_at(pixel, material_number(normal.w), texelFetch(vertex_color, pixel, 0).rgb);
+    link_out.yzw = sent_on(m, normal.xyz, way_direction(way));
+  }
+}

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lamps and the world let arrive at each point of each patch (a fragment each), of one sub-frame: irradiance.
+#include "lighting/lighting.glsl"
+#include "indirect/patch_points.glsl"
+#include "indirect/white_surface.glsl"
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int number = (pixel.y << ROW_BITS) + pixel.x;
+  int place = number / PATCH_POINTS;
+  color = vec4(0.0);
+  if (place >= patches) {
+    return;
+  }
+  int point = number - place * PATCH_POINTS;
+  Surface s = white_surface(patch_place(place, point), patch_normal(place, point));
+  Lobes lobes = base_lobes(s, vec3(1.0), 1.0);
+  color = vec4(LIGHTING_PI * (lamps_on(s, lobes, s.normal) + world_on(s, lobes, s.normal)), 1.0) * weight;
+}

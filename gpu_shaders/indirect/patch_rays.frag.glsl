@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where rays from the points of patches get to, RAYS_AT_ONCE for each patch, a fragment each: as a step of paths.
+#include "rays/ray_walk.glsl"
+#include "rays/ray_surface.glsl"
+#include "indirect/patch_points.glsl"
+#include "indirect/directions.glsl"
+#include "paths/path_state.glsl"
+#include "common/hash.glsl"
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int number = pixel.y * PICTURE_WIDTH + pixel.x;
+  int place = number / RAYS_AT_ONCE;
+  int ray = number - place * RAYS_AT_ONCE;
+  surface_position = surface_normal = surface_color_out = vec4(0.0);
+  way_out = vec4(0.0);
+#ifdef WITH_HITS
+  hit_out = vec4(0.0);
+#endif
+  if (place >= patches) {
+    return;
+  }
+  int point = ray % PATCH_POINTS;
+  vec3 origin = patch_place(place, point);
+  vec3 normal = patch_normal(place, point);
+  // A sequence that spreads evenly (Roberts 2018), moved by an amount of the patch's own.
+  uint seed = hashed(uint(place) + 1u);
+  vec2 moved = vec2(float(seed >> 16u), float(seed & 65535u)) / 65536.0;
+  vec2 random = fract(moved + float(batch * RAYS_AT_ONCE + ray) * vec2(0.7548776662, 0.5698402910));
+  vec3 direction = surface_frame(normal, normal) * cosine_direction(random);
+  Hit hit = walk(origin, direction, 3e38, SEEN_BY_DIFFUSE, 0.0, false);
+  way_out = pack_way(direction, 0.0, hit.range);
+  if (hit.instance < 0) {
+    return;
+  }
+  RaySurface surface = surface_of_hit(hit, origin, direction);
+  bool is_within = surface.is_back && fetch_record(solids, int(fetch_record(rays, hit.instance + 5).w)).x > 0.5;
+  surface_position = vec4(surface.position, surface.object_id);
+  surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
+  surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, 0.0);
+  way_out.z = is_within ? 1.0 : 0.0;
+#ifdef WITH_HITS
+  hit_out = packed_hit(hit);
+#endif
+}

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light that one batch of links brings to each patch (a fragment each): the sum over its rays, and how many count.
+#include "common/records.glsl"
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int place = (pixel.y << ROW_BITS) + pixel.x;
+  color = vec4(0.0);
+  if (place >= patches) {
+    return;
+  }
+  for (int ray = 0; ray < RAYS_AT_ONCE; ray++) {
+    int number = place * RAYS_AT_ONCE + ray;
+    vec4 link = texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0);
+    int other = int(link.x);
+    color.w += other > -2 ? 1.0 : 0.0;
+    if (other >= 0) {
+      color.rgb += link.yzw * fetch_record(patch_sent, other).rgb;
+    }
+  }
+}
