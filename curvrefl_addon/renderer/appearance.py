@@ -59,9 +59,7 @@ class Appearance:
 
     def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any) -> bool:
         """Find the light between surfaces, as far as that is not known; returns whether there was something to do."""
-        if not self.indirect.is_wanted and self.indirect.irradiance is None:
-            return False
-        is_changed = self.indirect.prepare(rays(), self.materials, self.lighting, view_uniforms)
+        is_changed = self.indirect.prepare(rays, self.materials, self.lighting, view_uniforms)
         if is_changed:
             self.lighting.use(self.indirect.irradiance)
         return is_changed

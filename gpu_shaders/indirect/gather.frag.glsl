@@ -3,7 +3,9 @@
 // One ray for the light that other surfaces send to what a pixel shows: off its base, by the cosine, or off the lobe
 // above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
 // mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
-// multiplied by; w: 1 off the base, 2 off the lobe.
+// multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts.
+// With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went, over the
+// share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
@@ -11,10 +13,25 @@
 #include "lighting/mirror_tint.glsl"
 #include "scattering/microfacet.glsl"
 #include "indirect/directions.glsl"
+#ifdef EMITTERS
+#include "indirect/emitter_density.glsl"
+#include "indirect/emitters.glsl"
+#endif
 #include "paths/path_state.glsl"
 #include "paths/random.glsl"
 
 #define START_OFFSET 2e-6
+
+// Of a ray off base and lobe to a direction in the frame of the normal.
+float ray_density(Lobes lobes, float chance, vec3 viewer, vec3 light)
+{
+  float sum = (1.0 - chance) * max(light.z, 0.0) / PI;
+  if (chance > 0.0 && lobes.alpha > GGX_SINGULAR_ALPHA) {
+    vec2 alpha = vec2(lobes.alpha);
+    sum += chance * reflected_density(viewer, normalize(viewer + light), alpha, cap_bound(viewer, alpha));
+  }
+  return sum;
+}
 
 void main()
 {
@@ -58,37 +75,65 @@ void main()
   vec3 direction;
   float density = 0.0;
   vec3 weight;
+  vec3 viewer = -incoming * frame;
+  viewer.z = max(viewer.z, 1e-4);
+  viewer = normalize(viewer);
+  float kind = is_lobe ? 2.0 : 1.0;
+  vec3 size = abs(s.position);
+  vec3 start = s.position + s.normal * (START_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
+  float farthest = 3e38;
+#ifdef EMITTERS
+  if (random.w < EMITTER_SHARE) {
+    EmitterPlace shining = emitter_place(vec3(random.xy, random.w / EMITTER_SHARE));
+    vec3 away = shining.position - start;
+    farthest = length(away);
+    direction = away / max(farthest, 1e-20);
+    vec3 light = direction * frame;
+    density = ray_density(lobes, chance, viewer, light);
+    float found = emitter_density(shining.density, farthest, dot(shining.normal, direction));
+    weight = lobes.diffuse * (max(light.z, 0.0) / PI);
+    if (lobes.alpha > GGX_SINGULAR_ALPHA) {
+      weight += glossy_lobe(lobes, lobes.alpha, s.normal, -incoming, direction, max(light.z, 0.0));
+    }
+    weight /= EMITTER_SHARE * found + (1.0 - EMITTER_SHARE) * density;
+    // (It has to be met itself.)
+    farthest *= 1.0001;
+    is_lobe = false;
+    kind = 3.0;
+  }
+  else
+#endif
   if (is_lobe) {
-    vec3 viewer = -incoming * frame;
-    viewer.z = max(viewer.z, 1e-4);
-    viewer = normalize(viewer);
     vec3 h = vec3(0.0, 0.0, 1.0);
     if (lobes.alpha > GGX_SINGULAR_ALPHA) {
       vec2 alpha = vec2(lobes.alpha);
       float bound = cap_bound(viewer, alpha);
       h = visible_normal(viewer, alpha, bound, random.xy);
-      density = reflected_density(viewer, h, alpha, bound);
     }
     direction = frame * reflect(-viewer, h);
     weight = lobes.specular_albedo / chance;
+    // (0: sharp.)
+    density = lobes.alpha > GGX_SINGULAR_ALPHA ? ray_density(lobes, chance, viewer, direction * frame) : 0.0;
   }
   else {
     direction = frame * cosine_direction(random.xy);
     weight = lobes.diffuse / (1.0 - chance);
+    density = ray_density(lobes, chance, viewer, direction * frame);
   }
+#ifdef EMITTERS
+  weight /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
+#endif
   weight *= throughput;
   bool is_alive = largest(weight) > 0.0 && dot(direction, s.normal) > 0.0;
-  vec3 size = abs(s.position);
-  vec3 start = s.position + s.normal * (START_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
   int seen_by = is_lobe ? SEEN_IN_MIRRORS : SEEN_BY_DIFFUSE;
-  Hit hit = walk(start, direction, is_alive ? 3e38 : -1.0, seen_by, 0.0, false);
+  Hit hit = walk(start, direction, is_alive ? farthest : -1.0, seen_by, 0.0, false);
   surface_position = vec4(start, 0.0);
   surface_normal = surface_color_out = vec4(0.0);
 #ifdef WITH_HITS
   hit_out = vec4(0.0);
 #endif
   way_out = pack_way(direction, density, hit.range);
-  weight_out = is_alive ? vec4(weight, is_lobe ? 2.0 : 1.0) : vec4(0.0);
+  weight_out = is_alive ? vec4(weight, kind) : vec4(0.0);
   if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, start, direction);
     surface_position = vec4(surface.position, surface.object_id);

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light that a ray between surfaces brings. One of LIGHTS_BASE_MEETS (a ray off a base has met a surface: the light
-// of its patch), LIGHTS_LOBE_MEETS (a ray off a lobe has: lit as what mirrors show) and LIGHTS_LOBE_MISSES (the world)
-// is defined.
+// Light that a ray between surfaces brings. One of LIGHTS_BASE_MEETS (a ray off a base has met a surface: the light of
+// its patch), LIGHTS_LOBE_MEETS (one off a lobe has: lit as what mirrors show), LIGHTS_SHINES (a ray has gone to a place
+// that shines), LIGHTS_BASE_MISSES and LIGHTS_LOBE_MISSES (the world) is defined. With EMITTERS what shines by itself
+// counts together with the rays that go there (the balance heuristic).
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "indirect/cells.glsl"
 #include "indirect/sent_on.glsl"
 #include "paths/path_state.glsl"
+#ifdef EMITTERS
+#include "indirect/emitter_density.glsl"
+#endif
 
 void main()
 {
@@ -15,20 +19,40 @@ void main()
   vec4 way = texelFetch(path_way, pixel, 0);
   vec3 direction = way_direction(way);
   vec3 radiance = vec3(0.0);
-#ifdef LIGHTS_LOBE_MISSES
+#if defined(LIGHTS_LOBE_MISSES)
   radiance = world_met(direction, false, 1.0);
+#elif defined(LIGHTS_BASE_MISSES)
+  radiance = world_met(direction, false, 1.0);
+#ifdef LIGHTING_PARTS
+  radiance = lighting_data[6].z > 0.5 ? radiance * lighting_data[6].y : world_radiance(direction) * lighting_data[6].y;
+#endif
 #else
   vec4 position = texelFetch(vertex_position, pixel, 0);
   vec4 normal = texelFetch(vertex_normal, pixel, 0);
   vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
-#ifdef LIGHTS_BASE_MEETS
+  int material = material_number(normal.w);
+  Material m = material_at(pixel, material, base);
+#if defined(LIGHTS_BASE_MEETS) && !defined(DIRECT_ALONE)
   int place = patch_at(position.xyz, normal.xyz);
   if (place >= 0) {
-    Material m = material_at(pixel, material_number(normal.w), base);
     radiance = sent_on(m, normal.xyz, direction) * fetch_record(patch_light, place).rgb / LIGHTING_PI;
   }
-#else
-  radiance = shade_surface(surface_of(pixel, position, normal, base), -direction);
+#elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
+  Surface s = surface_of(pixel, position, normal, base);
+  s.emission = vec3(0.0);
+  radiance = shade_surface(s, -direction);
+#endif
+#ifdef EMITTERS
+  float share = 1.0;
+#ifndef LIGHTS_SHINES
+  if (way.z > 0.0) {
+    float over_area = fetch_record(shining, material).x;
+    float found = EMITTER_SHARE * emitter_density(over_area, way.w, dot(normal.xyz, direction));
+    float own = (1.0 - EMITTER_SHARE) * way.z;
+    share = own / (own + found);
+  }
+#endif
+  radiance += share * m.emission;
 #endif
 #endif
   color = vec4(texelFetch(gather_weight, pixel, 0).rgb * radiance * weight, 0.0);

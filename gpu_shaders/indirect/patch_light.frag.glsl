@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lamps and the world let arrive at each point of each patch (a fragment each), of one sub-frame: irradiance.
+// What lamps, or with OF_SKY the world, let arrive at each point of each patch (a fragment each), of one sub-frame: irradiance.
 #include "lighting/lighting.glsl"
 #include "indirect/patch_points.glsl"
 #include "indirect/white_surface.glsl"
@@ -17,5 +17,10 @@ void main()
   int point = number - place * PATCH_POINTS;
   Surface s = white_surface(patch_place(place, point), patch_normal(place, point));
   Lobes lobes = base_lobes(s, vec3(1.0), 1.0);
-  color = vec4(LIGHTING_PI * (lamps_on(s, lobes, s.normal) + world_on(s, lobes, s.normal)), 1.0) * weight;
+#ifdef OF_SKY
+  vec3 radiance = world_on(s, lobes, s.normal);
+#else
+  vec3 radiance = lamps_on(s, lobes, s.normal);
+#endif
+  color = vec4(LIGHTING_PI * radiance, 1.0) * weight;
 }

@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where rays from the points of patches get to, RAYS_AT_ONCE for each patch, a fragment each: as a step of paths.
+// Where rays from the points of patches get to, RAYS_AT_ONCE for each patch, a fragment each: as a step
+// of paths. With EMITTERS to places that shine.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "indirect/patch_points.glsl"
 #include "indirect/directions.glsl"
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
+#ifdef EMITTERS
+#include "indirect/emitter_density.glsl"
+#include "indirect/emitters.glsl"
+#endif
 
 void main()
 {
@@ -29,9 +34,26 @@ void main()
   uint seed = hashed(uint(place) + 1u);
   vec2 moved = vec2(float(seed >> 16u), float(seed & 65535u)) / 65536.0;
   vec2 random = fract(moved + float(batch * RAYS_AT_ONCE + ray) * vec2(0.7548776662, 0.5698402910));
+  float farthest = 3e38;
+#ifdef EMITTERS
+  float choice = fract(float(seed & 4095u) / 4096.0 + float(batch * RAYS_AT_ONCE + ray) * 0.6180339887);
+  EmitterPlace shining = emitter_place(vec3(random, choice));
+  vec3 away = shining.position - origin;
+  farthest = length(away);
+  vec3 direction = away / max(farthest, 1e-20);
+  float density = emitter_density(shining.density, farthest, dot(shining.normal, direction));
+  // (Irradiance over radiance; no radiance makes more of it than from all sides. A place that is near counts less.)
+  float strength = min(max(dot(normal, direction), 0.0) / density, PI * float(RAYS_AT_ONCE));
+  farthest *= 1.0001;
+  if (strength <= 0.0) {
+    return;
+  }
+#else
   vec3 direction = surface_frame(normal, normal) * cosine_direction(random);
-  Hit hit = walk(origin, direction, 3e38, SEEN_BY_DIFFUSE, 0.0, false);
-  way_out = pack_way(direction, 0.0, hit.range);
+  float strength = 0.0;
+#endif
+  Hit hit = walk(origin, direction, farthest, SEEN_BY_DIFFUSE, 0.0, false);
+  way_out = pack_way(direction, strength, hit.range);
   if (hit.instance < 0) {
     return;
   }
@@ -40,7 +62,9 @@ void main()
   surface_position = vec4(surface.position, surface.object_id);
   surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
   surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, 0.0);
+#ifndef EMITTERS
   way_out.z = is_within ? 1.0 : 0.0;
+#endif
 #ifdef WITH_HITS
   hit_out = packed_hit(hit);
 #endif

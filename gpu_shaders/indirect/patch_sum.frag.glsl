@@ -10,7 +10,7 @@ void main()
   int place = (pixel.y << ROW_BITS) + pixel.x;
   vec4 swept = texelFetch(patch_swept, pixel, 0);
   vec3 arriving = swept.w > 0.0 ? swept.rgb / swept.w : vec3(0.0);
-  vec3 direct = vec3(0.0);
+  vec3 of_lamps = vec3(0.0), of_sky = vec3(0.0);
   float all = 0.0;
   if (place < patches) {
     for (int point = 0; point < PATCH_POINTS; point++) {
@@ -19,10 +19,17 @@ void main()
         int number = place * RAYS_AT_ONCE + ray;
         counts += texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0).x > -1.5 ? 1.0 : 0.0;
       }
-      direct += counts * fetch_record(patch_direct, place * PATCH_POINTS + point).rgb;
+      of_lamps += counts * fetch_record(patch_lamps, place * PATCH_POINTS + point).rgb;
+      of_sky += counts * fetch_record(patch_sky, place * PATCH_POINTS + point).rgb;
       all += counts;
     }
   }
-  sent_out = vec4(arriving + (all > 0.0 ? direct / all : vec3(0.0)), 1.0);
+#ifdef EMITTERS
+  vec4 shone = texelFetch(patch_shone, pixel, 0);
+  arriving += shone.w > 0.0 ? shone.rgb / shone.w : vec3(0.0);
+#endif
+  float scale = all > 0.0 ? 1.0 / all : 0.0;
   arriving_out = vec4(arriving, 1.0);
+  under_sky_out = vec4(arriving + scale * of_sky, 1.0);
+  sent_out = vec4(arriving + scale * (of_sky + of_lamps), 1.0);
 }

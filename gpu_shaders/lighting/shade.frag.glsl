@@ -5,7 +5,7 @@
 // SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined. With
 // MIRRORS_END surfaces that mirrors show have their own light alone. With SEEN_BY_MIRROR what sees all this is no
 // camera but a mirror.
-#if defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)
+#if (defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)) && !defined(SKY_GATHERED)
 #define QUADS
 #endif
 #include "lighting/quad.glsl"
@@ -41,7 +41,9 @@ void main()
   vec4 normal = texelFetch(seen_normal, pixel, 0);
   vec4 base = texelFetch(seen_color, pixel, 0);
 #ifdef SHADES_SURFACE
+#ifdef QUADS
   world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
+#endif
   vec3 radiance = shade_surface(surface_of(pixel, position, normal, base.rgb), -direction);
 #else
 #ifdef ENVIRONMENT
@@ -73,8 +75,10 @@ void main()
   // What is seen in that one comes in passes of its own.
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else
+#ifdef QUADS
   world_is_shared =
     quad_is_one_surface(shown.position, facing(shown.normal, direction), vec3(position.w, normal.w, seen_mirror));
+#endif
   vec3 radiance = shade_surface(shown, -direction);
 #endif
 #ifdef LIGHTING_NEAR_LAMPS

@@ -170,7 +170,7 @@ vec3 world_on_rough_base(Surface s, Lobes lobes, vec3 to_viewer, vec3 irradiance
 vec3 world_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
-#ifdef LIGHTING_WORLD
+#if defined(LIGHTING_WORLD) && !defined(SKY_GATHERED)
   if (max(world_color().r, max(world_color().g, world_color().b)) > 0.0) {
     vec2 place = octahedral_place(s.normal);
     vec4 shapes = ggx_table(s.roughness, lobes.cos_viewer, float(GGX_IOR_SLICES));

@@ -19,7 +19,7 @@ from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import depth_texture, empty_texture
-from ..lighting.cells import CELLS
+from ..lighting.cells import CELLS, At
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..programs.buffers import Buffers, MaterialBuffers, reads
@@ -31,13 +31,20 @@ from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
+from .emitters import EMITTERS, SHINES, Emitters
 from .irradiance import Irradiance
 
+NO_FEATURES: Features = frozenset()
 GATHER_BOUNCE = 61
 """Number of the random numbers of these rays, among those of paths' bounces"""
+EMITTER_SHARE = 0.5
+"""Of the rays that go to where light comes from, in scenes with emitters"""
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
 _MET = ("vertex_position", "vertex_normal", "vertex_color")
+
+
+_OF_EMITTERS = Piece(samplers=SHINES.samplers, defines=EMITTERS.defines)
 
 
 class Source(Enum):
@@ -56,13 +63,19 @@ class _Kind(IntEnum):
     LOBE_MEETS = 2
     BASE_MEETS = 3
     BASE_MISSES = 4
+    SHINES = 5
+    """It went to where light comes from"""
 
 
 @dataclass(frozen=True, slots=True)
 class Gathering:
     """What sub-frames of one picture gather by."""
 
-    irradiance: Irradiance
+    irradiance: Irradiance | None
+    """None where light bounces off no surface"""
+    emitters: Emitters | None
+    has_sky: bool
+    """The world is among what rays find, in place of its directions' shadows"""
     pool: GatherPool
     rays: RayScene
     materials: Materials
@@ -70,11 +83,23 @@ class Gathering:
     view_uniforms: Any
     sub_frame: int
 
+    @property
+    def features(self) -> Features:
+        """Beside those of the lighting: what rays find needs no light of patches (GATHERED) and no directions of the
+        world (SKY_GATHERED)."""
+        names = {"GATHERED": self.irradiance is not None, "SKY_GATHERED": self.has_sky}
+        return frozenset(name for name, is_so in names.items() if is_so)
+
     def picture(self, width: int, height: int, window: Window | None) -> GatherPicture:
         """To begin with, without any ray."""
         picture = self.pool.of(width, height)
         picture.begin(window, self.materials.has_programs)
         return picture
+
+
+def features_of(gathers: Gathering | None) -> Features:
+    """Of what is left to rays."""
+    return NO_FEATURES if gathers is None else gathers.features
 
 
 class GatherPool:
@@ -131,7 +156,9 @@ class GatherPicture:
         them; `classes`: depth texture, and the class over CLASS_COUNT. With
         `skips_mirrors` rays off mirrors go on in another pass."""
         lighting, materials = by.lighting, by.materials
-        shader = _gather_shader(source, materials.buffers, lighting.features, self._hits is not None)
+        shader = _gather_shader(
+            source, materials.buffers, lighting.features, self._hits is not None, by.emitters is not None
+        )
         with drawing_state("EQUAL"), self._target(classes[0]).bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
@@ -146,6 +173,8 @@ class GatherPicture:
             for name, texture in zip((*_MET, *source.value), (*surface, *others), strict=True):
                 shader.uniform_sampler(name, texture)
             made.bind(shader, materials.buffers)
+            if by.emitters is not None:
+                by.emitters.bind(shader)
             full_screen_triangle().draw(shader)
 
     def add(self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features) -> None:
@@ -161,18 +190,17 @@ class GatherPicture:
         if self._hits is not None:
             window = self._window or (0, 0, self.width, self.height)
             hits = Hits(self._position, self._normal, self._color, self._hits, None, self._way, is_gathered=True)
-            for kind in (_Kind.BASE_MEETS, _Kind.LOBE_MEETS):
-                followed = (self._depth, float(kind) / CLASS_COUNT)
-                turn = (by.sub_frame, GATHER_BOUNCE)
-                self._pass.draw(
-                    hits, self._made, followed, by.rays, materials, by.view_uniforms, window, turn
-                )
+            turn = (by.sub_frame, GATHER_BOUNCE)
+            self._pass.draw(
+                hits, self._made, (self._depth, -1.0), by.rays, materials, by.view_uniforms, window, turn
+            )
         target = canvas.with_depth(self._depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
-            for kind in (_Kind.BASE_MEETS, _Kind.LOBE_MEETS, _Kind.LOBE_MISSES):
+            for kind in self._kinds(by):
                 features = lobe_features if kind is _Kind.LOBE_MEETS else by.lighting.features
-                shader = _light_shader(kind, materials.buffers, features)
+                has_patches = by.irradiance is not None
+                shader = _light_shader(kind, materials.buffers, features, by.emitters is not None, has_patches)
                 shader.bind()
                 shader.uniform_float("pixel_class", float(kind))
                 shader.uniform_float("weight", weight)
@@ -184,8 +212,23 @@ class GatherPicture:
                 shader.uniform_block("view", by.view_uniforms)
                 self._made.bind(shader, materials.buffers)
                 by.lighting.bind(shader)
-                by.irradiance.bind(shader, of_hits=kind is _Kind.BASE_MEETS)
+                if by.irradiance is not None:
+                    by.irradiance.bind(shader, At.HITS if kind is _Kind.BASE_MEETS else At.ENDS)
+                if by.emitters is not None:
+                    by.emitters.bind_densities(shader)
                 full_screen_triangle().draw(shader)
+
+    @staticmethod
+    def _kinds(by: Gathering) -> list[_Kind]:
+        """That bring light."""
+        kinds = [_Kind.BASE_MEETS, _Kind.LOBE_MEETS]
+        if by.emitters is not None:
+            kinds.append(_Kind.SHINES)
+        if by.irradiance is not None:
+            kinds.append(_Kind.LOBE_MISSES)
+        if by.has_sky:
+            kinds.append(_Kind.BASE_MISSES)
+        return kinds
 
     def _target(self, depth: Any) -> Any:
         for known, target in self._targets:
@@ -199,7 +242,7 @@ class GatherPicture:
 
 
 @gpu_cache
-def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hits: bool) -> Any:
+def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hits: bool, with_emitters: bool) -> Any:
     surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
     hits = named("VEC4", "hit_out") if with_hits else {}
     return build_shader(
@@ -210,12 +253,14 @@ def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hi
         TABLE,
         reads(buffers),
         SURFACE_OUTPUTS,
+        *((EMITTERS,) if with_emitters else ()),
         Piece(
             samplers=named("FLOAT_2D", *_MET, *source.value, "lighting_ggx"),
             constants={"path_point": "IVEC4", **({"skips_mirrors": "FLOAT"} if source is Source.LATER else {})},
             outputs={**hits, **named("VEC4", "way_out", "weight_out")},
             defines={
                 **GGX_DEFINES,
+                "EMITTER_SHARE": EMITTER_SHARE,
                 **flags("PATHS_ROUGH", f"OF_{source.name}", *(("WITH_HITS",) if with_hits else ()), *surfaces),
             },
             fragment="indirect/gather.frag.glsl",
@@ -238,7 +283,9 @@ def _classes_shader() -> Any:
 
 
 @gpu_cache
-def _light_shader(kind: _Kind, buffers: Buffers, features: Features) -> Any:
+def _light_shader(
+    kind: _Kind, buffers: Buffers, features: Features, with_emitters: bool, has_patches: bool
+) -> Any:
     rays = features & {"RAY_SHADOWS", "WORLD_RAYS"}
     return build_shader(
         f"gathered {kind.name}",
@@ -247,13 +294,17 @@ def _light_shader(kind: _Kind, buffers: Buffers, features: Features) -> Any:
         TABLE,
         reads(buffers),
         CELLS,
+        *((_OF_EMITTERS,) if with_emitters else ()),
         lighting_piece(features),
         *((RAYS,) if rays else ()),
         Piece(
             samplers=named("FLOAT_2D", *_MET, "path_way", "gather_weight", "patch_light"),
             constants={"weight": "FLOAT"},
             outputs={"color": "VEC4"},
-            defines=flags(f"LIGHTS_{kind.name}", "PATH_LIGHT"),
+            defines={
+                **flags(f"LIGHTS_{kind.name}", "PATH_LIGHT", *(() if has_patches else ("DIRECT_ALONE",))),
+                "EMITTER_SHARE": EMITTER_SHARE,
+            },
             fragment="indirect/gather_light.frag.glsl",
         ),
     )

@@ -16,6 +16,7 @@ from ..lighting.left_out import is_lit_indirectly
 from ..lighting.lighting import Lighting
 from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
+from .emitters import Emitters, emitter_table
 from .gather import Gathering, GatherPool
 from .irradiance import Irradiance
 from .points import Surface, place_patches
@@ -34,6 +35,9 @@ class IndirectLight:
     def __init__(self, scene: SceneArrays, geometry: SceneGeometry) -> None:
         self._scene, self._geometry = scene, geometry
         self.irradiance: Irradiance | None = None
+        """None where light bounces off no surface"""
+        self.emitters: Emitters | None = None
+        """None where no surface shines"""
         self._pool = GatherPool()
         self._is_placed = self._is_lit = False
 
@@ -49,24 +53,22 @@ class IndirectLight:
         if not same_light or scene.diffuse_bounces != before.diffuse_bounces:
             self._is_lit = False
 
-    @property
-    def is_wanted(self) -> bool:
-        """The scene's own renders have such light"""
-        return is_lit_indirectly(self._scene)
-
-    def prepare(self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any) -> bool:
+    def prepare(self, rays: Callable[[], RayScene], materials: Materials, lighting: Lighting, view_uniforms: Any) -> bool:
         """Make all that is missing; returns whether there was something."""
-        if not self.is_wanted:
-            was, self.irradiance = self.irradiance, None
-            return was is not None
         if self._is_placed and self._is_lit:
             return False
         if not self._is_placed:
-            self._place()
+            table = emitter_table(self._scene)
+            self.emitters = None if table is None else Emitters(table)
+            self.irradiance = None
+            if is_lit_indirectly(self._scene):
+                self._place()
             self._is_placed = True
             if self.irradiance is not None:
                 for _ in range(BATCHES):
-                    self.irradiance.follow_rays(rays, materials, lighting, view_uniforms)
+                    self.irradiance.follow_rays(rays(), materials, lighting, view_uniforms)
+                for _ in range(BATCHES if self.emitters is not None else 0):
+                    self.irradiance.ask_emitters(self.emitters, rays(), materials, view_uniforms)
         if self.irradiance is not None:
             self.irradiance.light(lighting, min(LIGHTS, lighting.sub_frames))
             self.irradiance.sweep(self._scene.diffuse_bounces)
@@ -77,15 +79,16 @@ class IndirectLight:
         self, rays: Callable[[], RayScene], materials: Materials, lighting: Lighting, view_uniforms: Any, sub_frame: int
     ) -> Gathering | None:
         """What a sub-frame gathers by; None where there is nothing to."""
-        if self.irradiance is None:
+        if self.irradiance is None and self.emitters is None:
             return None
-        return Gathering(self.irradiance, self._pool, rays(), materials, lighting, view_uniforms, sub_frame)
+        has_sky = self.irradiance is not None and "LIGHTING_WORLD" in lighting.features
+        made = (self._pool, rays(), materials, lighting, view_uniforms, sub_frame)
+        return Gathering(self.irradiance, self.emitters, has_sky, *made)
 
     def _place(self) -> None:
         placed = self._geometry.placed
         shown = [index for index, item in enumerate(placed) if len(item.mesh.triangles) and is_there(item.instance)]
         is_solid = np.zeros(max(len(placed), 1), bool)
-        self.irradiance = None
         if not shown:
             return
         is_solid[shown] = self._solid(shown)

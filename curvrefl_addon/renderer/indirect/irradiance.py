@@ -22,7 +22,7 @@ from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, 
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
 from ..device.state import blended, drawing_state, set_viewport
 from ..device.textures import depth_texture, empty_texture, texture_2d
-from ..lighting.cells import CELLS
+from ..lighting.cells import CELLS, At
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..programs.buffers import Buffers, MaterialBuffers, reads
@@ -30,6 +30,7 @@ from ..rays.material_pass import Hits, MaterialPass
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from .emitters import EMITTERS, Emitters
 from .points import POINTS, Patches
 
 RAYS_AT_ONCE = 16
@@ -62,10 +63,13 @@ class Irradiance:
         table = np.full((rows * TEXTURE_WIDTH, 1), -1.0, np.float32)
         table[: len(patches.table), 0] = patches.table
         self._table = texture_2d(table.reshape(rows, TEXTURE_WIDTH, 1), "R32F")
-        self._direct = _Records(count * POINTS)
+        self._of_lamps, self._of_sky = _Records(count * POINTS), _Records(count * POINTS)
         self._swept = _Records(count)
-        self._sent = [_record_pair(count), _record_pair(count)]
-        """(all light that patches send on if white, what of it has come from surfaces), of the last two sweeps"""
+        self._shone: _Records | None = None
+        """What emitters send straight to the patches; made where there are some"""
+        self._shone_batches = 0
+        self._sent = [_Sent(count), _Sent(count)]
+        """Of the last two sweeps, the last first"""
         self._links: list[Any] = []
         """A texture for each batch"""
         self._picture: _Picture | None = None
@@ -75,10 +79,11 @@ class Irradiance:
         """Of rays that have been followed"""
         return len(self._links)
 
-    def bind(self, shader: Any, of_hits: bool) -> None:
+    def bind(self, shader: Any, at: At) -> None:
         """See `SurfaceLight`."""
         self._bind_cells(shader)
-        shader.uniform_sampler("patch_light", self._sent[1].sent if of_hits else self._sent[0].arriving)
+        before, now = self._sent[1], self._sent[0]
+        shader.uniform_sampler("patch_light", (before.sent, now.arriving, now.under_sky)[at])
 
     def _bind_cells(self, shader: Any) -> None:
         grid = self.patches.grid
@@ -109,22 +114,55 @@ class Irradiance:
             full_screen_triangle().draw(shader)
         self._links.append(links)
 
+    def ask_emitters(self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any) -> None:
+        """Another batch of rays to places that shine."""
+        if self._picture is None:
+            self._picture = _Picture(self.patches.count)
+        if self._shone is None:
+            self._shone = _Records(self.patches.count)
+            with self._shone.target.bind():
+                self._shone.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        picture = self._picture
+        records = (self._points, self._solids)
+        picture.follow(rays, materials, view_uniforms, records, self.patches.count, self._shone_batches, emitters)
+        self._shone_batches += 1
+        links = empty_texture(picture.width, picture.height)
+        target = frame_buffer(links)
+        with drawing_state(), target.bind():
+            set_viewport(0, 0, picture.width, picture.height)
+            shader = _emitter_links_shader(materials.buffers)
+            shader.bind()
+            shader.uniform_sampler("materials", materials.table)
+            for name, texture in zip(_VERTICES, (picture.position, picture.normal, picture.color), strict=True):
+                shader.uniform_sampler(name, texture)
+            shader.uniform_sampler("path_way", picture.way)
+            picture.made.bind(shader, materials.buffers)
+            full_screen_triangle().draw(shader)
+        with blended("ADDITIVE_PREMULT"), self._shone.target.bind():
+            set_viewport(0, 0, self._shone.texture.width, self._shone.texture.height)
+            shader = _emitter_sum_shader()
+            shader.bind()
+            shader.uniform_int("patches", self.patches.count)
+            shader.uniform_sampler("links", links)
+            full_screen_triangle().draw(shader)
+
     def light(self, lighting: Lighting, sub_frames: int) -> None:
         """Find what lamps and the world send straight to the patches: the mean of so many sub-frames' lights."""
-        shader = _light_shader(lighting.features)
-        target = self._direct.target
-        with target.bind():
-            target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        for records in (self._of_lamps, self._of_sky):
+            with records.target.bind():
+                records.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         for index in range(sub_frames):
             lighting.prepare(index * lighting.sub_frames // sub_frames)
-            with blended("ADDITIVE_PREMULT"), target.bind():
-                set_viewport(0, 0, self._direct.texture.width, self._direct.texture.height)
-                shader.bind()
-                shader.uniform_sampler("patch_points", self._points)
-                shader.uniform_int("patches", self.patches.count)
-                shader.uniform_float("weight", 1.0 / sub_frames)
-                lighting.bind(shader)
-                full_screen_triangle().draw(shader)
+            for records, of_sky in ((self._of_lamps, False), (self._of_sky, True)):
+                shader = _light_shader(lighting.features, of_sky)
+                with blended("ADDITIVE_PREMULT"), records.target.bind():
+                    set_viewport(0, 0, records.texture.width, records.texture.height)
+                    shader.bind()
+                    shader.uniform_sampler("patch_points", self._points)
+                    shader.uniform_int("patches", self.patches.count)
+                    shader.uniform_float("weight", 1.0 / sub_frames)
+                    lighting.bind(shader)
+                    full_screen_triangle().draw(shader)
 
     def sweep(self, bounces: int) -> None:
         """Let light go from patch to patch, off `bounces` surfaces at most."""
@@ -151,14 +189,17 @@ class Irradiance:
             with self._swept.target.bind():
                 self._swept.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         pair = self._sent[0]
-        shader = _sum_shader()
+        shader = _sum_shader(self._shone is not None)
         with drawing_state(), pair.target.bind():
             set_viewport(0, 0, pair.sent.width, pair.sent.height)
             shader.bind()
             shader.uniform_int("patches", self.patches.count)
             shader.uniform_sampler("patch_swept", self._swept.texture)
-            shader.uniform_sampler("patch_direct", self._direct.texture)
+            shader.uniform_sampler("patch_lamps", self._of_lamps.texture)
+            shader.uniform_sampler("patch_sky", self._of_sky.texture)
             shader.uniform_sampler("links", self._links[0])
+            if self._shone is not None:
+                shader.uniform_sampler("patch_shone", self._shone.texture)
             full_screen_triangle().draw(shader)
 
 
@@ -170,14 +211,12 @@ class _Records:
         self.target = frame_buffer(self.texture)
 
 
-class _Pair:
+class _Sent:
+    """All light that patches send on if white; what of it other surfaces have sent; and with what the world has."""
+
     def __init__(self, count: int) -> None:
-        self.sent, self.arriving = empty_record_texture(count), empty_record_texture(count)
-        self.target = frame_buffer(self.sent, self.arriving)
-
-
-def _record_pair(count: int) -> _Pair:
-    return _Pair(count)
+        self.sent, self.arriving, self.under_sky = (empty_record_texture(count) for _ in range(3))
+        self.target = frame_buffer(self.sent, self.arriving, self.under_sky)
 
 
 class _Picture:
@@ -196,7 +235,8 @@ class _Picture:
         self._pass = MaterialPass(*size)
 
     def follow(
-        self, rays: RayScene, materials: Materials, view_uniforms: Any, records: tuple[Any, Any], patches: int, batch: int
+        self, rays: RayScene, materials: Materials, view_uniforms: Any, records: tuple[Any, Any], patches: int, batch: int,
+        emitters: Emitters | None = None,
     ) -> None:
         has_programs = materials.has_programs
         if self._target is None or has_programs != (self.hits is not None):
@@ -205,7 +245,7 @@ class _Picture:
             self._target = frame_buffer(self.position, self.normal, self.color, *hits, self.way, depth=self._depth)
             with self._target.bind():
                 self._target.clear(depth=FOLLOWED)
-        shader = _rays_shader(has_programs)
+        shader = _rays_shader(has_programs, emitters is not None)
         with drawing_state(), self._target.bind():
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
@@ -215,6 +255,8 @@ class _Picture:
             shader.uniform_sampler("solids", records[1])
             shader.uniform_int("patches", patches)
             shader.uniform_int("batch", batch)
+            if emitters is not None:
+                emitters.bind(shader)
             full_screen_triangle().draw(shader)
         if has_programs:
             hits = Hits(self.position, self.normal, self.color, self.hits, None, self.way, is_gathered=True)
@@ -225,7 +267,7 @@ class _Picture:
 
 
 @gpu_cache
-def _light_shader(features: Features) -> Any:
+def _light_shader(features: Features, of_sky: bool) -> Any:
     return build_shader(
         "light of patches",
         FULL_SCREEN,
@@ -234,13 +276,14 @@ def _light_shader(features: Features) -> Any:
         Piece(
             constants={"weight": "FLOAT"},
             outputs={"color": "VEC4"},
+            defines=flags("OF_SKY") if of_sky else {},
             fragment="indirect/patch_light.frag.glsl",
         ),
     )
 
 
 @gpu_cache
-def _rays_shader(with_hits: bool) -> Any:
+def _rays_shader(with_hits: bool, to_emitters: bool) -> Any:
     outputs = {**(named("VEC4", "hit_out") if with_hits else {}), **named("VEC4", "way_out")}
     return build_shader(
         "rays of patches",
@@ -249,6 +292,7 @@ def _rays_shader(with_hits: bool) -> Any:
         TABLE,
         SURFACE_OUTPUTS,
         _POINTS,
+        *((EMITTERS,) if to_emitters else ()),
         Piece(
             samplers={"solids": "FLOAT_2D"},
             constants={"batch": "INT"},
@@ -293,15 +337,47 @@ def _sweep_shader() -> Any:
 
 
 @gpu_cache
-def _sum_shader() -> Any:
+def _emitter_links_shader(buffers: Buffers) -> Any:
+    return build_shader(
+        "light of emitters",
+        FULL_SCREEN,
+        TABLE,
+        reads(buffers),
+        Piece(
+            samplers=named("FLOAT_2D", *_VERTICES, "path_way"),
+            outputs={"link_out": "VEC4"},
+            fragment="indirect/emitter_links.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _emitter_sum_shader() -> Any:
+    return build_shader(
+        "sum of emitters",
+        FULL_SCREEN,
+        Piece(
+            samplers={"links": "FLOAT_2D"},
+            constants={"patches": "INT"},
+            outputs={"color": "VEC4"},
+            defines=_BATCH,
+            fragment="indirect/emitter_sum.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _sum_shader(with_emitters: bool) -> Any:
     return build_shader(
         "sum of patches",
         FULL_SCREEN,
         Piece(
-            samplers=named("FLOAT_2D", "patch_swept", "patch_direct", "links"),
+            samplers=named(
+                "FLOAT_2D", "patch_swept", "patch_lamps", "patch_sky", "links", *(("patch_shone",) if with_emitters else ())
+            ),
             constants={"patches": "INT"},
-            outputs=named("VEC4", "sent_out", "arriving_out"),
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
+            outputs=named("VEC4", "sent_out", "arriving_out", "under_sky_out"),
+            defines={**_BATCH, "PATCH_POINTS": POINTS, **(EMITTERS.defines if with_emitters else {})},
             fragment="indirect/patch_sum.frag.glsl",
         ),
     )

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from enum import IntEnum
 from typing import Any, Protocol
 
 from ..device.shaders import Piece
@@ -18,9 +19,19 @@ CELLS = Piece(
 """What `cells.glsl` needs"""
 
 
+class At(IntEnum):
+    """Which light at patches is asked for."""
+
+    HITS = 0
+    """All, at surfaces that rays meet after one bounce"""
+    ENDS = 1
+    """What other surfaces send to what is seen"""
+    ENDS_UNDER_SKY = 2
+    """And what the world does"""
+
+
 class SurfaceLight(Protocol):
     """Light at patches of surfaces."""
 
-    def bind(self, shader: Any, of_hits: bool) -> None:
-        """Set what `CELLS` names on a bound shader, and `patch_light`: `of_hits`: all light at surfaces that rays meet
-        after one bounce, else what arrives from other surfaces at what is seen."""
+    def bind(self, shader: Any, at: At) -> None:
+        """Set what `CELLS` names on a bound shader, and `patch_light`."""

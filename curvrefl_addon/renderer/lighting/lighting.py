@@ -22,7 +22,7 @@ from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
-from .cells import CELLS, SurfaceLight
+from .cells import CELLS, At, SurfaceLight
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
@@ -256,7 +256,7 @@ class Lighting:
         self._looks.bind(shader)
         shader.uniform_sampler("lighting_ggx", self.ggx)
         if self._surfaces is not None:
-            self._surfaces.bind(shader, of_hits=False)
+            self._surfaces.bind(shader, At.ENDS)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""

@@ -13,7 +13,7 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import Gathering, GatherPicture, Source
+from ..indirect.gather import NO_FEATURES, Gathering, GatherPicture, Source, features_of
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..paths.features import has_base
 from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
@@ -34,8 +34,6 @@ MIRRORS_END = "MIRRORS_END"
 """Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
 RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
-GATHERED = "GATHERED"
-"""Beside the features of lighting: rays find what other surfaces send, and what lobes see of the world"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
 LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
@@ -120,12 +118,12 @@ class ShadePass:
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
-                self._add_shown(seen, reflected, view_uniforms, strength, shadows, gathers is not None)
+                self._add_shown(seen, reflected, view_uniforms, strength, shadows, features_of(gathers))
             with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
                 if not mirrors_only:
                     self._add_others(
-                        seen, view_uniforms, weight, shadows, film_transparent, by_camera, gathers is not None
+                        seen, view_uniforms, weight, shadows, film_transparent, by_camera, features_of(gathers)
                     )
                 self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         gathered = None
@@ -133,7 +131,7 @@ class ShadePass:
             gathered = gathers.picture(seen.width, seen.height, mirrors)
             self._gather(gathers, gathered, classes.depth, seen, reflected, mirrors_only)
         for bounce in later or ():
-            self._add_path(shown, bounce, view_uniforms, strength, shadows, gathered is not None)
+            self._add_path(shown, bounce, view_uniforms, strength, shadows, features_of(gathers))
             if gathers is not None and gathered is not None and not bounce.ends:
                 self._gather_later(gathers, gathered, bounce)
         if gathers is not None and gathered is not None:
@@ -172,13 +170,13 @@ class ShadePass:
         shadows: RayShadows | None,
         film_transparent: bool,
         by_camera: bool,
-        is_gathered: bool,
+        gathered: Features,
     ) -> None:
         """Background and surfaces, seen directly."""
         for kind in (PixelClass.BACKGROUND, PixelClass.SURFACE):
             features = self._lighting.features
             if kind is PixelClass.SURFACE:
-                features = features_for(self._lighting, shadows, is_seen=True, is_gathered=is_gathered)
+                features = features_for(self._lighting, shadows, is_seen=True, gathered=gathered)
             if kind is PixelClass.BACKGROUND and film_transparent:
                 if not features & LAMPS:
                     continue
@@ -196,7 +194,7 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         shadows: RayShadows | None,
-        is_gathered: bool,
+        gathered: Features,
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
@@ -205,7 +203,7 @@ class ShadePass:
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 features = features_for(
-                    self._lighting, shadows, ends=self.mirror_bounces == 0, is_gathered=is_gathered
+                    self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered
                 )
                 shader = _shade_shader(kind, features, self._materials.buffers)
                 shader.bind()
@@ -256,10 +254,10 @@ class ShadePass:
         view_uniforms: Any,
         weight: float,
         shadows: RayShadows | None,
-        is_gathered: bool,
+        gathered: Features,
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
-        features = features_for(self._lighting, shadows, ends=bounce.ends, is_gathered=is_gathered)
+        features = features_for(self._lighting, shadows, ends=bounce.ends, gathered=gathered)
         shader = _path_shader(bounce.goes_on, features, self._materials.buffers)
         path = bounce.path
         target = canvas.with_depth(path.depth)
@@ -326,13 +324,11 @@ def features_for(
     shadows: RayShadows | None,
     is_seen: bool = False,
     ends: bool = False,
-    is_gathered: bool = False,
+    gathered: Features = NO_FEATURES,
 ) -> Features:
     """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow;
-    `is_gathered`: rays find what other surfaces send."""
-    features = lighting.features
-    if is_gathered:
-        features |= {GATHERED}
+    `gathered`: of what is left to rays (`Gathering.features`)."""
+    features = lighting.features | gathered
     if ends:
         # (What has its own light alone is in no shadow.)
         return features | {MIRRORS_END}

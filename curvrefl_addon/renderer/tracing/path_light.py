@@ -11,6 +11,8 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
+from ..indirect.gather import Gathering, features_of
+from ..lighting.cells import At
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
 from ..programs.buffers import Buffers
@@ -34,8 +36,8 @@ class PathLight:
     film_transparent: bool
     has_base: bool
     """Surfaces from which paths go on have a base below their lobes, or shine"""
-    is_gathered: bool = False
-    """Rays find what other surfaces send to where paths stop"""
+    gathers: Gathering | None = None
+    """Rays find what other surfaces send to where paths stop; where they go on patches know it, and of the world"""
 
     def add(
         self,
@@ -67,12 +69,15 @@ class PathLight:
             if before is not None:
                 assert isinstance(vertices, PathVertices)
                 shader.uniform_sampler("before_position", before.position)
-                if _shares_in_quads(kind, self.lighting.features):
+                if _shares_in_quads(kind, self.lighting.features | features_of(self.gathers)):
                     shader.uniform_sampler("classes_before", classes_before)
                     shader.uniform_int("turn", sub_frame)
                 shader.uniform_sampler("path_way", vertices.way)
                 shader.uniform_sampler("path_throughput", vertices.throughput)
             self.lighting.bind(shader)
+            if kind is PathClass.GOES_ON and self.gathers is not None and self.gathers.has_sky:
+                assert self.gathers.irradiance is not None
+                self.gathers.irradiance.bind(shader, At.ENDS_UNDER_SKY)
             full_screen_triangle().draw(shader)
 
     @property
@@ -99,8 +104,10 @@ class PathLight:
             if self.lights_samples:
                 names.add("PATH_LOBES")
         if needs_shadows:
-            is_gathered = self.is_gathered and kind is PathClass.STOPS
-            features = features_for(self.lighting, self.shadows, is_seen=not on_path, is_gathered=is_gathered)
+            gathered = features_of(self.gathers)
+            if kind is not PathClass.STOPS:
+                gathered &= {"SKY_GATHERED"}
+            features = features_for(self.lighting, self.shadows, is_seen=not on_path, gathered=gathered)
         if kind is PathClass.MISSES and self.film_transparent:
             names.add(FILM_TRANSPARENT)
         buffers = self.around.materials.buffers
@@ -113,7 +120,9 @@ _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "I
 
 def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
     """Whether pixels share the sky's shadows: where there are any, of surfaces that are lit as a whole."""
-    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features
+    return (
+        kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and "SKY_GATHERED" not in lighting_features
+    )
 
 
 @gpu_cache

@@ -123,7 +123,7 @@ class PathTracer:
             view_uniforms,
             window,
         )
-        light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base, gathers is not None)
+        light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base, gathers)
         gathered = None if gathers is None else gathers.picture(seen.width, seen.height, window)
         limits = self.limits(bounces)
         classes.sort_seen(seen, window, chosen, sees_through and self.sees_through)

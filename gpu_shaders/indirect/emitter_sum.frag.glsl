@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 Curvrefl contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sum over one batch of rays from each patch (a fragment each) to places that shine.
+
+void main()
+{
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int place = (pixel.y << ROW_BITS) + pixel.x;
+  color = vec4(0.0);
+  if (place >= patches) {
+    return;
+  }
+  for (int ray = 0; ray < RAYS_AT_ONCE; ray++) {
+    int number = place * RAYS_AT_ONCE + ray;
+    color += texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0);
+  }
+}
