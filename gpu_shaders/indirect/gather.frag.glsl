@@ -13,6 +13,7 @@
 #include "lighting/mirror_tint.glsl"
 #include "scattering/microfacet.glsl"
 #include "indirect/directions.glsl"
+#include "indirect/followed_value.glsl"
 #ifdef EMITTERS
 #include "indirect/emitter_density.glsl"
 #include "indirect/emitters.glsl"
@@ -35,13 +36,20 @@ float ray_density(Lobes lobes, float chance, vec3 viewer, vec3 light)
 
 void main()
 {
+#ifdef OF_SEEN
+  // (Of each quad of pixels one asks for all four: shared_gather.glsl.)
+  ivec2 pixel = min(2 * ivec2(gl_FragCoord.xy) + lane, textureSize(vertex_position, 0) - 1);
+#else
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#endif
   vec4 place = texelFetch(vertex_position, pixel, 0);
   vec4 facing = texelFetch(vertex_normal, pixel, 0);
   Surface s = surface_of(pixel, place, facing, texelFetch(vertex_color, pixel, 0).rgb);
   vec3 throughput = vec3(1.0);
 #ifdef OF_SEEN
   vec3 incoming = normalize(s.position * view.eye.w - view.eye.xyz);
+  float seen = texelFetch(vertex_color, pixel, 0).w;
+  throughput *= seen > -1.5 && seen < -0.5 ? 1.0 : 0.0;
 #elif defined(OF_SHOWN)
   vec3 mirror_place = texelFetch(mirror_position, pixel, 0).xyz;
   vec4 mirror_facing = texelFetch(mirror_normal, pixel, 0);
@@ -74,6 +82,7 @@ void main()
   mat3 frame = surface_frame(s.normal, s.normal);
   vec3 direction;
   float density = 0.0;
+  float inverse_chance;
   vec3 weight;
   vec3 viewer = -incoming * frame;
   viewer.z = max(viewer.z, 1e-4);
@@ -91,11 +100,9 @@ void main()
     vec3 light = direction * frame;
     density = ray_density(lobes, chance, viewer, light);
     float found = emitter_density(shining.density, farthest, dot(shining.normal, direction));
-    weight = lobes.diffuse * (max(light.z, 0.0) / PI);
-    if (lobes.alpha > GGX_SINGULAR_ALPHA) {
-      weight += glossy_lobe(lobes, lobes.alpha, s.normal, -incoming, direction, max(light.z, 0.0));
-    }
-    weight /= EMITTER_SHARE * found + (1.0 - EMITTER_SHARE) * density;
+    weight = light.z > 0.0 ? followed_value(lobes, s.normal, -incoming, direction) : vec3(0.0);
+    inverse_chance = 1.0 / (EMITTER_SHARE * found + (1.0 - EMITTER_SHARE) * density);
+    weight *= inverse_chance;
     // (It has to be met itself.)
     farthest *= 1.0001;
     is_lobe = false;
@@ -111,17 +118,20 @@ void main()
       h = visible_normal(viewer, alpha, bound, random.xy);
     }
     direction = frame * reflect(-viewer, h);
-    weight = lobes.specular_albedo / chance;
+    inverse_chance = 1.0 / chance;
+    weight = lobes.specular_albedo * inverse_chance;
     // (0: sharp.)
     density = lobes.alpha > GGX_SINGULAR_ALPHA ? ray_density(lobes, chance, viewer, direction * frame) : 0.0;
   }
   else {
     direction = frame * cosine_direction(random.xy);
-    weight = lobes.diffuse / (1.0 - chance);
+    inverse_chance = 1.0 / (1.0 - chance);
+    weight = lobes.diffuse * inverse_chance;
     density = ray_density(lobes, chance, viewer, direction * frame);
   }
 #ifdef EMITTERS
   weight /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
+  inverse_chance /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
 #endif
   weight *= throughput;
   bool is_alive = largest(weight) > 0.0 && dot(direction, s.normal) > 0.0;
@@ -133,6 +143,9 @@ void main()
   hit_out = vec4(0.0);
 #endif
   way_out = pack_way(direction, density, hit.range);
+#ifdef OF_SEEN
+  weight = vec3(inverse_chance);
+#endif
   weight_out = is_alive ? vec4(weight, kind) : vec4(0.0);
   if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, start, direction);

@@ -55,5 +55,11 @@ void main()
   radiance += share * m.emission;
 #endif
 #endif
-  color = vec4(texelFetch(gather_weight, pixel, 0).rgb * radiance * weight, 0.0);
+  vec4 held = texelFetch(gather_weight, pixel, 0);
+#ifdef IS_SHARED
+  // (Of rays that bring nothing none is drawn here: their pixels are as cleared.)
+  color = vec4(held.rgb * radiance, held.w);
+#else
+  color = vec4(held.rgb * radiance * weight, 0.0);
+#endif
 }

@@ -12,6 +12,9 @@
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "lighting/mirror_tint.glsl"
+#ifdef GATHER_SHARED
+#include "indirect/shared_gather.glsl"
+#endif
 #ifdef SEEN_BY_MIRROR
 #define BY_CAMERA false
 #else
@@ -44,7 +47,11 @@ void main()
 #ifdef QUADS
   world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
 #endif
-  vec3 radiance = shade_surface(surface_of(pixel, position, normal, base.rgb), -direction);
+  Surface seen = surface_of(pixel, position, normal, base.rgb);
+  vec3 radiance = shade_surface(seen, -direction);
+#ifdef GATHER_SHARED
+  radiance += shared_rays(pixel, position, normal, seen, -direction);
+#endif
 #else
 #ifdef ENVIRONMENT
   // One pass per mirror.

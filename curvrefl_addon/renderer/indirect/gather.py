@@ -28,7 +28,7 @@ from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
-from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
 from .emitters import EMITTERS, SHINES, Emitters
@@ -54,6 +54,37 @@ class Source(Enum):
     SHOWN = ("mirror_position", "mirror_normal", "mirror_color")
     LATER = ("path_direction", "path_throughput")
     PATHS = ("path_way", "path_throughput")
+
+
+_CONSTANTS = {Source.LATER: {"skips_mirrors": "FLOAT"}, Source.SEEN: {"lane": "IVEC2"}}
+
+
+@dataclass(frozen=True, slots=True)
+class SharedGather:
+    """Light of one ray for each quad of pixels."""
+
+    light: Any
+    way: Any
+    lane: tuple[int, int]
+
+    def bind(self, shader: Any) -> None:
+        """Set what `SHARED` names."""
+        shader.uniform_sampler("gather_light", self.light)
+        shader.uniform_sampler("gather_way", self.way)
+        shader.uniform_int("lane", self.lane)
+
+
+SHARED = Piece(
+    samplers=named("FLOAT_2D", "gather_light", "gather_way"),
+    constants={"lane": "IVEC2"},
+    defines=flags("GATHER_SHARED"),
+)
+"""What `shared_gather.glsl` needs"""
+
+
+def lane_of(sub_frame: int) -> tuple[int, int]:
+    """Which pixel of each quad follows a ray."""
+    return ((0, 0), (1, 1), (1, 0), (0, 1))[sub_frame % 4]
 
 
 class _Kind(IntEnum):
@@ -89,6 +120,11 @@ class Gathering:
         world (SKY_GATHERED)."""
         names = {"GATHERED": self.irradiance is not None, "SKY_GATHERED": self.has_sky}
         return frozenset(name for name, is_so in names.items() if is_so)
+
+    def shared(self, seen: SurfaceBuffer) -> SharedGather:
+        """Rays of what the eye sees itself, one for each quad of pixels."""
+        picture = self.picture((seen.width + 1) // 2, (seen.height + 1) // 2, None)
+        return picture.share(self, seen, self.lighting.features)
 
     def picture(self, width: int, height: int, window: Window | None) -> GatherPicture:
         """To begin with, without any ray."""
@@ -133,6 +169,8 @@ class GatherPicture:
         self._targets: list[tuple[Any, Any]] = []
         self._pass = MaterialPass(width, height)
         self._window: Window | None = None
+        self._light: Canvas | None = None
+        """Made where pixels share rays"""
 
     def begin(self, window: Window | None, has_programs: bool) -> None:
         self._window = window
@@ -149,22 +187,27 @@ class GatherPicture:
         surface: tuple[Any, Any, Any],
         made: MaterialBuffers,
         others: tuple[Any, ...],
-        classes: tuple[Any, float],
+        classes: tuple[Any, float] | None,
         skips_mirrors: bool = False,
     ) -> None:
         """Follow rays from a class of pixels. `surface`: position, normal and color there; `others`: as `source` names
-        them; `classes`: depth texture, and the class over CLASS_COUNT. With
+        them; `classes`: depth texture, and the class over CLASS_COUNT; None: all pixels. With
         `skips_mirrors` rays off mirrors go on in another pass."""
         lighting, materials = by.lighting, by.materials
         shader = _gather_shader(
             source, materials.buffers, lighting.features, self._hits is not None, by.emitters is not None
         )
-        with drawing_state("EQUAL"), self._target(classes[0]).bind(), scissored(self._window):
+        depth = None if classes is None else classes[0]
+        test = "NONE" if classes is None else "EQUAL"
+        with drawing_state(test), self._target(depth).bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             by.rays.bind(shader)
             shader.uniform_block("view", by.view_uniforms)
-            shader.uniform_float("pixel_class", classes[1] * CLASS_COUNT)
+            if classes is not None:
+                shader.uniform_float("pixel_class", classes[1] * CLASS_COUNT)
+            if source is Source.SEEN:
+                shader.uniform_int("lane", lane_of(by.sub_frame))
             if source is Source.LATER:
                 shader.uniform_float("skips_mirrors", float(skips_mirrors))
             shader.uniform_int("path_point", path_point(by.sub_frame, GATHER_BOUNCE, lighting.sub_frames))
@@ -177,8 +220,20 @@ class GatherPicture:
                 by.emitters.bind(shader)
             full_screen_triangle().draw(shader)
 
-    def add(self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features) -> None:
-        """Add the light of all rays, times `weight`. `lobe_features`: of the lighting of what lobes see."""
+    def share(self, by: Gathering, seen: SurfaceBuffer, lobe_features: Features) -> SharedGather:
+        """Follow and light a ray for each quad of a picture of twice the size."""
+        if self._light is None:
+            self._light = Canvas.of_size(self.width, self.height)
+        self._light.clear()
+        self.follow(by, Source.SEEN, (seen.position, seen.normal, seen.color), seen.made, (), None)
+        self.add(by, self._light, 1.0, lobe_features, is_shared=True)
+        return SharedGather(self._light.texture, self._way, lane_of(by.sub_frame))
+
+    def add(
+        self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features, is_shared: bool = False
+    ) -> None:
+        """Add the light of all rays, times `weight`. `lobe_features`: of the lighting of what lobes see. `is_shared`:
+        see `share`."""
         materials = by.materials
         with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
@@ -200,10 +255,13 @@ class GatherPicture:
             for kind in self._kinds(by):
                 features = lobe_features if kind is _Kind.LOBE_MEETS else by.lighting.features
                 has_patches = by.irradiance is not None
-                shader = _light_shader(kind, materials.buffers, features, by.emitters is not None, has_patches)
+                shader = _light_shader(
+                    kind, materials.buffers, features, by.emitters is not None, has_patches, is_shared
+                )
                 shader.bind()
                 shader.uniform_float("pixel_class", float(kind))
-                shader.uniform_float("weight", weight)
+                if not is_shared:
+                    shader.uniform_float("weight", weight)
                 shader.uniform_sampler("materials", materials.table)
                 for name, texture in zip(_MET, (self._position, self._normal, self._color), strict=True):
                     shader.uniform_sampler(name, texture)
@@ -247,7 +305,7 @@ def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hi
     hits = named("VEC4", "hit_out") if with_hits else {}
     return build_shader(
         f"gather {source.name}",
-        CLASS,
+        FULL_SCREEN if source is Source.SEEN else CLASS,
         VIEW,
         RAYS,
         TABLE,
@@ -256,7 +314,7 @@ def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hi
         *((EMITTERS,) if with_emitters else ()),
         Piece(
             samplers=named("FLOAT_2D", *_MET, *source.value, "lighting_ggx"),
-            constants={"path_point": "IVEC4", **({"skips_mirrors": "FLOAT"} if source is Source.LATER else {})},
+            constants={"path_point": "IVEC4", **_CONSTANTS.get(source, {})},
             outputs={**hits, **named("VEC4", "way_out", "weight_out")},
             defines={
                 **GGX_DEFINES,
@@ -284,7 +342,7 @@ def _classes_shader() -> Any:
 
 @gpu_cache
 def _light_shader(
-    kind: _Kind, buffers: Buffers, features: Features, with_emitters: bool, has_patches: bool
+    kind: _Kind, buffers: Buffers, features: Features, with_emitters: bool, has_patches: bool, is_shared: bool
 ) -> Any:
     rays = features & {"RAY_SHADOWS", "WORLD_RAYS"}
     return build_shader(
@@ -299,10 +357,15 @@ def _light_shader(
         *((RAYS,) if rays else ()),
         Piece(
             samplers=named("FLOAT_2D", *_MET, "path_way", "gather_weight", "patch_light"),
-            constants={"weight": "FLOAT"},
+            constants={} if is_shared else {"weight": "FLOAT"},
             outputs={"color": "VEC4"},
             defines={
-                **flags(f"LIGHTS_{kind.name}", "PATH_LIGHT", *(() if has_patches else ("DIRECT_ALONE",))),
+                **flags(
+                    f"LIGHTS_{kind.name}",
+                    "PATH_LIGHT",
+                    *(() if has_patches else ("DIRECT_ALONE",)),
+                    *(("IS_SHARED",) if is_shared else ()),
+                ),
                 "EMITTER_SHARE": EMITTER_SHARE,
             },
             fragment="indirect/gather_light.frag.glsl",

@@ -13,7 +13,15 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import NO_FEATURES, Gathering, GatherPicture, Source, features_of
+from ..indirect.gather import (
+    NO_FEATURES,
+    SHARED,
+    Gathering,
+    GatherPicture,
+    SharedGather,
+    Source,
+    features_of,
+)
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..paths.features import has_base
 from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
@@ -114,6 +122,7 @@ class ShadePass:
         classes.sort(
             seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
         )
+        shared = None if gathers is None or mirrors_only else gathers.shared(seen)
         shown, strength = (canvas, weight) if shown_apart is None else (shown_apart, 1.0)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
@@ -123,13 +132,13 @@ class ShadePass:
                 set_viewport(0, 0, seen.width, seen.height)
                 if not mirrors_only:
                     self._add_others(
-                        seen, view_uniforms, weight, shadows, film_transparent, by_camera, features_of(gathers)
+                        seen, view_uniforms, weight, shadows, film_transparent, by_camera, features_of(gathers), shared
                     )
                 self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         gathered = None
         if gathers is not None:
             gathered = gathers.picture(seen.width, seen.height, mirrors)
-            self._gather(gathers, gathered, classes.depth, seen, reflected, mirrors_only)
+            self._gather(gathers, gathered, classes.depth, seen, reflected)
         for bounce in later or ():
             self._add_path(shown, bounce, view_uniforms, strength, shadows, features_of(gathers))
             if gathers is not None and gathered is not None and not bounce.ends:
@@ -144,12 +153,9 @@ class ShadePass:
         classes: Any,
         seen: SurfaceBuffer,
         reflected: SurfaceBuffer | Sequence[Environment] | None,
-        mirrors_only: bool,
     ) -> None:
-        """Follow rays from what is seen, and from what mirrors show first."""
+        """Follow rays from what mirrors show first."""
         surface = (seen.position, seen.normal, seen.color)
-        if not mirrors_only:
-            gathered.follow(by, Source.SEEN, surface, seen.made, (), (classes, PixelClass.SURFACE / CLASS_COUNT))
         if isinstance(reflected, SurfaceBuffer) and self.mirror_bounces > 0:
             shown = (reflected.position, reflected.normal, reflected.color)
             kind = PixelClass.MIRROR_OF_SURFACE / CLASS_COUNT
@@ -171,6 +177,7 @@ class ShadePass:
         film_transparent: bool,
         by_camera: bool,
         gathered: Features,
+        shared: SharedGather | None,
     ) -> None:
         """Background and surfaces, seen directly."""
         for kind in (PixelClass.BACKGROUND, PixelClass.SURFACE):
@@ -184,7 +191,12 @@ class ShadePass:
             as_camera = by_camera or kind != PixelClass.BACKGROUND
             rays = rays_of(features, shadows)
             buffers = self._materials.buffers if kind is PixelClass.SURFACE else NONE
-            shader = _shade_shader(kind, features, buffers, as_camera)
+            is_shared = shared is not None and kind is PixelClass.SURFACE
+            shader = _shade_shader(kind, features, buffers, as_camera, is_shared)
+            if is_shared:
+                shader.bind()
+                assert shared is not None
+                shared.bind(shader)
             self._draw(shader, kind, seen, view_uniforms, weight, rays, seen.made if buffers else None)
 
     def _add_shown(
@@ -351,7 +363,9 @@ def rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
 
 
 @gpu_cache
-def _shade_shader(kind: PixelClass, features: Features, buffers: Buffers, by_camera: bool = True) -> Any:
+def _shade_shader(
+    kind: PixelClass, features: Features, buffers: Buffers, by_camera: bool = True, is_shared: bool = False
+) -> Any:
     """For a class of pixels, without environments."""
     shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
     return build_shader(
@@ -361,6 +375,7 @@ def _shade_shader(kind: PixelClass, features: Features, buffers: Buffers, by_cam
         *((_OF_REFLECTED,) if shows_surface else ()),
         *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
+        *((SHARED,) if is_shared else ()),
         Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
     )
 

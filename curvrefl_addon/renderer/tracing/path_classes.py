@@ -12,6 +12,7 @@ from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
+from ..surfaces.canvas import Canvas
 from ..surfaces.pixel_classes import CHOSEN_MIRRORS, CLASS_COUNT
 from ..surfaces.surface_buffer import SEEN_THROUGH, SurfaceBuffer
 from ..surfaces.windows import Window
@@ -35,10 +36,24 @@ class PathClasses:
     def __init__(self, depths: list[Any]) -> None:
         self._depths = depths
         self._targets = [frame_buffer(depth=depth) for depth in depths]
+        self._parts: Canvas | None = None
+        """Made when first asked for"""
 
     def depth(self, step: int) -> Any:
         """Of what the step has met; 0: what the eye sees."""
         return self._depths[place_of(step)]
+
+    def any_left(self, step: int) -> bool:
+        """Whether a path goes on from what the step has met; waits for the GPU."""
+        if self._parts is None:
+            self._parts = Canvas.of_size(PARTS_ACROSS, PARTS_ACROSS)
+        with drawing_state(), self._parts.frame_buffer.bind():
+            set_viewport(0, 0, PARTS_ACROSS, PARTS_ACROSS)
+            shader = _any_left_shader()
+            shader.bind()
+            shader.uniform_sampler("classes", self.depth(step))
+            full_screen_triangle().draw(shader)
+        return bool(self._parts.pixels().any())
 
     def sort_seen(self, seen: SurfaceBuffer, window: Window, chosen: Any, sees_through: bool) -> None:
         """Find where paths begin: at all mirrors, or those `chosen` (record texture by mirrors' numbers), and where it
@@ -66,6 +81,10 @@ class PathClasses:
             full_screen_triangle().draw(shader)
 
 
+PARTS_ACROSS = 32
+"""In which paths that are left are looked for"""
+
+
 def place_of(step: int) -> int:
     """Of buffers of which the first is kept and two others take turns."""
     return 0 if step == 0 else 1 + step % 2
@@ -73,6 +92,24 @@ def place_of(step: int) -> int:
 
 BUFFERS = 3
 """Places there are"""
+
+
+@gpu_cache
+def _any_left_shader() -> Any:
+    return build_shader(
+        "any left",
+        FULL_SCREEN,
+        Piece(
+            samplers={"classes": "DEPTH_2D"},
+            outputs={"color": "VEC4"},
+            defines={
+                "CLASS_COUNT": float(CLASS_COUNT),
+                "GOES_ON": float(PathClass.GOES_ON),
+                "PARTS_ACROSS": PARTS_ACROSS,
+            },
+            fragment="paths/any_left.frag.glsl",
+        ),
+    )
 
 
 @gpu_cache

@@ -25,6 +25,8 @@ from .path_light import PathLight
 from .path_vertices import PathVertices
 from .step import Limits, Surroundings, follow
 
+LOOK_FROM = 3
+"""Steps that have to be left for it to pay to look whether any path goes on"""
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
 type _Targets = tuple[PathClasses, dict[int, PathVertices]]
@@ -146,6 +148,9 @@ class PathTracer:
                 surface = (met.position, met.normal, met.color)
                 gathered.follow(gathers, Source.PATHS, surface, met.made, (met.way, met.throughput), stops)
             before = met
+            # (A look that waits for the GPU costs less than the passes of the steps that are left.)
+            if last - step >= LOOK_FROM and step % 2 == 0 and not classes.any_left(step):
+                break
         if gathers is not None and gathered is not None:
             gathered.add(gathers, canvas, weight, self._lighting.features)
 
