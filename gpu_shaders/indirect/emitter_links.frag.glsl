@@ -1,16 +1,38 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ray from a patch to a place that shines has found: irradiance.
+// What a ray from a patch has found of what shines: irradiance. With OF_HEMISPHERE one of those over the hemisphere, else
+// one of those to places that shine.
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
+#include "paths/path_state.glsl"
+#include "scattering/frame.glsl"
+#ifdef OF_HEMISPHERE
+#include "indirect/patch_points.glsl"
+#include "indirect/emitter_density.glsl"
+#endif
 
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 radiance = vec3(0.0);
+  vec4 way = texelFetch(path_way, pixel, 0);
+  float strength = way.z;
   if (texelFetch(vertex_position, pixel, 0).w > 0.5) {
-    Material m = material_at(pixel, material_number(texelFetch(vertex_normal, pixel, 0).w), vec3(0.0));
+    vec4 normal = texelFetch(vertex_normal, pixel, 0);
+    int material = material_number(normal.w);
+    Material m = material_at(pixel, material, vec3(0.0));
     radiance = m.emission;
+#ifdef OF_HEMISPHERE
+    int number = pixel.y * PICTURE_WIDTH + pixel.x;
+    int place = number / RAYS_AT_ONCE;
+    vec3 from = patch_normal(place, (number - place * RAYS_AT_ONCE) % PATCH_POINTS);
+    float over_area = fetch_record(shining, material).x;
+    vec3 direction = way_direction(way);
+    float own = max(dot(from, direction), 0.0) / PI;
+    float found = emitter_density(over_area, way.w, dot(normal.xyz, direction));
+    strength = way.z > 0.5 ? 0.0 : PI * own / max(own + found, 1e-20);
+#endif
   }
-  link_out = vec4(radiance * texelFetch(path_way, pixel, 0).z, 1.0);
+  // (Both kinds of rays count: each stands for the other as well.)
+  link_out = vec4(2.0 * radiance * strength, 1.0);
 }

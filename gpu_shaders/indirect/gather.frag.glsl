@@ -3,7 +3,8 @@
 // One ray for the light that other surfaces send to what a pixel shows: off its base, by the cosine, or off the lobe
 // above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
 // mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
-// multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts.
+// multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts; 4 a ray
+// that brings nothing.
 // With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went, over the
 // share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
@@ -36,7 +37,7 @@ float ray_density(Lobes lobes, float chance, vec3 viewer, vec3 light)
 
 void main()
 {
-#ifdef OF_SEEN
+#ifdef SHARED_BY_QUADS
   // (Of each quad of pixels one asks for all four: shared_gather.glsl.)
   ivec2 pixel = min(2 * ivec2(gl_FragCoord.xy) + lane, textureSize(vertex_position, 0) - 1);
 #else
@@ -134,6 +135,7 @@ void main()
   inverse_chance /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
 #endif
   weight *= throughput;
+  bool is_asked = largest(throughput) > 0.0;
   bool is_alive = largest(weight) > 0.0 && dot(direction, s.normal) > 0.0;
   int seen_by = is_lobe ? SEEN_IN_MIRRORS : SEEN_BY_DIFFUSE;
   Hit hit = walk(start, direction, is_alive ? farthest : -1.0, seen_by, 0.0, false);
@@ -143,10 +145,14 @@ void main()
   hit_out = vec4(0.0);
 #endif
   way_out = pack_way(direction, density, hit.range);
-#ifdef OF_SEEN
+#ifdef IS_SHARED
   weight = vec3(inverse_chance);
 #endif
-  weight_out = is_alive ? vec4(weight, kind) : vec4(0.0);
+#ifdef EMITTERS
+  // (What is before the place may shine, too: it has chances of its own.)
+  is_alive = is_alive && (kind < 2.5 || hit.range > 0.999 * farthest);
+#endif
+  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? 4.0 : 0.0);
   if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, start, direction);
     surface_position = vec4(surface.position, surface.object_id);

@@ -57,7 +57,6 @@ void main()
 #endif
   vec4 held = texelFetch(gather_weight, pixel, 0);
 #ifdef IS_SHARED
-  // (Of rays that bring nothing none is drawn here: their pixels are as cleared.)
   color = vec4(held.rgb * radiance, held.w);
 #else
   color = vec4(held.rgb * radiance * weight, 0.0);

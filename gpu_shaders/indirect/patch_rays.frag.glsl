@@ -42,8 +42,9 @@ void main()
   farthest = length(away);
   vec3 direction = away / max(farthest, 1e-20);
   float density = emitter_density(shining.density, farthest, dot(shining.normal, direction));
-  // (Irradiance over radiance; no radiance makes more of it than from all sides. A place that is near counts less.)
-  float strength = min(max(dot(normal, direction), 0.0) / density, PI * float(RAYS_AT_ONCE));
+  // Irradiance over radiance, with the rays over the hemisphere, of which there are as many (the balance heuristic).
+  float cosine = max(dot(normal, direction), 0.0);
+  float strength = cosine / (density + cosine / PI);
   farthest *= 1.0001;
   if (strength <= 0.0) {
     return;
@@ -53,6 +54,10 @@ void main()
   float strength = 0.0;
 #endif
   Hit hit = walk(origin, direction, farthest, SEEN_BY_DIFFUSE, 0.0, false);
+#ifdef EMITTERS
+  // (What is before the place may shine, too: it has chances of its own.)
+  strength *= hit.range > 0.999 * farthest ? 1.0 : 0.0;
+#endif
   way_out = pack_way(direction, strength, hit.range);
   if (hit.instance < 0) {
     return;

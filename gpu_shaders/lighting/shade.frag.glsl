@@ -13,6 +13,13 @@
 #include "lighting/shade_surfaces.glsl"
 #include "lighting/mirror_tint.glsl"
 #ifdef GATHER_SHARED
+#ifdef SHADES_SURFACE
+#define SHARED_POSITION seen_position
+#define SHARED_NORMAL seen_normal
+#else
+#define SHARED_POSITION reflected_position
+#define SHARED_NORMAL reflected_normal
+#endif
 #include "indirect/shared_gather.glsl"
 #endif
 #ifdef SEEN_BY_MIRROR
@@ -50,7 +57,7 @@ void main()
   Surface seen = surface_of(pixel, position, normal, base.rgb);
   vec3 radiance = shade_surface(seen, -direction);
 #ifdef GATHER_SHARED
-  radiance += shared_rays(pixel, position, normal, seen, -direction);
+  radiance += shared_rays(pixel, position, normal.xyz, seen, -direction);
 #endif
 #else
 #ifdef ENVIRONMENT
@@ -87,6 +94,9 @@ void main()
     quad_is_one_surface(shown.position, facing(shown.normal, direction), vec3(position.w, normal.w, seen_mirror));
 #endif
   vec3 radiance = shade_surface(shown, -direction);
+#ifdef GATHER_SHARED
+  radiance += shared_rays(pixel, position, normal.xyz, shown, -direction);
+#endif
 #endif
 #ifdef LIGHTING_NEAR_LAMPS
   radiance += lamps_seen(origin, direction, distance(position.xyz, origin), false).rgb;

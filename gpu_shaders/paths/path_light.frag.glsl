@@ -11,6 +11,11 @@
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "paths/path_state.glsl"
+#ifdef GATHER_SHARED
+#define SHARED_POSITION vertex_position
+#define SHARED_NORMAL vertex_normal
+#include "indirect/shared_gather.glsl"
+#endif
 #ifdef LIGHTS_GOES_ON
 #include "paths/vertex_light.glsl"
 #endif
@@ -74,6 +79,9 @@ void main()
 #endif
 #ifdef ON_PATH
   radiance = state.ends ? surface.emission : shade_surface(surface, -direction);
+#ifdef GATHER_SHARED
+  radiance += state.ends ? vec3(0.0) : shared_rays(pixel, position, normal.xyz, surface, -direction);
+#endif
 #else
   radiance = shade_surface(surface, -direction);
 #endif

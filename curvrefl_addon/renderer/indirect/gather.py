@@ -61,25 +61,33 @@ _CONSTANTS = {Source.LATER: {"skips_mirrors": "FLOAT"}, Source.SEEN: {"lane": "I
 
 @dataclass(frozen=True, slots=True)
 class SharedGather:
-    """Light of one ray for each quad of pixels."""
+    """Light of rays that pixels share."""
 
+    by: Gathering
     light: Any
     way: Any
     lane: tuple[int, int]
+    by_quads: bool
+    """One for each quad of pixels, else one for each"""
 
     def bind(self, shader: Any) -> None:
-        """Set what `SHARED` names."""
+        """Set what `shared_piece` names, and the light of patches."""
         shader.uniform_sampler("gather_light", self.light)
         shader.uniform_sampler("gather_way", self.way)
-        shader.uniform_int("lane", self.lane)
+        shader.uniform_int("share_turn", self.by.sub_frame)
+        if self.by_quads:
+            shader.uniform_int("lane", self.lane)
+        if self.by.irradiance is not None:
+            self.by.irradiance.bind(shader, At.ENDS_UNDER_SKY if self.by.has_sky else At.ENDS)
 
 
-SHARED = Piece(
-    samplers=named("FLOAT_2D", "gather_light", "gather_way"),
-    constants={"lane": "IVEC2"},
-    defines=flags("GATHER_SHARED"),
-)
-"""What `shared_gather.glsl` needs"""
+def shared_piece(by_quads: bool) -> Piece:
+    """What `shared_gather.glsl` needs."""
+    return Piece(
+        samplers=named("FLOAT_2D", "gather_light", "gather_way"),
+        constants={"share_turn": "INT", **({"lane": "IVEC2"} if by_quads else {})},
+        defines=flags("GATHER_SHARED", *(("SHARED_BY_QUADS",) if by_quads else ())),
+    )
 
 
 def lane_of(sub_frame: int) -> tuple[int, int]:
@@ -124,7 +132,7 @@ class Gathering:
     def shared(self, seen: SurfaceBuffer) -> SharedGather:
         """Rays of what the eye sees itself, one for each quad of pixels."""
         picture = self.picture((seen.width + 1) // 2, (seen.height + 1) // 2, None)
-        return picture.share(self, seen, self.lighting.features)
+        return picture.share(self, Source.SEEN, (seen.position, seen.normal, seen.color), seen.made)
 
     def picture(self, width: int, height: int, window: Window | None) -> GatherPicture:
         """To begin with, without any ray."""
@@ -189,13 +197,16 @@ class GatherPicture:
         others: tuple[Any, ...],
         classes: tuple[Any, float] | None,
         skips_mirrors: bool = False,
+        shares: bool = False,
     ) -> None:
         """Follow rays from a class of pixels. `surface`: position, normal and color there; `others`: as `source` names
         them; `classes`: depth texture, and the class over CLASS_COUNT; None: all pixels. With
-        `skips_mirrors` rays off mirrors go on in another pass."""
+        `skips_mirrors` rays off mirrors go on in another pass. `shares`: see `share`."""
         lighting, materials = by.lighting, by.materials
+        by_quads = shares and source is Source.SEEN
+        variant = flags(*(("IS_SHARED",) if shares else ()), *(("SHARED_BY_QUADS",) if by_quads else ()))
         shader = _gather_shader(
-            source, materials.buffers, lighting.features, self._hits is not None, by.emitters is not None
+            source, frozenset(variant), materials.buffers, lighting.features, self._hits is not None, by.emitters is not None
         )
         depth = None if classes is None else classes[0]
         test = "NONE" if classes is None else "EQUAL"
@@ -220,14 +231,28 @@ class GatherPicture:
                 by.emitters.bind(shader)
             full_screen_triangle().draw(shader)
 
-    def share(self, by: Gathering, seen: SurfaceBuffer, lobe_features: Features) -> SharedGather:
-        """Follow and light a ray for each quad of a picture of twice the size."""
+    def share(
+        self,
+        by: Gathering,
+        source: Source,
+        surface: tuple[Any, Any, Any],
+        made: MaterialBuffers,
+        others: tuple[Any, ...] = (),
+        classes: tuple[Any, float] | None = None,
+    ) -> SharedGather:
+        """Follow and light rays that pixels share when they are lit: as for `follow`; those of what the eye sees itself
+        one for each quad of a picture of twice the size."""
         if self._light is None:
             self._light = Canvas.of_size(self.width, self.height)
-        self._light.clear()
-        self.follow(by, Source.SEEN, (seen.position, seen.normal, seen.color), seen.made, (), None)
-        self.add(by, self._light, 1.0, lobe_features, is_shared=True)
-        return SharedGather(self._light.texture, self._way, lane_of(by.sub_frame))
+        self.follow(by, source, surface, made, others, classes, shares=True)
+        with drawing_state(), self._light.frame_buffer.bind():
+            set_viewport(0, 0, self.width, self.height)
+            shader = _kinds_shader()
+            shader.bind()
+            shader.uniform_sampler("gather_weight", self._weight)
+            full_screen_triangle().draw(shader)
+        self.add(by, self._light, 1.0, by.lighting.features, is_shared=True)
+        return SharedGather(by, self._light.texture, self._way, lane_of(by.sub_frame), source is Source.SEEN)
 
     def add(
         self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features, is_shared: bool = False
@@ -250,7 +275,8 @@ class GatherPicture:
                 hits, self._made, (self._depth, -1.0), by.rays, materials, by.view_uniforms, window, turn
             )
         target = canvas.with_depth(self._depth)
-        with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self._window):
+        blend = "NONE" if is_shared else "ADDITIVE_PREMULT"
+        with drawing_state("EQUAL", blend=blend), target.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             for kind in self._kinds(by):
                 features = lobe_features if kind is _Kind.LOBE_MEETS else by.lighting.features
@@ -300,7 +326,9 @@ class GatherPicture:
 
 
 @gpu_cache
-def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hits: bool, with_emitters: bool) -> Any:
+def _gather_shader(
+    source: Source, variant: Features, buffers: Buffers, features: Features, with_hits: bool, with_emitters: bool
+) -> Any:
     surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
     hits = named("VEC4", "hit_out") if with_hits else {}
     return build_shader(
@@ -319,9 +347,22 @@ def _gather_shader(source: Source, buffers: Buffers, features: Features, with_hi
             defines={
                 **GGX_DEFINES,
                 "EMITTER_SHARE": EMITTER_SHARE,
-                **flags("PATHS_ROUGH", f"OF_{source.name}", *(("WITH_HITS",) if with_hits else ()), *surfaces),
+                **flags("PATHS_ROUGH", f"OF_{source.name}", *sorted(variant), *(("WITH_HITS",) if with_hits else ()), *surfaces),
             },
             fragment="indirect/gather.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
+def _kinds_shader() -> Any:
+    return build_shader(
+        "gather kinds",
+        FULL_SCREEN,
+        Piece(
+            samplers={"gather_weight": "FLOAT_2D"},
+            outputs={"color": "VEC4"},
+            fragment="indirect/gather_kinds.frag.glsl",
         ),
     )
 

@@ -66,9 +66,7 @@ class IndirectLight:
             self._is_placed = True
             if self.irradiance is not None:
                 for _ in range(BATCHES):
-                    self.irradiance.follow_rays(rays(), materials, lighting, view_uniforms)
-                for _ in range(BATCHES if self.emitters is not None else 0):
-                    self.irradiance.ask_emitters(self.emitters, rays(), materials, view_uniforms)
+                    self.irradiance.follow_rays(rays(), materials, lighting, view_uniforms, self.emitters)
         if self.irradiance is not None:
             self.irradiance.light(lighting, min(LIGHTS, lighting.sub_frames))
             self.irradiance.sweep(self._scene.diffuse_bounces)

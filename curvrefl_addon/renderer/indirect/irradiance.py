@@ -30,7 +30,7 @@ from ..rays.material_pass import Hits, MaterialPass
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS
-from .emitters import EMITTERS, Emitters
+from .emitters import EMITTERS, SHINES, Emitters
 from .points import POINTS, Patches
 
 RAYS_AT_ONCE = 16
@@ -67,7 +67,6 @@ class Irradiance:
         self._swept = _Records(count)
         self._shone: _Records | None = None
         """What emitters send straight to the patches; made where there are some"""
-        self._shone_batches = 0
         self._sent = [_Sent(count), _Sent(count)]
         """Of the last two sweeps, the last first"""
         self._links: list[Any] = []
@@ -92,8 +91,10 @@ class Irradiance:
             shader.uniform_float("cell_grid", (*grid.focus, grid.half))
             shader.uniform_float("cell_levels", float(grid.levels))
 
-    def follow_rays(self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any) -> None:
-        """Another batch of rays."""
+    def follow_rays(
+        self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any, emitters: Emitters | None
+    ) -> None:
+        """Another batch of rays; `emitters`: surfaces that shine, if there are some."""
         if self._picture is None:
             self._picture = _Picture(self.patches.count)
         picture = self._picture
@@ -113,30 +114,38 @@ class Irradiance:
             picture.made.bind(shader, materials.buffers)
             full_screen_triangle().draw(shader)
         self._links.append(links)
+        if emitters is not None:
+            self._ask_emitters(emitters, rays, materials, view_uniforms)
 
-    def ask_emitters(self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any) -> None:
-        """Another batch of rays to places that shine."""
-        if self._picture is None:
-            self._picture = _Picture(self.patches.count)
+    def _ask_emitters(self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any) -> None:
+        """What shines that the rays of the batch which was followed last have met, and a batch to places that shine."""
+        assert self._picture is not None
         if self._shone is None:
             self._shone = _Records(self.patches.count)
             with self._shone.target.bind():
                 self._shone.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        self._add_shining(emitters, materials, of_hemisphere=True)
+        picture, records = self._picture, (self._points, self._solids)
+        picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches, emitters)
+        self._add_shining(emitters, materials, of_hemisphere=False)
+
+    def _add_shining(self, emitters: Emitters, materials: Materials, of_hemisphere: bool) -> None:
         picture = self._picture
-        records = (self._points, self._solids)
-        picture.follow(rays, materials, view_uniforms, records, self.patches.count, self._shone_batches, emitters)
-        self._shone_batches += 1
+        assert picture is not None and self._shone is not None
         links = empty_texture(picture.width, picture.height)
         target = frame_buffer(links)
         with drawing_state(), target.bind():
             set_viewport(0, 0, picture.width, picture.height)
-            shader = _emitter_links_shader(materials.buffers)
+            shader = _emitter_links_shader(materials.buffers, of_hemisphere)
             shader.bind()
             shader.uniform_sampler("materials", materials.table)
             for name, texture in zip(_VERTICES, (picture.position, picture.normal, picture.color), strict=True):
                 shader.uniform_sampler(name, texture)
             shader.uniform_sampler("path_way", picture.way)
             picture.made.bind(shader, materials.buffers)
+            if of_hemisphere:
+                shader.uniform_sampler("patch_points", self._points)
+                emitters.bind_densities(shader)
             full_screen_triangle().draw(shader)
         with blended("ADDITIVE_PREMULT"), self._shone.target.bind():
             set_viewport(0, 0, self._shone.texture.width, self._shone.texture.height)
@@ -337,15 +346,18 @@ def _sweep_shader() -> Any:
 
 
 @gpu_cache
-def _emitter_links_shader(buffers: Buffers) -> Any:
+def _emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
+    points = Piece(samplers={"patch_points": "FLOAT_2D"}, defines={"PATCH_POINTS": POINTS, **flags("OF_HEMISPHERE")})
     return build_shader(
         "light of emitters",
         FULL_SCREEN,
         TABLE,
         reads(buffers),
+        *((points, SHINES) if of_hemisphere else ()),
         Piece(
             samplers=named("FLOAT_2D", *_VERTICES, "path_way"),
             outputs={"link_out": "VEC4"},
+            defines=_BATCH,
             fragment="indirect/emitter_links.frag.glsl",
         ),
     )

@@ -15,12 +15,12 @@ from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..indirect.gather import (
     NO_FEATURES,
-    SHARED,
     Gathering,
     GatherPicture,
     SharedGather,
     Source,
     features_of,
+    shared_piece,
 )
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..paths.features import has_base
@@ -123,11 +123,12 @@ class ShadePass:
             seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
         )
         shared = None if gathers is None or mirrors_only else gathers.shared(seen)
+        shown_rays = None if gathers is None else self._share_shown(gathers, classes.depth, seen, reflected, mirrors)
         shown, strength = (canvas, weight) if shown_apart is None else (shown_apart, 1.0)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
-                self._add_shown(seen, reflected, view_uniforms, strength, shadows, features_of(gathers))
+                self._add_shown(seen, reflected, view_uniforms, strength, shadows, features_of(gathers), shown_rays)
             with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
                 if not mirrors_only:
@@ -136,30 +137,31 @@ class ShadePass:
                     )
                 self._add_front(seen, view_uniforms, weight, mirrors_only, shadows, by_camera)
         gathered = None
-        if gathers is not None:
-            gathered = gathers.picture(seen.width, seen.height, mirrors)
-            self._gather(gathers, gathered, classes.depth, seen, reflected)
         for bounce in later or ():
+            if gathers is not None and gathered is None:
+                gathered = gathers.picture(seen.width, seen.height, mirrors)
             self._add_path(shown, bounce, view_uniforms, strength, shadows, features_of(gathers))
             if gathers is not None and gathered is not None and not bounce.ends:
                 self._gather_later(gathers, gathered, bounce)
         if gathers is not None and gathered is not None:
             gathered.add(gathers, canvas, weight, self._lighting.features)
 
-    def _gather(
+    def _share_shown(
         self,
         by: Gathering,
-        gathered: GatherPicture,
         classes: Any,
         seen: SurfaceBuffer,
         reflected: SurfaceBuffer | Sequence[Environment] | None,
-    ) -> None:
-        """Follow rays from what mirrors show first."""
-        surface = (seen.position, seen.normal, seen.color)
-        if isinstance(reflected, SurfaceBuffer) and self.mirror_bounces > 0:
-            shown = (reflected.position, reflected.normal, reflected.color)
-            kind = PixelClass.MIRROR_OF_SURFACE / CLASS_COUNT
-            gathered.follow(by, Source.SHOWN, shown, reflected.made, surface, (classes, kind))
+        window: Window | None,
+    ) -> SharedGather | None:
+        """Rays of what mirrors show first."""
+        if not isinstance(reflected, SurfaceBuffer) or self.mirror_bounces == 0:
+            return None
+        picture = by.picture(seen.width, seen.height, window)
+        shown = (reflected.position, reflected.normal, reflected.color)
+        mirrors = (seen.position, seen.normal, seen.color)
+        kind = (classes, PixelClass.MIRROR_OF_SURFACE / CLASS_COUNT)
+        return picture.share(by, Source.SHOWN, shown, reflected.made, mirrors, kind)
 
     @staticmethod
     def _gather_later(by: Gathering, gathered: GatherPicture, bounce: Bounce) -> None:
@@ -193,11 +195,16 @@ class ShadePass:
             buffers = self._materials.buffers if kind is PixelClass.SURFACE else NONE
             is_shared = shared is not None and kind is PixelClass.SURFACE
             shader = _shade_shader(kind, features, buffers, as_camera, is_shared)
-            if is_shared:
-                shader.bind()
-                assert shared is not None
-                shared.bind(shader)
-            self._draw(shader, kind, seen, view_uniforms, weight, rays, seen.made if buffers else None)
+            self._draw(
+                shader,
+                kind,
+                seen,
+                view_uniforms,
+                weight,
+                rays,
+                seen.made if buffers else None,
+                shared if is_shared else None,
+            )
 
     def _add_shown(
         self,
@@ -207,6 +214,7 @@ class ShadePass:
         weight: float,
         shadows: RayShadows | None,
         gathered: Features,
+        shared: SharedGather | None,
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
@@ -217,13 +225,15 @@ class ShadePass:
                 features = features_for(
                     self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered
                 )
-                shader = _shade_shader(kind, features, self._materials.buffers)
+                is_shared = shared is not None and kind is PixelClass.MIRROR_OF_SURFACE
+                shader = _shade_shader(kind, features, self._materials.buffers, True, is_shared)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(_REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
                 rays = rays_of(features, shadows)
-                self._draw(shader, kind, seen, view_uniforms, weight, rays, reflected.made)
+                made, rays_shared = reflected.made, shared if is_shared else None
+                self._draw(shader, kind, seen, view_uniforms, weight, rays, made, rays_shared)
             return
         for environment in reflected or ():
             shader = _environment_shader(environment.lookup, self._lighting.features)
@@ -299,8 +309,10 @@ class ShadePass:
         weight: float,
         rays: RayScene | None = None,
         made: MaterialBuffers | None = None,
+        shared: SharedGather | None = None,
     ) -> None:
-        """A full-screen triangle for the pixels of one class; `rays`: if it follows some; `made`: of what is lit."""
+        """A full-screen triangle for the pixels of one class; `rays`: if it follows some; `made`: of what is lit;
+        `shared`: rays that its pixels share."""
         shader.bind()
         if rays is not None:
             rays.bind(shader)
@@ -313,6 +325,8 @@ class ShadePass:
         if made is not None:
             made.bind(shader, self._materials.buffers)
         self._lighting.bind(shader)
+        if shared is not None:
+            shared.bind(shader)
         full_screen_triangle().draw(shader)
 
     def _classes_for(self, seen: SurfaceBuffer) -> PixelClasses:
@@ -375,7 +389,7 @@ def _shade_shader(
         *((_OF_REFLECTED,) if shows_surface else ()),
         *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
-        *((SHARED,) if is_shared else ()),
+        *((shared_piece(kind is PixelClass.SURFACE),) if is_shared else ()),
         Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
     )
 

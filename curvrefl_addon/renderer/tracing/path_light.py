@@ -11,7 +11,7 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import Gathering, features_of
+from ..indirect.gather import Gathering, SharedGather, features_of, shared_piece
 from ..lighting.cells import At
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
@@ -49,13 +49,16 @@ class PathLight:
         before: SurfaceBuffer | PathVertices | None = None,
         classes_before: Any = None,
         sub_frame: int = 0,
+        shared: SharedGather | None = None,
     ) -> None:
         """Add the light of one class of vertices, times `weight`.
 
         `before`, `classes_before`: the vertices from which paths came here and their classes, None where these are what
-        the eye sees. Others as for `step.follow`.
+        the eye sees. Others as for `step.follow`; `shared`: rays that pixels of
+        surfaces where paths stop share.
         """
-        shader, rays = self._shader(kind, before is not None)
+        is_shared = shared is not None and kind is PathClass.STOPS
+        shader, rays = self._shader(kind, before is not None, is_shared)
         target = canvas.with_depth(classes)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self.around.window):
             set_viewport(0, 0, vertices.width, vertices.height)
@@ -78,6 +81,9 @@ class PathLight:
             if kind is PathClass.GOES_ON and self.gathers is not None and self.gathers.has_sky:
                 assert self.gathers.irradiance is not None
                 self.gathers.irradiance.bind(shader, At.ENDS_UNDER_SKY)
+            if is_shared:
+                assert shared is not None
+                shared.bind(shader)
             full_screen_triangle().draw(shader)
 
     @property
@@ -90,7 +96,7 @@ class PathLight:
         """Lamps may be met before surfaces."""
         return bool(self.lighting.features & LAMPS - {"LIGHTING_SUN"})
 
-    def _shader(self, kind: PathClass, on_path: bool) -> tuple[Any, Any]:
+    def _shader(self, kind: PathClass, on_path: bool, is_shared: bool) -> tuple[Any, Any]:
         """And the rays that it needs bound, if any."""
         features = self.lighting.features
         needs_shadows = kind is PathClass.STOPS
@@ -111,7 +117,7 @@ class PathLight:
         if kind is PathClass.MISSES and self.film_transparent:
             names.add(FILM_TRANSPARENT)
         buffers = self.around.materials.buffers
-        shader = _light_shader(kind, self.around.features, buffers, features, on_path, frozenset(names))
+        shader = _light_shader(kind, self.around.features, buffers, features, on_path, frozenset(names), is_shared)
         return shader, rays_of(features, self.shadows)
 
 
@@ -133,6 +139,7 @@ def _light_shader(
     lighting_features: Features,
     on_path: bool,
     names: Features,
+    is_shared: bool,
 ) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "before_position", "path_way", "path_throughput"), defines=flags("ON_PATH"))
     return build_shader(
@@ -143,6 +150,7 @@ def _light_shader(
         *((way,) if on_path else ()),
         *((_OF_QUADS,) if _shares_in_quads(kind, lighting_features) else ()),
         *lighting_pieces(lighting_features),
+        *((shared_piece(by_quads=False),) if is_shared else ()),
         Piece(
             constants={"weight": "FLOAT"},
             outputs={"color": "VEC4"},

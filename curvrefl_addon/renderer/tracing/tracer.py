@@ -8,7 +8,7 @@ from typing import Any
 
 from ...scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ..device.textures import depth_texture
-from ..indirect.gather import Gathering, Source
+from ..indirect.gather import Gathering, GatherPicture, Source
 from ..lighting.lighting import Lighting
 from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
@@ -126,7 +126,7 @@ class PathTracer:
             window,
         )
         light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base, gathers)
-        gathered = None if gathers is None else gathers.picture(seen.width, seen.height, window)
+        gathered: GatherPicture | None = None
         limits = self.limits(bounces)
         classes.sort_seen(seen, window, chosen, sees_through and self.sees_through)
         light.add(canvas, weight, PathClass.GOES_ON, seen, classes.depth(0))
@@ -141,11 +141,19 @@ class PathTracer:
             kinds = [PathClass.MISSES, PathClass.STOPS]
             if step < last and (self._has_base or light.lights_samples or light.has_bodies):
                 kinds.append(PathClass.GOES_ON)
+            stops = (classes.depth(step), PathClass.STOPS / CLASS_COUNT)
+            surface = (met.position, met.normal, met.color)
+            shared = None
+            if gathers is not None and step == 1:
+                # (Most paths stop here, where pixels next to each other still see the same.)
+                picture = gathers.picture(seen.width, seen.height, window)
+                shared = picture.share(gathers, Source.PATHS, surface, met.made, (met.way, met.throughput), stops)
             for kind in kinds:
-                light.add(canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame)
-            if gathers is not None and gathered is not None:
-                stops = (classes.depth(step), PathClass.STOPS / CLASS_COUNT)
-                surface = (met.position, met.normal, met.color)
+                light.add(
+                    canvas, weight, kind, met, classes.depth(step), before, classes.depth(step - 1), sub_frame, shared
+                )
+            if gathers is not None and step > 1:
+                gathered = gathered or gathers.picture(seen.width, seen.height, window)
                 gathered.follow(gathers, Source.PATHS, surface, met.made, (met.way, met.throughput), stops)
             before = met
             # (A look that waits for the GPU costs less than the passes of the steps that are left.)
