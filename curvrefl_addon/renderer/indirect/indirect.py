@@ -73,6 +73,7 @@ class IndirectLight:
         same_light = scene.lights is before.lights and scene.world is before.world
         if not same_light or scene.diffuse_bounces != before.diffuse_bounces:
             self._needs_light = True
+            self._needs_patches |= is_lit_indirectly(scene) != is_lit_indirectly(before)
             # (It may be worth its time now.)
             self._needs_patches |= self.irradiance is None
         if self._needs_light:
@@ -121,7 +122,7 @@ class IndirectLight:
             return None
         has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
         made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)
-        return Gathering(self.irradiance, self.emitters, has_sky, *made)
+        return Gathering(self.irradiance, self.emitters, has_sky, *made, self._scene.indirect_clamp)
 
     def _step(self, means: Means, whole: bool) -> bool:
         if self._work is None:

@@ -22,6 +22,8 @@ LEAST_POINTS = 4
 """Of each instance, where there are not too many"""
 MANY_INSTANCES = 2000
 MOST_TRIES = 8
+MORE = 1.3
+"""Smaller cells have to bring so many times more patches"""
 TRIANGLES_AT_ONCE, TRIANGLES_OF_INSTANCE = 100_000, 1000
 """Looked at in one step; what an instance takes beside its own"""
 POINTS_IN_CELL = 6.0
@@ -80,6 +82,8 @@ def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float)
     if not surfaces:
         return
     farthest = max(_reach(surface, focus) for surface in surfaces)
+    half = max(half, farthest / 2.0 ** (MOST_LEVELS - 1))
+    last = 0
     for _ in range(MOST_TRIES):
         levels = min(max(int(np.ceil(np.log2(max(farthest / half, 1.0)))) + 1, 1), MOST_LEVELS)
         # (An odd share of a cell off: floors and walls like to lie at round places.)
@@ -102,7 +106,12 @@ def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float)
         numbers = np.unique(cells[kept])
         if LEAST_PATCHES <= len(numbers) <= MOST_PATCHES:
             break
-        half *= float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
+        if len(numbers) < LEAST_PATCHES and len(numbers) < MORE * last:
+            # (There is no more to find.)
+            break
+        last = len(numbers)
+        factor = float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
+        half = max(half * factor, farthest / 2.0 ** (MOST_LEVELS - 1))
         yield None
     yield _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
 
@@ -131,7 +140,9 @@ def _candidates(surface: Surface, grid: CellGrid, with_least: bool) -> tuple[Flo
     double_area = np.linalg.norm(facing, axis=1)
     normals = facing / np.maximum(double_area, 1e-300)[:, None]
     size = grid.sizes(grid.levels_at(corners.mean(axis=1)))
-    wanted = np.where(double_area > 0.0, POINTS_IN_CELL * weights * 0.5 * double_area / size**2, 0.0)
+    # (What is outside of all levels is asked by nobody.)
+    inside = grid.levels_at(corners.mean(axis=1)) < grid.levels
+    wanted = np.where(inside & (double_area > 0.0), POINTS_IN_CELL * weights * 0.5 * double_area / size**2, 0.0)
     total = float(wanted.sum())
     if total <= 0.0:
         return np.empty((0, 3)), np.empty((0, 3))
