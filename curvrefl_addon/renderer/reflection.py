@@ -17,7 +17,7 @@ from .mirrors.mirror import Mirror
 from .rays.ray_scene import RayScene
 from .settings import Settings
 from .shading.calm import CalmHistory
-from .shading.shade import RayShadows
+from .shading.features import RayShadows
 from .shown.shown import Shown
 from .vertices.solution import SolvedChunk, VertexSolution
 

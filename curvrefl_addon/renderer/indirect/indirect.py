@@ -58,8 +58,9 @@ class IndirectLight:
         self._needs_patches = self._needs_light = True
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""
-        self._openness = 0.0
-        self._share = 1.0
+        self._openness, self._share = 0.0, 1.0
+        self.prepare_ms = 0.0
+        """Of the last time that all was found at once"""
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Know another state of the scene, whose geometry the `difference` has changed."""
@@ -102,8 +103,12 @@ class IndirectLight:
     def prepare(self, means: Means) -> bool:
         """Find all that is missing; returns whether there was something."""
         is_changed = False
+        start = perf_counter()
         while not self.is_settled:
             is_changed |= self._step(means, whole=True)
+        if self.irradiance is not None:
+            self.irradiance.wait()
+        self.prepare_ms = 1e3 * (perf_counter() - start)
         return is_changed
 
     def advance(self, means: Means, seconds: float) -> bool:
@@ -149,7 +154,8 @@ class IndirectLight:
             self.emitters = None if table is None else Emitters(table)
             found = None
             if is_lit_indirectly(self._scene):
-                for found in self._place():
+                for step in self._place():
+                    found = step
                     yield False
             if found is None:
                 was, self.irradiance, self._share = self.irradiance, None, 1.0
@@ -196,7 +202,8 @@ class IndirectLight:
         focus, half = self._focus(shown)
         surfaces = [Surface(placed[index].mesh, placed[index].instance, bool(is_solid[index])) for index in shown]
         patches = None
-        for patches in place_patches(surfaces, focus, half):
+        for step in place_patches(surfaces, focus, half):
+            patches = step
             yield None
         yield None if patches is None else (patches, is_solid)
 
