@@ -85,6 +85,11 @@ class IndirectLight:
         self._needs_light, self._work = True, None
 
     @property
+    def is_gathered(self) -> bool:
+        """There is light for rays to find."""
+        return self.irradiance is not None or self.emitters is not None
+
+    @property
     def is_settled(self) -> bool:
         """Nothing is left to find."""
         return not self._needs_patches and not self._needs_light and self._work is None
@@ -123,7 +128,7 @@ class IndirectLight:
 
     def gathering(self, means: Means, sub_frame: int) -> Gathering | None:
         """What a sub-frame gathers by; None where there is nothing to."""
-        if self.irradiance is None and self.emitters is None:
+        if not self.is_gathered:
             return None
         has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
         made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)

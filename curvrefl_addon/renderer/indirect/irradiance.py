@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...scene.arrays import Float32Array
 from ..cells.lookup import WALLS, At
 from ..device.batches import full_screen_triangle
 from ..device.frame_buffers import frame_buffer, wait_for
@@ -175,6 +176,10 @@ class Irradiance:
             reached = np.bincount(met[met >= 0], minlength=len(links)).astype(np.float64)
         weights = np.where(links > -2, reached[:, None], 0.0)
         return float((weights * (links == -1)).sum() / weights.sum()) if weights.sum() > 0.0 else 1.0
+
+    def arriving(self) -> Float32Array:
+        """(patches, 3) irradiance from other surfaces."""
+        return read_records(self._sent[0].arriving, self.patches.count)[:, :3]
 
     def share_of_surfaces(self) -> float:
         """Of all light, at the tenth of the patches that get most of theirs from other surfaces."""
