@@ -48,6 +48,9 @@ void main()
 #elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
   Surface s = surface_of(pixel, position, normal, base);
   s.emission = vec3(0.0);
+  // As Cycles' Filter Glossy, by its default: behind a wide lobe narrow ones are wider.
+  float blurred = way.z > 0.0 ? 0.5 * sqrt(max(1.0 - way.z, 0.0)) : 0.0;
+  s.roughness = max(s.roughness, sqrt(blurred));
   radiance = shade_surface(s, -direction);
 #endif
 #ifndef LIGHTS_SHINES
