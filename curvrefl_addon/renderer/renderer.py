@@ -336,8 +336,7 @@ class Renderer:
         self, reflection: Reflection, window: Window | None = None, everywhere: bool = False, index: int = 0
     ) -> SubFrame:
         """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        gathered = reflection.at_rest
-        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index, gathered)
+        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index)
 
     def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
         if revision != self.revision:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from .indirect.gather_shaders import LANES
 from .indirect.indirect import Means
 from .reflection import Reflection
 from .settings import Settings
@@ -22,17 +23,17 @@ def draw_seen(
     window: Window | None = None,
     everywhere: bool = False,
     index: int = 0,
-    gathered: bool = False,
 ) -> SubFrame:
     """Draw it from where the reflection's view looks, in `window` alone if given, but `everywhere` if asked for.
 
-    `index`: number of the sub-frame; `gathered`: rays find the light between surfaces.
+    `index`: number of the sub-frame.
     """
     view, geometry = reflection.view, stage.geometry
     targets, shadows = pool.of(view.width, view.height), reflection.ray_shadows(stage.rays)
     uniforms = view_block(view)
     gathers = None
-    if gathered:
+    # (Few rays would be noise: patches alone are calm.)
+    if reflection.at_rest and settings.samples >= LANES:
         gathers = stage.indirect.gathering(Means(stage.rays, stage.materials, stage.lighting, uniforms), index)
     sub_frame = SubFrame(stage, view, uniforms, targets, window, shadows, index, gathers)
     mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
