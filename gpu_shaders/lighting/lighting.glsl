@@ -50,6 +50,7 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #include "lighting/world_light.glsl"
 #include "lighting/lamps.glsl"
 #ifdef LIGHTING_INDIRECT
+#define SMOOTH_CELLS
 #include "indirect/cells.glsl"
 #endif
 
@@ -57,8 +58,7 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 // Radiance towards the viewer of what arrives from other surfaces, as their patches know it.
 vec3 surfaces_on(Surface s, Lobes lobes)
 {
-  int place = patch_at(s.position, s.normal);
-  vec3 arriving = place < 0 ? vec3(0.0) : fetch_record(patch_light, place).rgb / LIGHTING_PI;
+  vec3 arriving = patches_around(s.position, s.normal) / LIGHTING_PI;
   return (lobes.diffuse + lobes.specular_albedo) * arriving;
 }
 #endif

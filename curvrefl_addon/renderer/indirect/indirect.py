@@ -65,6 +65,7 @@ class IndirectLight:
                 self._place()
             self._is_placed = True
             if self.irradiance is not None:
+                self.irradiance.find_walls(rays())
                 for _ in range(BATCHES):
                     self.irradiance.follow_rays(rays(), materials, lighting, view_uniforms, self.emitters)
         if self.irradiance is not None:

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
+from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, read_records, record_texture
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
 from ..device.state import blended, drawing_state, set_viewport
 from ..device.textures import depth_texture, empty_texture, texture_2d
-from ..lighting.cells import CELLS, At
+from ..lighting.cells import CELLS, WALLS, At
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..programs.buffers import Buffers, MaterialBuffers, reads
@@ -56,13 +56,10 @@ class Irradiance:
         solids[:, 0] = is_solid
         self._solids = record_texture(solids)
         count = patches.count
-        points = np.zeros((count, 2, POINTS, 4), np.float32)
-        points[:, 0, :, :3], points[:, 1, :, :3] = patches.positions, patches.normals
-        self._points = record_texture(points.reshape(-1, 4))
-        rows = padded_count(len(patches.table)) // TEXTURE_WIDTH
-        table = np.full((rows * TEXTURE_WIDTH, 1), -1.0, np.float32)
-        table[: len(patches.table), 0] = patches.table
-        self._table = texture_2d(table.reshape(rows, TEXTURE_WIDTH, 1), "R32F")
+        self._points: Any = None
+        self._fill_points()
+        self._walls = _Records(count * WALLS)
+        self._fill_table(np.zeros(count, bool))
         self._of_lamps, self._of_sky = _Records(count * POINTS), _Records(count * POINTS)
         self._swept = _Records(count)
         self._shone: _Records | None = None
@@ -72,6 +69,35 @@ class Irradiance:
         self._links: list[Any] = []
         """A texture for each batch"""
         self._picture: _Picture | None = None
+
+    def _fill_points(self) -> None:
+        points = np.zeros((self.patches.count, 2, POINTS, 4), np.float32)
+        points[:, 0, :, :3], points[:, 1, :, :3] = self.patches.positions, self.patches.normals
+        self._points = record_texture(points.reshape(-1, 4))
+
+    def _fill_table(self, has_walls: NDArray[np.bool_]) -> None:
+        """`has_walls`: (patches,) something ends what a patch stands for."""
+        numbers = self.patches.table
+        rows = padded_count(len(numbers)) // TEXTURE_WIDTH
+        table = np.full((rows * TEXTURE_WIDTH, 1), -1.0, np.float32)
+        table[: len(numbers), 0] = numbers + np.where(numbers >= 0, 0.5 * has_walls[numbers], 0.0)
+        self._table = texture_2d(table.reshape(rows, TEXTURE_WIDTH, 1), "R32F")
+
+    def find_walls(self, rays: RayScene) -> None:
+        """What parts patches from their surroundings."""
+        shader = _walls_shader()
+        with drawing_state(), self._walls.target.bind():
+            set_viewport(0, 0, self._walls.texture.width, self._walls.texture.height)
+            shader.bind()
+            rays.bind(shader)
+            self._bind_grid(shader)
+            shader.uniform_sampler("patch_points", self._points)
+            shader.uniform_int("patches", self.patches.count)
+            full_screen_triangle().draw(shader)
+        walls = read_records(self._walls.texture, self.patches.count * WALLS).reshape(-1, WALLS, 4)
+        self._fill_table((walls[:, :, 3] > -1e29).any(axis=1))
+        self.patches = self.patches.parted(walls[:, :, :3], walls[:, :, 3])
+        self._fill_points()
 
     @property
     def batches(self) -> int:
@@ -85,8 +111,12 @@ class Irradiance:
         shader.uniform_sampler("patch_light", (before.sent, now.arriving, now.under_sky)[at])
 
     def _bind_cells(self, shader: Any) -> None:
-        grid = self.patches.grid
         shader.uniform_sampler("cell_table", self._table)
+        shader.uniform_sampler("patch_walls", self._walls.texture)
+        self._bind_grid(shader)
+
+    def _bind_grid(self, shader: Any) -> None:
+        grid = self.patches.grid
         if knows(shader, "cell_grid"):
             shader.uniform_float("cell_grid", (*grid.focus, grid.half))
             shader.uniform_float("cell_levels", float(grid.levels))
@@ -288,6 +318,19 @@ def _light_shader(features: Features, of_sky: bool) -> Any:
             defines=flags("OF_SKY") if of_sky else {},
             fragment="indirect/patch_light.frag.glsl",
         ),
+    )
+
+
+@gpu_cache
+def _walls_shader() -> Any:
+    return build_shader(
+        "walls of patches",
+        FULL_SCREEN,
+        RAYS,
+        TABLE,
+        CELLS,
+        _POINTS,
+        Piece(outputs={"wall_out": "VEC4"}, fragment="indirect/patch_walls.frag.glsl"),
     )
 
 

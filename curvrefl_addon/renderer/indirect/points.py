@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ POINTS = 4
 """Of each cell"""
 MOST_TRIANGLES = 20_000
 """Of a mesh that are looked at: some stand for all of a finer one"""
-MOST_PATCHES = 24_000
+LEAST_PATCHES, WANTED_PATCHES, MOST_PATCHES = 6_000, 12_000, 24_000
 LEAST_POINTS = 4
 """Of each instance, where there are not too many"""
 MANY_INSTANCES = 2000
@@ -43,6 +43,15 @@ class Patches:
     def count(self) -> int:
         return len(self.positions)
 
+    def parted(self, normals: Float32Array, distances: Float32Array) -> Patches:
+        """Without the points that are behind one of the walls, planes (patches, n, 3), (patches, n), of their patch: the
+        first one, which is before all of them, stands in."""
+        heights = np.einsum("pwk,pnk->pwn", normals, self.positions)
+        behind = (heights < distances[:, :, None]).any(axis=1)
+        places = np.where(behind, 0, np.arange(POINTS)[None])
+        rows = np.arange(self.count)[:, None]
+        return replace(self, positions=self.positions[rows, places], normals=self.normals[rows, places])
+
 
 @dataclass(frozen=True, slots=True)
 class Surface:
@@ -57,12 +66,12 @@ class Surface:
 def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float) -> Patches | None:
     """Points on all surfaces about a place (3,), finest within `half` of it; None where there is no surface.
 
-    Where that makes too many patches all are larger.
+    Where that makes too few or too many patches all are smaller or larger.
     """
     if not surfaces:
         return None
     farthest = max(_reach(surface, focus) for surface in surfaces)
-    for _ in range(6):
+    for _ in range(8):
         levels = min(max(int(np.ceil(np.log2(max(farthest / half, 1.0)))) + 1, 1), MOST_LEVELS)
         # (An odd share of a cell off: floors and walls like to lie at round places.)
         shifted = focus + half / 16.0 * np.array([0.317, 0.431, 0.283])
@@ -74,9 +83,9 @@ def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float)
         if len(kept) == 0:
             return None
         numbers = np.unique(cells[kept])
-        if len(numbers) <= MOST_PATCHES:
-            return _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
-        half *= float(np.clip((len(numbers) / MOST_PATCHES) ** 0.5 * 1.1, 1.2, 4.0))
+        if LEAST_PATCHES <= len(numbers) <= MOST_PATCHES:
+            break
+        half *= float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
     return _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
 
 

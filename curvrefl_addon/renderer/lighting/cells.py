@@ -7,14 +7,16 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any, Protocol
 
-from ..device.shaders import Piece
+from ..device.shaders import Piece, named
 
+WALLS = 4
+"""Planes about each patch that may end what it stands for"""
 SIDE = 32
 """Cells along the side of each of the nested cubes"""
 CELLS = Piece(
-    samplers={"cell_table": "FLOAT_2D"},
+    samplers=named("FLOAT_2D", "cell_table", "patch_walls"),
     constants={"cell_grid": "VEC4", "cell_levels": "FLOAT"},
-    defines={"CELL_SIDE": SIDE},
+    defines={"CELL_SIDE": SIDE, "PATCH_WALLS": WALLS},
 )
 """What `cells.glsl` needs"""
 
