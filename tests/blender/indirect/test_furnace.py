@@ -38,8 +38,8 @@ def closed_box(size: float, albedo: float, bounces: int) -> None:
     half = 0.5 * size
     add_box("room", [-half] * 3, [half] * 3, shining, inward=True)
     add_box("block", [0.1 * size, 0.1 * size, -half], [0.3 * size, 0.3 * size, -0.2 * size], shining)
-    add_mirror(size / 6.0)
-    add_camera((0.0, -0.45 * size, 0.0), (0.0, 0.0, 0.0), 50.0, clip=(size / 1000.0, 10.0 * size))
+    add_mirror(size / 10.0)
+    add_camera((0.0, -0.45 * size, 0.0), (0.0, 0.0, 0.0), 28.0, clip=(size / 1000.0, 10.0 * size))
 
 
 @pytest.mark.parametrize("size", [0.04, 4.0, 400.0])
