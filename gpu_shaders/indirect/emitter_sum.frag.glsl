@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sum over one batch of rays from each patch (a fragment each) to places that shine.
+#include "indirect/point_weight.glsl"
 
 void main()
 {
@@ -10,8 +11,9 @@ void main()
   if (place >= patches) {
     return;
   }
+  vec4 weights = weights_of_points(texelFetch(point_weights, pixel, 0));
   for (int ray = 0; ray < RAYS_AT_ONCE; ray++) {
     int number = place * RAYS_AT_ONCE + ray;
-    color += texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0);
+    color += weights[ray % PATCH_POINTS] * texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0);
   }
 }

@@ -4,7 +4,7 @@
 // above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
 // mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
 // multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts; 4 a ray
-// that brings nothing.
+// that brings nothing, 5 one that met something before the place.
 // With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went, over the
 // share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
@@ -152,7 +152,7 @@ void main()
   // (What is before the place may shine, too: it has chances of its own.)
   is_alive = is_alive && (kind < 2.5 || hit.range > 0.999 * farthest);
 #endif
-  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? 4.0 : 0.0);
+  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? (kind > 2.5 ? 5.0 : 4.0) : 0.0);
   if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, start, direction);
     surface_position = vec4(surface.position, surface.object_id);

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a ray from a patch has met, as a link: number of the patch there, -1 for none; how much of what arrives there it
-// sends on. A ray that began inside of a solid thing counts for nothing (-2).
+// sends on. A ray that began inside of a solid thing counts for nothing (-2). A quarter more: it met something close by.
 #include "lighting/ggx.glsl"
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
 #include "indirect/cells.glsl"
 #include "paths/path_state.glsl"
 #include "indirect/sent_on.glsl"
+
+// In cells.
+#define CLOSE 0.25
 
 void main()
 {
@@ -20,7 +23,9 @@ void main()
   }
   else if (position.w > 0.5) {
     vec4 normal = texelFetch(vertex_normal, pixel, 0);
-    link_out.x = float(patch_at(position.xyz, normal.xyz));
+    vec3 from = position.xyz - way.w * way_direction(way);
+    bool is_close = way.w < CLOSE * cell_size(max(cell_level(from), 0.0));
+    link_out.x = float(patch_at(position.xyz, normal.xyz)) + (is_close ? 0.25 : 0.0);
     Material m = material_at(pixel, material_number(normal.w), texelFetch(vertex_color, pixel, 0).rgb);
     link_out.yzw = sent_on(m, normal.xyz, way_direction(way));
   }

@@ -3,6 +3,7 @@
 // All light at each patch (a fragment each): what lamps and the world send straight there, the mean over its points
 // that are not inside of something; and what has come from other surfaces.
 #include "common/records.glsl"
+#include "indirect/point_weight.glsl"
 
 void main()
 {
@@ -13,15 +14,11 @@ void main()
   vec3 of_lamps = vec3(0.0), of_sky = vec3(0.0);
   float all = 0.0;
   if (place < patches) {
+    vec4 weights = weights_of_points(texelFetch(point_weights, pixel, 0));
     for (int point = 0; point < PATCH_POINTS; point++) {
-      float counts = 0.0;
-      for (int ray = point; ray < RAYS_AT_ONCE; ray += PATCH_POINTS) {
-        int number = place * RAYS_AT_ONCE + ray;
-        counts += texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0).x > -1.5 ? 1.0 : 0.0;
-      }
-      of_lamps += counts * fetch_record(patch_lamps, place * PATCH_POINTS + point).rgb;
-      of_sky += counts * fetch_record(patch_sky, place * PATCH_POINTS + point).rgb;
-      all += counts;
+      of_lamps += weights[point] * fetch_record(patch_lamps, place * PATCH_POINTS + point).rgb;
+      of_sky += weights[point] * fetch_record(patch_sky, place * PATCH_POINTS + point).rgb;
+      all += weights[point];
     }
   }
 #ifdef EMITTERS

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light of rays between surfaces that pixels share: those off the base with the texels of `gather_light` about the
 // pixel's own whose rays began on the same surface nearby. With SHARED_BY_QUADS a quad of pixels has one texel, whose
-// ray began at one of them (`lane`), another one in each sub-frame. `gather_light`: radiance over the chance of the ray;
+// ray began at one of them (`lane`), another one in each sub-frame. With EMITTERS those that went to where light comes
+// from are shared as well, where none of them met a shadow. `gather_light`: radiance over the chance of the ray;
 // w: what it was. Needs `gather_way`, the push constant `share_turn` (INT: of the sub-frame) and the samplers SHARED_POSITION and SHARED_NORMAL of where rays began.
 #include "indirect/followed_value.glsl"
 #include "paths/path_state.glsl"
@@ -33,17 +34,21 @@ bool shares_rays(ivec2 other, vec4 place, vec3 normal)
   return there.w == place.w && dot(turned, normal) > 0.9 && abs(dot(off, normal)) <= 0.2 * length(off);
 }
 
-vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer)
+vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer)
 {
+  vec3 normal = dot(facing, to_viewer) < 0.0 ? -facing : facing;
 #ifdef SHARED_BY_QUADS
   ivec2 own = pixel >> 1;
 #else
   ivec2 own = pixel;
 #endif
   ivec2 most = textureSize(gather_light, 0) - 1;
-  vec3 off_base = vec3(0.0);
+  vec3 off_base = vec3(0.0), shining = vec3(0.0), own_shining = vec3(0.0);
+  bool is_shadowed = false;  // some of those that went to where light comes from
   float count = 0.0;
-  bool has_own = false;
+  // The first that is shared stands for the pixel's own where only one ray will do: that of its quad, mostly.
+  vec4 own_light = vec4(0.0);
+  ivec2 own_texel = own;
   // (Others about it by chance: a fixed pattern would be seen.)
   uint seed = hashed(uint(pixel.x) | (uint(pixel.y) << 16u)) + uint(share_turn);
   for (int k = 0; k < SHARED_TAPS; k++) {
@@ -56,10 +61,21 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
       texel = clamp(own + ivec2(round(off)), ivec2(0), most);
     }
     vec4 light = texelFetch(gather_light, texel, 0);
-    if (light.w > 0.5 && shares_rays(asked_at(texel), place, normal)) {
+    if (light.w > 0.5 && shares_rays(asked_at(texel), place, facing)) {
+      bool is_own = count == 0.0;
       count += 1.0;
+      own_light = is_own ? light : own_light;
+      own_texel = is_own ? texel : own_texel;
       off_base += light.w < 1.5 ? light.rgb : vec3(0.0);
-      has_own = has_own || k == 0;
+#ifdef EMITTERS
+      if (light.w > 2.5 && light.w < 3.5) {
+        vec3 direction = way_direction(texelFetch(gather_way, texel, 0));
+        vec3 found = light.rgb * (max(dot(normal, direction), 0.0) / LIGHTING_PI);
+        shining += found;
+        own_shining = is_own ? found : own_shining;
+      }
+      is_shadowed = is_shadowed || light.w > 4.5;
+#endif
     }
   }
   float cos_viewer = dot(s.normal, to_viewer);
@@ -71,12 +87,14 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
     return surfaces_on(s, lobes);
   }
 #endif
-  vec3 sum = lobes.diffuse * off_base / max(count, 1.0);
-  vec4 light = texelFetch(gather_light, own, 0);
-  // (Where the quad's ray is another surface's, none of the pixel's own stands for it: three rays in four.)
-  if (has_own && light.w > 1.5) {
-    vec3 direction = way_direction(texelFetch(gather_way, own, 0));
-    sum += light.rgb * (light.w < 2.5 ? lobes.specular_albedo : followed_value(lobes, s.normal, to_viewer, direction));
+  // (At the edge of a shadow each has its own alone: rays that agree are as good as one another's, so the mean is right.)
+  vec3 sum = off_base / max(count, 1.0);
+  sum += is_shadowed ? own_shining : shining / max(count, 1.0);
+  sum *= lobes.diffuse;
+  if (own_light.w > 1.5 && own_light.w < 3.5) {
+    vec3 direction = way_direction(texelFetch(gather_way, own_texel, 0));
+    vec3 value = own_light.w < 2.5 ? lobes.specular_albedo : lobe_value(lobes, s.normal, to_viewer, direction);
+    sum += own_light.rgb * value;
   }
   return sum;
 }

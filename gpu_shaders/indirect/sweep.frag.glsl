@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light that one batch of links brings to each patch (a fragment each): the sum over its rays, and how many count.
 #include "common/records.glsl"
+#include "indirect/point_weight.glsl"
 
 void main()
 {
@@ -11,13 +12,15 @@ void main()
   if (place >= patches) {
     return;
   }
+  vec4 weights = weights_of_points(texelFetch(point_weights, pixel, 0));
   for (int ray = 0; ray < RAYS_AT_ONCE; ray++) {
     int number = place * RAYS_AT_ONCE + ray;
     vec4 link = texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0);
-    int other = int(link.x);
-    color.w += other > -2 ? 1.0 : 0.0;
-    if (other >= 0) {
-      color.rgb += link.yzw * fetch_record(patch_sent, other).rgb;
+    int other = int(floor(link.x));
+    float counts = other > -2 ? weights[ray % PATCH_POINTS] : 0.0;
+    color.w += counts;
+    if (other >= 0 && counts > 0.0) {
+      color.rgb += counts * link.yzw * fetch_record(patch_sent, other).rgb;
     }
   }
 }

@@ -35,10 +35,14 @@ from .emitters import EMITTERS, SHINES, Emitters
 from .irradiance import Irradiance
 
 NO_FEATURES: Features = frozenset()
+ASKS_EMITTERS = "ASKS_EMITTERS"
+"""Among `Gathering.features`: some rays go to where light comes from"""
 GATHER_BOUNCE = 61
 """Number of the random numbers of these rays, among those of paths' bounces"""
 EMITTER_SHARE = 0.5
 """Of the rays that go to where light comes from, in scenes with emitters"""
+LANES = 4
+"""Pixels of a quad"""
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
 _MET = ("vertex_position", "vertex_normal", "vertex_color")
@@ -81,18 +85,22 @@ class SharedGather:
             self.by.irradiance.bind(shader, At.ENDS_UNDER_SKY if self.by.has_sky else At.ENDS)
 
 
-def shared_piece(by_quads: bool) -> Piece:
+def shared_piece(by_quads: bool, with_emitters: bool) -> Piece:
     """What `shared_gather.glsl` needs."""
     return Piece(
         samplers=named("FLOAT_2D", "gather_light", "gather_way"),
         constants={"share_turn": "INT", **({"lane": "IVEC2"} if by_quads else {})},
-        defines=flags("GATHER_SHARED", *(("SHARED_BY_QUADS",) if by_quads else ())),
+        defines=flags(
+            "GATHER_SHARED",
+            *(("SHARED_BY_QUADS",) if by_quads else ()),
+            *(("EMITTERS",) if with_emitters else ()),
+        ),
     )
 
 
 def lane_of(sub_frame: int) -> tuple[int, int]:
     """Which pixel of each quad follows a ray."""
-    return ((0, 0), (1, 1), (1, 0), (0, 1))[sub_frame % 4]
+    return ((0, 0), (1, 1), (1, 0), (0, 1))[sub_frame % LANES]
 
 
 class _Kind(IntEnum):
@@ -126,7 +134,11 @@ class Gathering:
     def features(self) -> Features:
         """Beside those of the lighting: what rays find needs no light of patches (GATHERED) and no directions of the
         world (SKY_GATHERED)."""
-        names = {"GATHERED": self.irradiance is not None, "SKY_GATHERED": self.has_sky}
+        names = {
+            "GATHERED": self.irradiance is not None,
+            "SKY_GATHERED": self.has_sky,
+            ASKS_EMITTERS: self.emitters is not None,
+        }
         return frozenset(name for name, is_so in names.items() if is_so)
 
     def shared(self, seen: SurfaceBuffer) -> SharedGather:
@@ -221,7 +233,10 @@ class GatherPicture:
                 shader.uniform_int("lane", lane_of(by.sub_frame))
             if source is Source.LATER:
                 shader.uniform_float("skips_mirrors", float(skips_mirrors))
-            shader.uniform_int("path_point", path_point(by.sub_frame, GATHER_BOUNCE, lighting.sub_frames))
+            # (A pixel of a quad has its turn once in four sub-frames: a sequence of its own, or its rays would be biased.)
+            turns = LANES if by_quads else 1
+            number, count = by.sub_frame // turns, -(-lighting.sub_frames // turns)
+            shader.uniform_int("path_point", path_point(number, GATHER_BOUNCE, count))
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
             for name, texture in zip((*_MET, *source.value), (*surface, *others), strict=True):

@@ -59,9 +59,14 @@ class Irradiance:
         self._points: Any = None
         self._fill_points()
         self._walls = _Records(count * WALLS)
-        self._fill_table(np.zeros(count, bool))
+        self._has_walls = np.zeros(count, bool)
+        self._fill_table()
         self._of_lamps, self._of_sky = _Records(count * POINTS), _Records(count * POINTS)
         self._swept = _Records(count)
+        self._open = _Records(count)
+        """How many rays of each point have not met something close by"""
+        with self._open.target.bind():
+            self._open.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         self._shone: _Records | None = None
         """What emitters send straight to the patches; made where there are some"""
         self._sent = [_Sent(count), _Sent(count)]
@@ -75,12 +80,11 @@ class Irradiance:
         points[:, 0, :, :3], points[:, 1, :, :3] = self.patches.positions, self.patches.normals
         self._points = record_texture(points.reshape(-1, 4))
 
-    def _fill_table(self, has_walls: NDArray[np.bool_]) -> None:
-        """`has_walls`: (patches,) something ends what a patch stands for."""
+    def _fill_table(self) -> None:
         numbers = self.patches.table
         rows = padded_count(len(numbers)) // TEXTURE_WIDTH
         table = np.full((rows * TEXTURE_WIDTH, 1), -1.0, np.float32)
-        table[: len(numbers), 0] = numbers + np.where(numbers >= 0, 0.5 * has_walls[numbers], 0.0)
+        table[: len(numbers), 0] = numbers + np.where(numbers >= 0, 0.5 * self._has_walls[numbers], 0.0)
         self._table = texture_2d(table.reshape(rows, TEXTURE_WIDTH, 1), "R32F")
 
     def find_walls(self, rays: RayScene) -> None:
@@ -95,7 +99,8 @@ class Irradiance:
             shader.uniform_int("patches", self.patches.count)
             full_screen_triangle().draw(shader)
         walls = read_records(self._walls.texture, self.patches.count * WALLS).reshape(-1, WALLS, 4)
-        self._fill_table((walls[:, :, 3] > -1e29).any(axis=1))
+        self._has_walls = (walls[:, :, 3] > -1e29).any(axis=1)
+        self._fill_table()
         self.patches = self.patches.parted(walls[:, :, :3], walls[:, :, 3])
         self._fill_points()
 
@@ -144,8 +149,28 @@ class Irradiance:
             picture.made.bind(shader, materials.buffers)
             full_screen_triangle().draw(shader)
         self._links.append(links)
+        self._weigh_points(links)
+        if self.batches == 1:
+            self._drop_dead()
         if emitters is not None:
             self._ask_emitters(emitters, rays, materials, view_uniforms)
+
+    def _weigh_points(self, links: Any) -> None:
+        """How open points are, by another batch."""
+        with blended("ADDITIVE_PREMULT"), self._open.target.bind():
+            set_viewport(0, 0, self._open.texture.width, self._open.texture.height)
+            shader = _weights_shader()
+            shader.bind()
+            shader.uniform_int("patches", self.patches.count)
+            shader.uniform_sampler("links", links)
+            full_screen_triangle().draw(shader)
+
+    def _drop_dead(self) -> None:
+        """Patches all of whose points are inside of something, or in crevices: their cells take others beside them."""
+        is_open = read_records(self._open.texture, self.patches.count).max(axis=1) > 0.0
+        if not is_open.all():
+            self.patches = self.patches.without(~is_open)
+            self._fill_table()
 
     def _ask_emitters(self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any) -> None:
         """What shines that the rays of the batch which was followed last have met, and a batch to places that shine."""
@@ -183,6 +208,7 @@ class Irradiance:
             shader.bind()
             shader.uniform_int("patches", self.patches.count)
             shader.uniform_sampler("links", links)
+            shader.uniform_sampler("point_weights", self._open.texture)
             full_screen_triangle().draw(shader)
 
     def light(self, lighting: Lighting, sub_frames: int) -> None:
@@ -216,6 +242,7 @@ class Irradiance:
                 shader.bind()
                 shader.uniform_int("patches", self.patches.count)
                 shader.uniform_sampler("patch_sent", self._sent[0].sent)
+                shader.uniform_sampler("point_weights", self._open.texture)
                 for links in self._links:
                     shader.uniform_sampler("links", links)
                     full_screen_triangle().draw(shader)
@@ -236,7 +263,7 @@ class Irradiance:
             shader.uniform_sampler("patch_swept", self._swept.texture)
             shader.uniform_sampler("patch_lamps", self._of_lamps.texture)
             shader.uniform_sampler("patch_sky", self._of_sky.texture)
-            shader.uniform_sampler("links", self._links[0])
+            shader.uniform_sampler("point_weights", self._open.texture)
             if self._shone is not None:
                 shader.uniform_sampler("patch_shone", self._shone.texture)
             full_screen_triangle().draw(shader)
@@ -374,15 +401,30 @@ def _links_shader(buffers: Buffers, features: Features) -> Any:
 
 
 @gpu_cache
+def _weights_shader() -> Any:
+    return build_shader(
+        "openness of points",
+        FULL_SCREEN,
+        Piece(
+            samplers={"links": "FLOAT_2D"},
+            constants={"patches": "INT"},
+            outputs={"color": "VEC4"},
+            defines={**_BATCH, "PATCH_POINTS": POINTS},
+            fragment="indirect/point_weights.frag.glsl",
+        ),
+    )
+
+
+@gpu_cache
 def _sweep_shader() -> Any:
     return build_shader(
         "sweep",
         FULL_SCREEN,
         Piece(
-            samplers=named("FLOAT_2D", "patch_sent", "links"),
+            samplers=named("FLOAT_2D", "patch_sent", "links", "point_weights"),
             constants={"patches": "INT"},
             outputs={"color": "VEC4"},
-            defines=_BATCH,
+            defines={**_BATCH, "PATCH_POINTS": POINTS},
             fragment="indirect/sweep.frag.glsl",
         ),
     )
@@ -412,10 +454,10 @@ def _emitter_sum_shader() -> Any:
         "sum of emitters",
         FULL_SCREEN,
         Piece(
-            samplers={"links": "FLOAT_2D"},
+            samplers=named("FLOAT_2D", "links", "point_weights"),
             constants={"patches": "INT"},
             outputs={"color": "VEC4"},
-            defines=_BATCH,
+            defines={**_BATCH, "PATCH_POINTS": POINTS},
             fragment="indirect/emitter_sum.frag.glsl",
         ),
     )
@@ -428,7 +470,7 @@ def _sum_shader(with_emitters: bool) -> Any:
         FULL_SCREEN,
         Piece(
             samplers=named(
-                "FLOAT_2D", "patch_swept", "patch_lamps", "patch_sky", "links", *(("patch_shone",) if with_emitters else ())
+                "FLOAT_2D", "patch_swept", "patch_lamps", "patch_sky", "point_weights", *(("patch_shone",) if with_emitters else ())
             ),
             constants={"patches": "INT"},
             outputs=named("VEC4", "sent_out", "arriving_out", "under_sky_out"),

@@ -43,6 +43,11 @@ class Patches:
     def count(self) -> int:
         return len(self.positions)
 
+    def without(self, gone: NDArray[np.bool_]) -> Patches:
+        """Where patches that are `gone` (patches,) have no cell: those beside them take it."""
+        table = np.where((self.table >= 0) & gone[self.table], -1, self.table).astype(np.int32)
+        return replace(self, table=spread_to_neighbors(table, self.grid.levels))
+
     def parted(self, normals: Float32Array, distances: Float32Array) -> Patches:
         """Without the points that are behind one of the walls, planes (patches, n, 3), (patches, n), of their patch: the
         first one, which is before all of them, stands in."""

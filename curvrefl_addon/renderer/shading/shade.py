@@ -14,6 +14,7 @@ from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..indirect.gather import (
+    ASKS_EMITTERS,
     NO_FEATURES,
     Gathering,
     GatherPicture,
@@ -389,7 +390,7 @@ def _shade_shader(
         *((_OF_REFLECTED,) if shows_surface else ()),
         *lighting_pieces(features),
         *(() if by_camera else (_SEEN_BY_MIRROR,)),
-        *((shared_piece(kind is PixelClass.SURFACE),) if is_shared else ()),
+        *((shared_piece(kind is PixelClass.SURFACE, ASKS_EMITTERS in features),) if is_shared else ()),
         Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
     )
 

@@ -11,7 +11,7 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import Gathering, SharedGather, features_of, shared_piece
+from ..indirect.gather import ASKS_EMITTERS, Gathering, SharedGather, features_of, shared_piece
 from ..lighting.cells import At
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
@@ -150,7 +150,7 @@ def _light_shader(
         *((way,) if on_path else ()),
         *((_OF_QUADS,) if _shares_in_quads(kind, lighting_features) else ()),
         *lighting_pieces(lighting_features),
-        *((shared_piece(by_quads=False),) if is_shared else ()),
+        *((shared_piece(False, ASKS_EMITTERS in lighting_features),) if is_shared else ()),
         Piece(
             constants={"weight": "FLOAT"},
             outputs={"color": "VEC4"},
