@@ -42,6 +42,7 @@ def start(bounces: int) -> Any:
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0.0
     cycles.use_light_tree = False
+    cycles.light_sampling_threshold = 0.0
     world_of(gray(0.0))
     return scene
 
