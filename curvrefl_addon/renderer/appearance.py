@@ -10,7 +10,7 @@ from typing import Any
 from ..optics.catalog import Method
 from ..scene.arrays import SceneArrays
 from .geometry.scene_geometry import Difference, SceneGeometry
-from .indirect.indirect import IndirectLight
+from .indirect.indirect import IndirectLight, Means
 from .lighting.lighting import Lighting
 from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
@@ -57,9 +57,15 @@ class Appearance:
         elif difference.moved and self.tracer is not None:
             self.tracer.move(scene)
 
-    def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any) -> bool:
-        """Find the light between surfaces, as far as that is not known; returns whether there was something to do."""
-        is_changed = self.indirect.prepare(rays, self.materials, self.lighting, view_uniforms)
+    def light_surfaces(
+        self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None
+    ) -> bool:
+        """Find the light between surfaces, as far as that is not known: all, or for so long; returns whether pictures
+        are others by it."""
+        if self.indirect.is_settled:
+            return False
+        means = Means(rays, self.materials, self.lighting, view_uniforms)
+        is_changed = self.indirect.prepare(means) if seconds is None else self.indirect.advance(means, seconds)
         if is_changed:
             self.lighting.use(self.indirect.irradiance)
         return is_changed
@@ -78,6 +84,7 @@ class Appearance:
         self.lighting = Lighting(self._scene, self._geometry, self.materials, samples)
         self.shade = ShadePass(self._scene, self.lighting, self.materials)
         self.lighting.use(self.indirect.irradiance)
+        self.indirect.restart()
         self.tracer = self._new_tracer()
 
     def warnings(self, method: Method) -> tuple[str, ...]:

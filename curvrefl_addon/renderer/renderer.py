@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -41,6 +42,10 @@ from .surfaces.pixel_filter import offsets
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
+
+
+LIGHT_SECONDS = 0.03
+"""In each redraw, for light between surfaces"""
 
 
 class Renderer:
@@ -76,6 +81,9 @@ class Renderer:
         self._preparation = Preparation()
         self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
+        self._is_gradual = is_gradual
+        self._view_uniforms: Any = None
+        """Of the last view"""
         self._jitter = offsets(self.settings.samples)
         self._placement = Placement(self.geometry.facts)
         self._given = scene
@@ -238,7 +246,9 @@ class Renderer:
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
         view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
-        self._appearance.light_surfaces(self.rays, view_block(view))
+        self._view_uniforms = view_block(view)
+        if not self._is_gradual:
+            self._appearance.light_surfaces(self.rays, self._view_uniforms)
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
         if last is not None and not np.array_equal(last.origin, origin):
@@ -306,13 +316,15 @@ class Renderer:
 
     @property
     def is_loading(self) -> bool:
-        """Some materials or images are not drawn as they are yet."""
-        return self._appearance.materials.is_loading
+        """Some materials or images are not drawn as they are yet, or light between surfaces is not all found."""
+        return self._appearance.materials.is_loading or not self._appearance.indirect.is_settled
 
     def load_some(self, seconds: float) -> None:
-        """Go on with that: a program, or images for about so long."""
-        if self._appearance.load_some(seconds):
-            self.revision += 1
+        """Go on with that: a program, images for about so long, light."""
+        is_changed = self._appearance.load_some(seconds)
+        if not self._appearance.materials.is_loading and self._view_uniforms is not None:
+            is_changed |= self._appearance.light_surfaces(self.rays, self._view_uniforms, LIGHT_SECONDS)
+        self.revision += is_changed
 
     @property
     def ray_counters(self) -> dict[str, int]:

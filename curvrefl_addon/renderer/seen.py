@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from .indirect.indirect import Means
 from .reflection import Reflection
 from .settings import Settings
 from .shown.shown import Stage, SubFrame
@@ -32,8 +33,7 @@ def draw_seen(
     uniforms = view_block(view)
     gathers = None
     if gathered:
-        made = (stage.materials, stage.lighting)
-        gathers = stage.indirect.gathering(stage.rays, *made, uniforms, index)
+        gathers = stage.indirect.gathering(Means(stage.rays, stage.materials, stage.lighting, uniforms), index)
     sub_frame = SubFrame(stage, view, uniforms, targets, window, shadows, index, gathers)
     mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
     if not reflection.shown and not settings.entry.solves_vertices:

@@ -238,7 +238,7 @@ def compare_steps(
 
 def _in_direct_light(scene: SceneArrays) -> SceneArrays:
     """Mirrors follow each other as often as asked on both sides, whatever the file says."""
-    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0)
+    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0, indirect_clamp=0.0)
 
 
 def _run(

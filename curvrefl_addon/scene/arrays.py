@@ -291,3 +291,5 @@ class SceneArrays:
     """Where in the world these coordinates have theirs"""
     diffuse_bounces: int = 0
     """Surfaces one after the other from which they follow scattered light"""
+    indirect_clamp: float = 0.0
+    """The most that light which has bounced adds to a sample there, mean of red, green and blue; 0: any"""

@@ -330,5 +330,6 @@ class SceneReader:
             transmission_bounces=bounces.transmission,
             transparent_bounces=bounces.transparent,
             diffuse_bounces=bounces.diffuse,
+            indirect_clamp=bounces.clamp,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)

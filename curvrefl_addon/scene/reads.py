@@ -111,7 +111,9 @@ class Bounces:
     mirror: int = UNLIMITED_BOUNCES
     transmission: int = UNLIMITED_BOUNCES
     transparent: int = UNLIMITED_BOUNCES
-    diffuse: int = 0
+    diffuse: int = 4
+    """(What Cycles begins with, too)"""
+    clamp: float = 0.0
 
 
 def bounces_of(scene: bpy.types.Scene) -> Bounces:
@@ -127,6 +129,7 @@ def bounces_of(scene: bpy.types.Scene) -> Bounces:
         min(cycles.max_bounces, cycles.transmission_bounces),
         cycles.transparent_max_bounces,
         min(cycles.max_bounces, cycles.diffuse_bounces),
+        cycles.sample_clamp_indirect,
     )
 
 
@@ -245,6 +248,7 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.transmission_bounces == last.transmission_bounces
         and result.transparent_bounces == last.transparent_bounces
         and result.diffuse_bounces == last.diffuse_bounces
+        and result.indirect_clamp == last.indirect_clamp
         and result.warnings == last.warnings
     )
     return last if same else result

@@ -4,7 +4,8 @@
 // above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
 // mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
 // multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts; 4 a ray
-// that brings nothing, 5 one that met something before the place.
+// that brings nothing, 5 one that met something before the place,
+// 6 through the base to the other side.
 // With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went, over the
 // share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
@@ -25,10 +26,10 @@
 #define START_OFFSET 2e-6
 
 // Of a ray off base and lobe to a direction in the frame of the normal.
-float ray_density(Lobes lobes, float chance, vec3 viewer, vec3 light)
+float ray_density(Lobes lobes, float through, float chance, vec3 viewer, vec3 light)
 {
-  float sum = (1.0 - chance) * max(light.z, 0.0) / PI;
-  if (chance > 0.0 && lobes.alpha > GGX_SINGULAR_ALPHA) {
+  float sum = (1.0 - chance) * (light.z > 0.0 ? 1.0 - through : through) * abs(light.z) / PI;
+  if (light.z > 0.0 && chance > 0.0 && lobes.alpha > GGX_SINGULAR_ALPHA) {
     vec2 alpha = vec2(lobes.alpha);
     sum += chance * reflected_density(viewer, normalize(viewer + light), alpha, cap_bound(viewer, alpha));
   }
@@ -77,8 +78,14 @@ void main()
   vec4 random = path_random(pixel);
   float of_base = mean_of(lobes.diffuse);
   float of_lobe = mean_of(lobes.specular_albedo);
-  // (Few rays look at a lobe that hardly reflects: at least so many that none counts for much.)
-  float chance = of_lobe > 0.0 ? of_lobe / max(of_base + of_lobe, 1e-9) : 0.0;
+  float through = 0.0;
+#ifdef SURFACE_TRANSLUCENT
+  through = mean_of(lobes.translucent);
+  of_base += through;
+  through /= max(of_base, 1e-9);
+#endif
+  // (By the roots: what a lobe shows may be far brighter than what the base scatters.)
+  float chance = of_lobe > 0.0 ? sqrt(of_lobe) / max(sqrt(of_base) + sqrt(of_lobe), 1e-9) : 0.0;
   bool is_lobe = random.z < chance;
   mat3 frame = surface_frame(s.normal, s.normal);
   vec3 direction;
@@ -92,6 +99,9 @@ void main()
   vec3 size = abs(s.position);
   vec3 start = s.position + s.normal * (START_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
   float farthest = 3e38;
+#ifdef SURFACE_TRANSLUCENT
+  vec3 below = 2.0 * s.position - start;
+#endif
 #ifdef EMITTERS
   if (random.w < EMITTER_SHARE) {
     EmitterPlace shining = emitter_place(vec3(random.xy, random.w / EMITTER_SHARE));
@@ -99,9 +109,13 @@ void main()
     farthest = length(away);
     direction = away / max(farthest, 1e-20);
     vec3 light = direction * frame;
-    density = ray_density(lobes, chance, viewer, light);
+    density = ray_density(lobes, through, chance, viewer, light);
     float found = emitter_density(shining.density, farthest, dot(shining.normal, direction));
     weight = light.z > 0.0 ? followed_value(lobes, s.normal, -incoming, direction) : vec3(0.0);
+#ifdef SURFACE_TRANSLUCENT
+    weight += lobes.translucent * (max(-light.z, 0.0) / PI);
+    start = light.z < 0.0 ? below : start;
+#endif
     inverse_chance = 1.0 / (EMITTER_SHARE * found + (1.0 - EMITTER_SHARE) * density);
     weight *= inverse_chance;
     // (It has to be met itself.)
@@ -122,21 +136,32 @@ void main()
     inverse_chance = 1.0 / chance;
     weight = lobes.specular_albedo * inverse_chance;
     // (0: sharp.)
-    density = lobes.alpha > GGX_SINGULAR_ALPHA ? ray_density(lobes, chance, viewer, direction * frame) : 0.0;
+    density = lobes.alpha > GGX_SINGULAR_ALPHA ?
+      ray_density(lobes, through, chance, viewer, direction * frame) : 0.0;
   }
   else {
     direction = frame * cosine_direction(random.xy);
-    inverse_chance = 1.0 / (1.0 - chance);
+    inverse_chance = 1.0 / ((1.0 - chance) * (1.0 - through));
     weight = lobes.diffuse * inverse_chance;
-    density = ray_density(lobes, chance, viewer, direction * frame);
+#ifdef SURFACE_TRANSLUCENT
+    float turned = (random.z - chance) / max(1.0 - chance, 1e-9);
+    if (turned < through) {
+      direction = -direction;
+      start = below;
+      inverse_chance = 1.0 / ((1.0 - chance) * through);
+      weight = lobes.translucent * inverse_chance;
+      kind = 6.0;
+    }
+#endif
+    density = ray_density(lobes, through, chance, viewer, direction * frame);
   }
 #ifdef EMITTERS
-  weight /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
-  inverse_chance /= kind < 2.5 ? 1.0 - EMITTER_SHARE : 1.0;
+  weight /= kind != 3.0 ? 1.0 - EMITTER_SHARE : 1.0;
+  inverse_chance /= kind != 3.0 ? 1.0 - EMITTER_SHARE : 1.0;
 #endif
   weight *= throughput;
   bool is_asked = largest(throughput) > 0.0;
-  bool is_alive = largest(weight) > 0.0 && dot(direction, s.normal) > 0.0;
+  bool is_alive = largest(weight) > 0.0 && (start != s.position) && dot(direction, start - s.position) > 0.0;
   int seen_by = is_lobe ? SEEN_IN_MIRRORS : SEEN_BY_DIFFUSE;
   Hit hit = walk(start, direction, is_alive ? farthest : -1.0, seen_by, 0.0, false);
   surface_position = vec4(start, 0.0);
@@ -150,9 +175,9 @@ void main()
 #endif
 #ifdef EMITTERS
   // (What is before the place may shine, too: it has chances of its own.)
-  is_alive = is_alive && (kind < 2.5 || hit.range > 0.999 * farthest);
+  is_alive = is_alive && (kind != 3.0 || hit.range > 0.999 * farthest);
 #endif
-  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? (kind > 2.5 ? 5.0 : 4.0) : 0.0);
+  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? (kind == 3.0 ? 5.0 : 4.0) : 0.0);
   if (hit.instance >= 0) {
     RaySurface surface = surface_of_hit(hit, start, direction);
     surface_position = vec4(surface.position, surface.object_id);

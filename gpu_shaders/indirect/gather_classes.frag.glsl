@@ -8,9 +8,14 @@ void main()
   float of = texelFetch(gather_weight, pixel, 0).w;
   bool is_hit = texelFetch(vertex_position, pixel, 0).w > 0.5;
   float kind = CLASS_COUNT;
-  if (of > 0.5 && of < 3.5) {
-    kind = is_hit ? (of > 2.5 ? SHINES : (of > 1.5 ? LOBE_MEETS : BASE_MEETS)) : (of > 1.5 ? LOBE_MISSES : BASE_MISSES);
-    kind = of > 2.5 && !is_hit ? CLASS_COUNT : kind;
+  if (of == 1.0 || of == 6.0) {
+    kind = is_hit ? BASE_MEETS : BASE_MISSES;
+  }
+  else if (of == 2.0) {
+    kind = is_hit ? LOBE_MEETS : LOBE_MISSES;
+  }
+  else if (of == 3.0 && is_hit) {
+    kind = SHINES;
   }
   gl_FragDepth = kind / CLASS_COUNT;
 }

@@ -33,14 +33,21 @@ void main()
   int material = material_number(normal.w);
   Material m = material_at(pixel, material, base);
 #if defined(LIGHTS_BASE_MEETS) && !defined(DIRECT_ALONE)
-  int place = patch_at(position.xyz, normal.xyz);
+  vec3 side = normal.xyz;
+  vec3 sent = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), direction, side);
+  int place = patch_at(position.xyz, side);
   if (place >= 0) {
-    radiance = sent_on(m, normal.xyz, direction) * fetch_record(patch_light, place).rgb / LIGHTING_PI;
+    radiance = sent * fetch_record(patch_light, place).rgb / LIGHTING_PI;
   }
 #elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
   Surface s = surface_of(pixel, position, normal, base);
   s.emission = vec3(0.0);
   radiance = shade_surface(s, -direction);
+#endif
+#ifndef LIGHTS_SHINES
+  // As Cycles clamps what has bounced.
+  float most = clamp_most / max(largest(texelFetch(gather_weight, pixel, 0).rgb), 1e-9);
+  radiance *= min(1.0, most / max(mean_of(radiance), 1e-9));
 #endif
 #ifdef EMITTERS
   float share = 1.0;

@@ -25,8 +25,9 @@ void main()
     vec4 normal = texelFetch(vertex_normal, pixel, 0);
     vec3 from = position.xyz - way.w * way_direction(way);
     bool is_close = way.w < CLOSE * cell_size(max(cell_level(from), 0.0));
-    link_out.x = float(patch_at(position.xyz, normal.xyz)) + (is_close ? 0.25 : 0.0);
     Material m = material_at(pixel, material_number(normal.w), texelFetch(vertex_color, pixel, 0).rgb);
-    link_out.yzw = sent_on(m, normal.xyz, way_direction(way));
+    vec3 side = normal.xyz;
+    link_out.yzw = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), way_direction(way), side);
+    link_out.x = float(patch_at(position.xyz, side)) + (is_close ? 0.25 : 0.0);
   }
 }

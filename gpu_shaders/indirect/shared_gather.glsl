@@ -74,7 +74,7 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
         shining += found;
         own_shining = is_own ? found : own_shining;
       }
-      is_shadowed = is_shadowed || light.w > 4.5;
+      is_shadowed = is_shadowed || light.w == 5.0;
 #endif
     }
   }
@@ -91,10 +91,16 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
   vec3 sum = off_base / max(count, 1.0);
   sum += is_shadowed ? own_shining : shining / max(count, 1.0);
   sum *= lobes.diffuse;
-  if (own_light.w > 1.5 && own_light.w < 3.5) {
+  if (own_light.w == 2.0 || own_light.w == 3.0) {
     vec3 direction = way_direction(texelFetch(gather_way, own_texel, 0));
-    vec3 value = own_light.w < 2.5 ? lobes.specular_albedo : lobe_value(lobes, s.normal, to_viewer, direction);
+    vec3 value = own_light.w == 2.0 ? lobes.specular_albedo : lobe_value(lobes, s.normal, to_viewer, direction);
+#ifdef SURFACE_TRANSLUCENT
+    value += own_light.w == 3.0 ? lobes.translucent * (max(-dot(s.normal, direction), 0.0) / LIGHTING_PI) : vec3(0.0);
+#endif
     sum += own_light.rgb * value;
   }
+#ifdef SURFACE_TRANSLUCENT
+  sum += own_light.w == 6.0 ? own_light.rgb * lobes.translucent : vec3(0.0);
+#endif
   return sum;
 }

@@ -59,7 +59,11 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 vec3 surfaces_on(Surface s, Lobes lobes)
 {
   vec3 arriving = patches_around(s.position, s.normal) / LIGHTING_PI;
-  return (lobes.diffuse + lobes.specular_albedo) * arriving;
+  vec3 sum = (lobes.diffuse + lobes.specular_albedo) * arriving;
+#ifdef SURFACE_TRANSLUCENT
+  sum += lobes.translucent * patches_around(s.position, -s.normal) / LIGHTING_PI;
+#endif
+  return sum;
 }
 #endif
 

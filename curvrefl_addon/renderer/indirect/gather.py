@@ -16,7 +16,7 @@ from ...optics.scattering.sampler import path_point
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import depth_texture, empty_texture
 from ..lighting.cells import CELLS, At
@@ -41,6 +41,7 @@ GATHER_BOUNCE = 61
 """Number of the random numbers of these rays, among those of paths' bounces"""
 EMITTER_SHARE = 0.5
 """Of the rays that go to where light comes from, in scenes with emitters"""
+LARGEST = 1e30
 LANES = 4
 """Pixels of a quad"""
 MOST_SIZES = 3
@@ -129,6 +130,8 @@ class Gathering:
     lighting: Lighting
     view_uniforms: Any
     sub_frame: int
+    clamp: float = 0.0
+    """The most that a ray which has met a surface brings, mean of red, green and blue; 0: any"""
 
     @property
     def features(self) -> Features:
@@ -303,6 +306,8 @@ class GatherPicture:
                 shader.uniform_float("pixel_class", float(kind))
                 if not is_shared:
                     shader.uniform_float("weight", weight)
+                if knows(shader, "clamp_most"):
+                    shader.uniform_float("clamp_most", by.clamp or LARGEST)
                 shader.uniform_sampler("materials", materials.table)
                 for name, texture in zip(_MET, (self._position, self._normal, self._color), strict=True):
                     shader.uniform_sampler(name, texture)
@@ -413,7 +418,7 @@ def _light_shader(
         *((RAYS,) if rays else ()),
         Piece(
             samplers=named("FLOAT_2D", *_MET, "path_way", "gather_weight", "patch_light"),
-            constants={} if is_shared else {"weight": "FLOAT"},
+            constants={"clamp_most": "FLOAT", **({} if is_shared else {"weight": "FLOAT"})},
             outputs={"color": "VEC4"},
             defines={
                 **flags(

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -18,8 +20,8 @@ from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
 from .emitters import Emitters, emitter_table
 from .gather import Gathering, GatherPool
-from .irradiance import Irradiance
-from .points import Surface, place_patches
+from .irradiance import RAYS_AT_ONCE, Irradiance
+from .points import Patches, Surface, place_patches
 
 BATCHES = 4
 """Of rays, of which each patch sends RAYS_AT_ONCE in each"""
@@ -27,6 +29,20 @@ LIGHTS = 16
 """Sub-frames whose lamps and directions of the world light the patches"""
 MANY_TO_CLOSE = 300_000
 """A mesh of more triangles is not asked whether it is closed"""
+LEAST_SHARE = 0.02
+"""Of all light at the tenth of the patches that get most of theirs from other surfaces: less is not worth its time"""
+OPEN = 0.4
+"""Share of rays over patches that meet nothing: then the sky's shadows by a few directions serve better than rays"""
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """What light is found by."""
+
+    rays: Callable[[], RayScene]
+    materials: Materials
+    lighting: Lighting
+    view_uniforms: Any
 
 
 class IndirectLight:
@@ -35,67 +51,154 @@ class IndirectLight:
     def __init__(self, scene: SceneArrays, geometry: SceneGeometry) -> None:
         self._scene, self._geometry = scene, geometry
         self.irradiance: Irradiance | None = None
-        """None where light bounces off no surface"""
+        """None where light bounces off no surface, or changes nothing"""
         self.emitters: Emitters | None = None
         """None where no surface shines"""
         self._pool = GatherPool()
-        self._is_placed = self._is_lit = False
+        self._needs_patches = self._needs_light = True
+        self._work: Iterator[bool] | None = None
+        """Steps that are left, each True where light has changed by it"""
+        self._openness = 0.0
+        self._share = 1.0
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Know another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene = self._scene, scene
-        objects = ("materials", "images", "reflectors", "origin")
-        is_same = all(getattr(scene, name) == getattr(before, name) for name in ("reflectors", "origin"))
-        is_same &= all(getattr(scene, name) is getattr(before, name) for name in objects[:2])
+        is_same = all(getattr(scene, name) is getattr(before, name) for name in ("materials", "images"))
+        is_same &= scene.reflectors == before.reflectors and scene.origin == before.origin
+        if scene.origin != before.origin:
+            self.irradiance = None
         if difference.structure or difference.moved or not is_same:
-            self._is_placed = False
+            self._needs_patches = self._needs_light = True
         same_light = scene.lights is before.lights and scene.world is before.world
         if not same_light or scene.diffuse_bounces != before.diffuse_bounces:
-            self._is_lit = False
+            self._needs_light = True
+            self._needs_patches |= is_lit_indirectly(scene) != is_lit_indirectly(before)
+            # (It may be worth its time now.)
+            self._needs_patches |= self.irradiance is None
+        if self._needs_light:
+            self._work = None
 
-    def prepare(self, rays: Callable[[], RayScene], materials: Materials, lighting: Lighting, view_uniforms: Any) -> bool:
-        """Make all that is missing; returns whether there was something."""
-        if self._is_placed and self._is_lit:
-            return False
-        if not self._is_placed:
-            table = emitter_table(self._scene)
-            self.emitters = None if table is None else Emitters(table)
-            self.irradiance = None
-            if is_lit_indirectly(self._scene):
-                self._place()
-            self._is_placed = True
-            if self.irradiance is not None:
-                self.irradiance.find_walls(rays())
-                for _ in range(BATCHES):
-                    self.irradiance.follow_rays(rays(), materials, lighting, view_uniforms, self.emitters)
-        if self.irradiance is not None:
-            self.irradiance.light(lighting, min(LIGHTS, lighting.sub_frames))
-            self.irradiance.sweep(self._scene.diffuse_bounces)
-        self._is_lit = True
-        return True
+    def restart(self) -> None:
+        """Find light anew, by other means than before."""
+        self._needs_light, self._work = True, None
 
-    def gathering(
-        self, rays: Callable[[], RayScene], materials: Materials, lighting: Lighting, view_uniforms: Any, sub_frame: int
-    ) -> Gathering | None:
+    @property
+    def is_settled(self) -> bool:
+        """Nothing is left to find."""
+        return not self._needs_patches and not self._needs_light and self._work is None
+
+    @property
+    def state(self) -> str:
+        """For a panel or a report."""
+        if self.irradiance is None:
+            if not self.is_settled:
+                return "to be found"
+            return "none" if self._share >= LEAST_SHARE else f"left out: {100.0 * self._share:.1f} % of the light"
+        rays = RAYS_AT_ONCE * self.irradiance.batches
+        patches = f"{self.irradiance.patches.count:,} patches, {rays} rays each"
+        return patches if self.is_settled else f"{patches}, not settled"
+
+    def prepare(self, means: Means) -> bool:
+        """Find all that is missing; returns whether there was something."""
+        is_changed = False
+        while not self.is_settled:
+            is_changed |= self._step(means, whole=True)
+        return is_changed
+
+    def advance(self, means: Means, seconds: float) -> bool:
+        """Find light for about so long, a step at least; returns whether that of pictures has changed."""
+        is_changed = False
+        end = perf_counter() + seconds
+        while not self.is_settled:
+            is_changed |= self._step(means, whole=False)
+            if perf_counter() >= end:
+                break
+        return is_changed
+
+    def gathering(self, means: Means, sub_frame: int) -> Gathering | None:
         """What a sub-frame gathers by; None where there is nothing to."""
         if self.irradiance is None and self.emitters is None:
             return None
-        has_sky = self.irradiance is not None and "LIGHTING_WORLD" in lighting.features
-        made = (self._pool, rays(), materials, lighting, view_uniforms, sub_frame)
-        return Gathering(self.irradiance, self.emitters, has_sky, *made)
+        has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
+        made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)
+        return Gathering(self.irradiance, self.emitters, has_sky, *made, self._scene.indirect_clamp)
 
-    def _place(self) -> None:
+    def _step(self, means: Means, whole: bool) -> bool:
+        if self._work is None:
+            anew = self._needs_patches
+            self._needs_patches = self._needs_light = False
+            self._work = self._steps(means, anew, whole)
+        try:
+            return next(self._work)
+        except StopIteration:
+            self._work = None
+            return False
+
+    def _steps(self, means: Means, anew: bool, whole: bool) -> Iterator[bool]:
+        """All that there is to do; not `whole`: with light that is not yet right in between."""
+        lights = min(LIGHTS, means.lighting.sub_frames)
+        bounces = self._scene.diffuse_bounces
+        if self.irradiance is not None and not whole:
+            # What is known of the surfaces before serves until there is more.
+            self.irradiance.light(means.lighting, 1)
+            self.irradiance.sweep(bounces)
+            yield True
+        if anew:
+            table = emitter_table(self._scene)
+            self.emitters = None if table is None else Emitters(table)
+            found = None
+            if is_lit_indirectly(self._scene):
+                for found in self._place():
+                    yield False
+            if found is None:
+                was, self.irradiance, self._share = self.irradiance, None, 1.0
+                yield was is not None
+                return
+            patches, is_solid = found
+            irradiance = Irradiance(patches, is_solid)
+            yield False
+            irradiance.find_walls(means.rays())
+            for batch in range(BATCHES):
+                for _ in irradiance.follow_rays(
+                    means.rays(), means.materials, means.lighting, means.view_uniforms, self.emitters
+                ):
+                    yield False
+                if batch == 0:
+                    self._openness = irradiance.openness()
+                if batch == 0 and not whole:
+                    irradiance.light(means.lighting, 1)
+                    irradiance.sweep(bounces)
+                    self.irradiance = irradiance
+                    yield True
+            self.irradiance = irradiance
+        if self.irradiance is None:
+            return
+        for _ in self.irradiance.light_some(means.lighting, lights):
+            yield False
+        self.irradiance.sweep(bounces)
+        if anew:
+            self._share = self.irradiance.share_of_surfaces()
+            if self._share < LEAST_SHARE:
+                self.irradiance = None
+        yield True
+
+    def _place(self) -> Iterator[tuple[Patches, NDArray[np.bool_]] | None]:
+        """Patches, last, and which instances are solid."""
         placed = self._geometry.placed
         shown = [index for index, item in enumerate(placed) if len(item.mesh.triangles) and is_there(item.instance)]
         is_solid = np.zeros(max(len(placed), 1), bool)
         if not shown:
+            yield None
             return
         is_solid[shown] = self._solid(shown)
+        yield None
         focus, half = self._focus(shown)
         surfaces = [Surface(placed[index].mesh, placed[index].instance, bool(is_solid[index])) for index in shown]
-        patches = place_patches(surfaces, focus, half)
-        if patches is not None:
-            self.irradiance = Irradiance(patches, is_solid)
+        patches = None
+        for patches in place_patches(surfaces, focus, half):
+            yield None
+        yield None if patches is None else (patches, is_solid)
 
     def _solid(self, shown: list[int]) -> NDArray[np.bool_]:
         """Which are closed and hold no other thing's middle."""

@@ -10,6 +10,7 @@ Monte Carlo form factors of Shirley, "Radiosity via ray tracing", 1991).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,8 +21,8 @@ from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
 from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, read_records, record_texture
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
-from ..device.state import blended, drawing_state, set_viewport
-from ..device.textures import depth_texture, empty_texture, texture_2d
+from ..device.state import blended, drawing_state, scissored, set_viewport
+from ..device.textures import depth_texture, empty_texture, read_texture, texture_2d
 from ..lighting.cells import CELLS, WALLS, At
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, Lighting, lighting_piece
@@ -39,6 +40,8 @@ PICTURE_WIDTH = 1024
 """Of the picture that has a pixel for each ray of a batch"""
 FOLLOWED = 0.5
 """Depth of all its pixels"""
+ROWS_AT_ONCE = 48
+"""Of that picture, in one step"""
 MOST_SWEEPS = 8
 """Surfaces that light bounces off at most"""
 _POINTS = Piece(samplers={"patch_points": "FLOAT_2D"}, constants={"patches": "INT"}, defines={"PATCH_POINTS": POINTS})
@@ -128,12 +131,14 @@ class Irradiance:
 
     def follow_rays(
         self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any, emitters: Emitters | None
-    ) -> None:
-        """Another batch of rays; `emitters`: surfaces that shine, if there are some."""
+    ) -> Iterator[None]:
+        """Another batch of rays, step by step; `emitters`: surfaces that shine, if there are some."""
         if self._picture is None:
             self._picture = _Picture(self.patches.count)
         picture = self._picture
-        picture.follow(rays, materials, view_uniforms, (self._points, self._solids), self.patches.count, self.batches)
+        records = (self._points, self._solids)
+        for _ in picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches):
+            yield
         links = empty_texture(picture.width, picture.height)
         target = frame_buffer(links)
         shader = _links_shader(materials.buffers, lighting.features)
@@ -153,7 +158,31 @@ class Irradiance:
         if self.batches == 1:
             self._drop_dead()
         if emitters is not None:
-            self._ask_emitters(emitters, rays, materials, view_uniforms)
+            yield
+            yield from self._ask_emitters(emitters, rays, materials, view_uniforms)
+
+    def openness(self) -> float:
+        """Share of rays that have met nothing, of patches about the focus and what light there has come by."""
+        numbers = read_texture(self._links[0])[..., 0].ravel()[: self.patches.count * RAYS_AT_ONCE]
+        links = np.floor(numbers).astype(np.int64).reshape(-1, RAYS_AT_ONCE)
+        grid = self.patches.grid
+        away = np.abs(self.patches.positions[:, 0] - np.array(grid.focus)).max(axis=1)
+        # (Most walls have an outer side, too, which sees nothing but sky and nobody looks at.)
+        reached = np.where(away < 0.5 * grid.half, 1.0, 0.0)
+        for _ in range(2):
+            met = links[reached > 0.0].ravel()
+            reached = np.bincount(met[met >= 0], minlength=len(links)).astype(np.float64)
+        weights = np.where(links > -2, reached[:, None], 0.0)
+        return float((weights * (links == -1)).sum() / weights.sum()) if weights.sum() > 0.0 else 1.0
+
+    def share_of_surfaces(self) -> float:
+        """Of all light, at the tenth of the patches that get most of theirs from other surfaces."""
+        sent, arriving = (
+            read_records(texture, self.patches.count)[:, :3].sum(axis=1)
+            for texture in (self._sent[0].sent, self._sent[0].arriving)
+        )
+        lit = np.abs(sent) > 0.0
+        return float(np.quantile(np.abs(arriving[lit]) / np.abs(sent[lit]), 0.9)) if lit.any() else 0.0
 
     def _weigh_points(self, links: Any) -> None:
         """How open points are, by another batch."""
@@ -172,7 +201,9 @@ class Irradiance:
             self.patches = self.patches.without(~is_open)
             self._fill_table()
 
-    def _ask_emitters(self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any) -> None:
+    def _ask_emitters(
+        self, emitters: Emitters, rays: RayScene, materials: Materials, view_uniforms: Any
+    ) -> Iterator[None]:
         """What shines that the rays of the batch which was followed last have met, and a batch to places that shine."""
         assert self._picture is not None
         if self._shone is None:
@@ -181,7 +212,8 @@ class Irradiance:
                 self._shone.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         self._add_shining(emitters, materials, of_hemisphere=True)
         picture, records = self._picture, (self._points, self._solids)
-        picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches, emitters)
+        for _ in picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches, emitters):
+            yield
         self._add_shining(emitters, materials, of_hemisphere=False)
 
     def _add_shining(self, emitters: Emitters, materials: Materials, of_hemisphere: bool) -> None:
@@ -213,6 +245,11 @@ class Irradiance:
 
     def light(self, lighting: Lighting, sub_frames: int) -> None:
         """Find what lamps and the world send straight to the patches: the mean of so many sub-frames' lights."""
+        for _ in self.light_some(lighting, sub_frames):
+            pass
+
+    def light_some(self, lighting: Lighting, sub_frames: int) -> Iterator[None]:
+        """The same, step by step."""
         for records in (self._of_lamps, self._of_sky):
             with records.target.bind():
                 records.target.clear(color=(0.0, 0.0, 0.0, 0.0))
@@ -228,6 +265,7 @@ class Irradiance:
                     shader.uniform_float("weight", 1.0 / sub_frames)
                     lighting.bind(shader)
                     full_screen_triangle().draw(shader)
+            yield
 
     def sweep(self, bounces: int) -> None:
         """Let light go from patch to patch, off `bounces` surfaces at most."""
@@ -303,7 +341,7 @@ class _Picture:
     def follow(
         self, rays: RayScene, materials: Materials, view_uniforms: Any, records: tuple[Any, Any], patches: int, batch: int,
         emitters: Emitters | None = None,
-    ) -> None:
+    ) -> Iterator[None]:
         has_programs = materials.has_programs
         if self._target is None or has_programs != (self.hits is not None):
             self.hits = empty_texture(self.width, self.height) if has_programs else None
@@ -312,24 +350,25 @@ class _Picture:
             with self._target.bind():
                 self._target.clear(depth=FOLLOWED)
         shader = _rays_shader(has_programs, emitters is not None)
-        with drawing_state(), self._target.bind():
-            set_viewport(0, 0, self.width, self.height)
-            shader.bind()
-            rays.bind(shader)
-            shader.uniform_sampler("materials", materials.table)
-            shader.uniform_sampler("patch_points", records[0])
-            shader.uniform_sampler("solids", records[1])
-            shader.uniform_int("patches", patches)
-            shader.uniform_int("batch", batch)
-            if emitters is not None:
-                emitters.bind(shader)
-            full_screen_triangle().draw(shader)
-        if has_programs:
-            hits = Hits(self.position, self.normal, self.color, self.hits, None, self.way, is_gathered=True)
-            window = (0, 0, self.width, self.height)
-            self._pass.draw(
-                hits, self.made, (self._depth, FOLLOWED), rays, materials, view_uniforms, window, (batch, 1)
-            )
+        for first in range(0, self.height, ROWS_AT_ONCE):
+            window = (0, first, self.width, min(ROWS_AT_ONCE, self.height - first))
+            with drawing_state(), self._target.bind(), scissored(window):
+                set_viewport(0, 0, self.width, self.height)
+                shader.bind()
+                rays.bind(shader)
+                shader.uniform_sampler("materials", materials.table)
+                shader.uniform_sampler("patch_points", records[0])
+                shader.uniform_sampler("solids", records[1])
+                shader.uniform_int("patches", patches)
+                shader.uniform_int("batch", batch)
+                if emitters is not None:
+                    emitters.bind(shader)
+                full_screen_triangle().draw(shader)
+            if has_programs:
+                hits = Hits(self.position, self.normal, self.color, self.hits, None, self.way, is_gathered=True)
+                made, turn = (rays, materials, view_uniforms), (batch, 1)
+                self._pass.draw(hits, self.made, (self._depth, FOLLOWED), *made, window, turn)
+            yield
 
 
 @gpu_cache

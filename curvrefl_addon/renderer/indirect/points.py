@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +21,11 @@ LEAST_PATCHES, WANTED_PATCHES, MOST_PATCHES = 6_000, 12_000, 24_000
 LEAST_POINTS = 4
 """Of each instance, where there are not too many"""
 MANY_INSTANCES = 2000
+MOST_TRIES = 8
+MORE = 1.3
+"""Smaller cells have to bring so many times more patches"""
+TRIANGLES_AT_ONCE, TRIANGLES_OF_INSTANCE = 100_000, 1000
+"""Looked at in one step; what an instance takes beside its own"""
 POINTS_IN_CELL = 6.0
 """Candidates for each square of a cell's side"""
 LIFT = 2e-3
@@ -68,30 +73,47 @@ class Surface:
     """Nothing looks at it from within"""
 
 
-def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float) -> Patches | None:
-    """Points on all surfaces about a place (3,), finest within `half` of it; None where there is no surface.
+def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float) -> Iterator[Patches | None]:
+    """Points on all surfaces about a place (3,), finest within `half` of it: the last that this yields, None where there
+    is no surface; before that None each time that some work is done.
 
     Where that makes too few or too many patches all are smaller or larger.
     """
     if not surfaces:
-        return None
+        return
     farthest = max(_reach(surface, focus) for surface in surfaces)
-    for _ in range(8):
+    half = max(half, farthest / 2.0 ** (MOST_LEVELS - 1))
+    last = 0
+    for _ in range(MOST_TRIES):
         levels = min(max(int(np.ceil(np.log2(max(farthest / half, 1.0)))) + 1, 1), MOST_LEVELS)
         # (An odd share of a cell off: floors and walls like to lie at round places.)
         shifted = focus + half / 16.0 * np.array([0.317, 0.431, 0.283])
         grid = CellGrid((float(shifted[0]), float(shifted[1]), float(shifted[2])), half, levels)
-        found = [_candidates(surface, grid, len(surfaces) < MANY_INSTANCES) for surface in surfaces]
+        found: list[tuple[Float64Array, Float64Array]] = []
+        done = 0
+        for surface in surfaces:
+            found.append(_candidates(surface, grid, len(surfaces) < MANY_INSTANCES))
+            done += len(surface.mesh.triangles) + TRIANGLES_OF_INSTANCE
+            if done > TRIANGLES_AT_ONCE:
+                done = 0
+                yield None
         positions, normals = (np.concatenate(part) for part in zip(*found, strict=True))
         cells = grid.numbers(positions, normals)
         kept = np.flatnonzero(cells >= 0)
         if len(kept) == 0:
-            return None
+            yield None
+            return
         numbers = np.unique(cells[kept])
         if LEAST_PATCHES <= len(numbers) <= MOST_PATCHES:
             break
-        half *= float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
-    return _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
+        if len(numbers) < LEAST_PATCHES and len(numbers) < MORE * last:
+            # (There is no more to find.)
+            break
+        last = len(numbers)
+        factor = float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
+        half = max(half * factor, farthest / 2.0 ** (MOST_LEVELS - 1))
+        yield None
+    yield _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
 
 
 def _reach(surface: Surface, focus: Float64Array) -> float:
@@ -118,7 +140,9 @@ def _candidates(surface: Surface, grid: CellGrid, with_least: bool) -> tuple[Flo
     double_area = np.linalg.norm(facing, axis=1)
     normals = facing / np.maximum(double_area, 1e-300)[:, None]
     size = grid.sizes(grid.levels_at(corners.mean(axis=1)))
-    wanted = np.where(double_area > 0.0, POINTS_IN_CELL * weights * 0.5 * double_area / size**2, 0.0)
+    # (What is outside of all levels is asked by nobody.)
+    inside = grid.levels_at(corners.mean(axis=1)) < grid.levels
+    wanted = np.where(inside & (double_area > 0.0), POINTS_IN_CELL * weights * 0.5 * double_area / size**2, 0.0)
     total = float(wanted.sum())
     if total <= 0.0:
         return np.empty((0, 3)), np.empty((0, 3))
