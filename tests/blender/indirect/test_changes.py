@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Light between surfaces follows the scene: what is changed shows, what is gone lights nothing, and all is the same again."""
+"""Light between surfaces follows the scene: what changes shows, what is gone lights nothing, and pictures come back."""
 
 from __future__ import annotations
 
@@ -16,7 +16,19 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
-from indirect.places import SAMPLES, add_box, add_mirror, by_renderer, gray, matte, moving, read, rendered, start, world_of
+from indirect.places import (
+    SAMPLES,
+    add_box,
+    add_mirror,
+    by_renderer,
+    gray,
+    matte,
+    moving,
+    read,
+    rendered,
+    start,
+    world_of,
+)
 from lighting.room import add_lamp
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -233,4 +245,20 @@ def test_a_picture_between_does_not_matter(scene: tuple[SceneArrays, View]) -> N
     renderer.reflect(view)
     found = by_renderer(renderer, view).picture
     assert np.array_equal(found, rendered(arrays, view, 4).picture)
+    renderer.free()
+
+
+def test_light_found_by_and_by_is_the_same_in_the_end(scene: tuple[SceneArrays, View]) -> None:
+    """From the start and after changes, with a picture taken too early."""
+    arrays, view = scene
+    renderer = Renderer(arrays, Settings(method="auto", samples=4), is_gradual=True)
+    for state in (arrays, move_ball(arrays), move_lamp(arrays)):
+        renderer.update(state)
+        steps = 0
+        by_renderer(renderer, view)
+        while renderer.is_loading:
+            renderer.load_some(0.01)
+            steps += 1
+            assert steps < 1000
+        assert np.array_equal(by_renderer(renderer, view).picture, rendered(state, view, 4).picture)
     renderer.free()

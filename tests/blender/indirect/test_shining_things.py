@@ -38,7 +38,9 @@ def corner_factor(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def rectangle_light(
-    position: np.ndarray, low: tuple[float, float] = (-WIDTH / 2, -DEPTH / 2), high: tuple[float, float] = (WIDTH / 2, DEPTH / 2)
+    position: np.ndarray,
+    low: tuple[float, float] = (-WIDTH / 2, -DEPTH / 2),
+    high: tuple[float, float] = (WIDTH / 2, DEPTH / 2),
 ) -> np.ndarray:
     """Radiance of the floor at places (.., 3), of a lamp of radiance 1 between two corners."""
     x, y = position[..., 0], position[..., 1]

@@ -42,7 +42,9 @@ def soup(count: int, seed: int = 0, slots: int = 1) -> MeshArrays:
     )
 
 
-def placed(mesh: int, matrix: np.ndarray | None = None, materials: tuple[int, ...] = (1,), **flags: bool) -> InstanceArrays:
+def placed(
+    mesh: int, matrix: np.ndarray | None = None, materials: tuple[int, ...] = (1,), **flags: bool
+) -> InstanceArrays:
     return InstanceArrays("thing", 1, mesh, np.eye(4) if matrix is None else matrix, materials, **flags)
 
 
@@ -56,7 +58,12 @@ def read(table: EmitterTable | None) -> tuple[np.ndarray, np.ndarray, np.ndarray
     records = table.records.reshape(-1, RECORDS, 4).astype(np.float64)
     a, ab, ac = (records[:, k, :3] for k in range(3))
     chances = np.diff(np.minimum(records[:, 0, 3], 1.0), prepend=0.0)
-    return np.stack([a, a + ab, a + ac], axis=1), 0.5 * np.linalg.norm(np.cross(ab, ac), axis=1), chances, records[:, 1, 3]
+    return (
+        np.stack([a, a + ab, a + ac], axis=1),
+        0.5 * np.linalg.norm(np.cross(ab, ac), axis=1),
+        chances,
+        records[:, 1, 3],
+    )
 
 
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 300), power=st.floats(-4.0, 4.0))
