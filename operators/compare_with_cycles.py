@@ -60,7 +60,7 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
             ("direct", "Direct", "Lamps, emitters and the world, without bounces between diffuse surfaces"),
             ("full", "Full", "Cycles as the scene sets it"),
         ),
-        default="direct",
+        default="full",
     )
     width: IntProperty(  # type: ignore[valid-type]
         name="Width", description="Of the compared pictures", default=640, min=1, max=LARGEST_SIDE, subtype="PIXEL"

@@ -41,6 +41,18 @@ import bootstrap  # noqa: E402
 
 bootstrap.load_package()
 
+if HAS_BLENDER:
+
+    @bpy.app.handlers.persistent
+    def _in_direct_light(_path: str) -> None:
+        """Scenes that tests make have no bounced light but where it is what they are about: most judge other things, and
+        patches take their time."""
+        for scene in bpy.data.scenes if not bpy.data.filepath else ():
+            if hasattr(scene, "cycles"):
+                scene.cycles.diffuse_bounces = 0
+
+    bpy.app.handlers.load_post.append(_in_direct_light)
+
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:

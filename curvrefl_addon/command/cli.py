@@ -143,7 +143,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_reference_samples(compare, 256, "of the reference")
     compare.add_argument(
         "--light",
-        default="direct",
+        default="full",
         metavar="L",
         help="direct: no indirect diffuse light; full: as the scene renders in Cycles (%(default)s)",
     )

@@ -23,7 +23,6 @@ from .environments.cube import EnvironmentCube
 from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
 from .geometry.scene_geometry import Difference, SceneGeometry
-from .lighting.left_out import INDIRECT, is_lit_indirectly
 from .mirrors.mirror import Mirror, mirrors_of
 from .noise import Convergence
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -218,9 +217,6 @@ class Renderer:
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
         }
-        if is_lit_indirectly(self.scene):
-            # (Of a picture that is kept: a viewport would say so all the time.)
-            reflection = replace(reflection, warnings=(*reflection.warnings, INDIRECT))
         surfaces = partial(self._surfaces_while, self.revision, reflection)
         return Frame(reflection, canvas.texture, times, surfaces, convergence)
 
@@ -247,8 +243,6 @@ class Renderer:
         view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
         self._view_uniforms = view_block(view)
-        if not self._is_gradual:
-            self._appearance.light_surfaces(self.rays, self._view_uniforms)
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
         if last is not None and not np.array_equal(last.origin, origin):
@@ -278,6 +272,8 @@ class Renderer:
         reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
+        if diagnostic is None and not self._is_gradual:
+            self._appearance.light_surfaces(self.rays, view_block(view))
         sub_frame = self._draw_surfaces(replace(reflection, view=view), window, diagnostic is not None, index)
         groups = reflection.groups
         if diagnostic is not None:

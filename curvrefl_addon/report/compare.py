@@ -62,7 +62,7 @@ class Comparison:
     width: int = 640
     height: int = 480
     samples: int = 256
-    light: str = "direct"
+    light: str = "full"
     peers: tuple[str, ...] = DEFAULT_PEERS
     settings: Settings = field(default_factory=Settings)
     """Of our pictures; each method takes the place of theirs"""

@@ -29,6 +29,8 @@ def of_view_layer(view_layer: bpy.types.ViewLayer) -> Iterator[Remark | str]:
     cycles: Any = getattr(view_layer.id_data, "cycles", None)
     if cycles is not None and cycles.sample_clamp_direct > 0.0:
         yield "The clamping of direct light, a setting of Cycles, is not followed."
+    if cycles is not None and cycles.use_fast_gi:
+        yield "Fast global illumination, a setting of Cycles, is not followed: light bounces as without."
     if cycles is not None and cycles.pixel_filter_type != "BOX" and cycles.filter_width > WIDEST_FILTER:
         yield f"The pixel filter of {cycles.filter_width:.3g} pixels is not followed: pictures are sharper than that."
 

@@ -22,7 +22,6 @@ from pathlib import Path
 from typing import Any
 
 from blender_process import script_command
-from curvrefl.curvrefl_addon.renderer.lighting.left_out import INDIRECT
 
 ATTEMPT = Path(__file__).with_name("attempt.py")
 MOST_OFF = 0.02
@@ -108,9 +107,7 @@ def outcome_of(result: dict[str, Any], words: Sequence[str]) -> str:
         return NOT_FINITE
     if result["off"] <= MOST_OFF:
         return RIGHT
-    # What is said of nearly every scene names no cause, but where it is what the scene is about.
-    about = [warning for warning in result["warnings"] if warning != INDIRECT or INDIRECT in words]
-    named = any(word.lower() in warning.lower() for warning in about for word in words)
+    named = any(word.lower() in warning.lower() for warning in result["warnings"] for word in words)
     return WARNED if named else WRONG
 
 

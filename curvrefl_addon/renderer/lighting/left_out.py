@@ -18,11 +18,8 @@ are off without: an object with less that fills a quarter of a picture is off (b
 2 % of it, as measured against Cycles"""
 ORDINARY_LIGHT, ORDINARY_CONTRAST = 0.35, 0.25
 """Of those surroundings: how much they light a white surface, and how much of it is missing in a reflection"""
-STRONG = 0.5
-"""Radiance of an object that lights the dark floor that it stands on by 8 % of the screen's range"""
 LEAST_SHARE = 0.01
 """Of an object's triangles: of a material that counts"""
-INDIRECT = "Light that bounces from surface to surface is not shown, only light straight from lamps and the world."
 
 
 def left_out(scene: SceneArrays) -> tuple[str, ...]:
@@ -33,18 +30,13 @@ def left_out(scene: SceneArrays) -> tuple[str, ...]:
         for index, material in enumerate(scene.materials)
         if not material.is_seen_through and _shine(material) > SHINY
     }
-    strong = {index for index, material in enumerate(scene.materials) if material.range_of("emission")[1] > STRONG}
     found = []
-    if shiny and len(scene.instances) > 1:
+    if shiny and len(scene.instances) > 1 and not is_lit_indirectly(scene):
         others = [item for item in scene.instances if item.object_id not in scene.reflectors]
         names = list(_made_of(scene, others, shiny))
         if names:
             verb = "shows" if len(set(names)) == 1 else "show"
             found.append(f"Only mirrors reflect objects: {listed(names)} {verb} the world and lamps alone.")
-    if strong:
-        names = list(_made_of(scene, scene.instances, strong, lights=True))
-        if names:
-            found.append(f"Only lamps and the world give light: the emission of {listed(names)} lights nothing else.")
     return tuple(found)
 
 
@@ -87,12 +79,10 @@ def _shown(radiance: float) -> float:
     return float(linear_to_srgb(min(max(radiance, 0.0), 1.0)))
 
 
-def _made_of(
-    scene: SceneArrays, instances: Iterable[InstanceArrays], wanted: set[int], lights: bool = False
-) -> Iterator[str]:
-    """Names of those that can be seen, or that can light what is seen, and have enough of these materials."""
+def _made_of(scene: SceneArrays, instances: Iterable[InstanceArrays], wanted: set[int]) -> Iterator[str]:
+    """Names of those that can be seen and have enough of these materials."""
     for instance in instances:
-        matters = instance.visible_camera or instance.visible_glossy or (lights and instance.visible_diffuse)
+        matters = instance.visible_camera or instance.visible_glossy
         if instance.holdout or not matters:
             continue
         slots = [slot for slot, material in enumerate(instance.materials) if material in wanted]

@@ -79,13 +79,9 @@ def test_what_is_not_seen_or_hardly_there_is_not_named() -> None:
         assert len(left_out(replace(scene, meshes=(mesh(slots),), instances=(both, scene.instances[2])))) == found
 
 
-def test_emission_that_is_strong_enough_to_light() -> None:
-    sentence = 'Only lamps and the world give light: the emission of "a" lights nothing else.'
-    assert left_out(scene_of(GLOW)) == (sentence,)
-    assert not left_out(scene_of(replace(GLOW, emission=(0.3, 0.3, 0.3))))
-    # A card that only lights is there for its light.
-    assert left_out(scene_of(GLOW, visible_camera=False, visible_glossy=False)) == (sentence,)
-    assert not left_out(scene_of(GLOW, visible_camera=False, visible_glossy=False, visible_diffuse=False))
+def test_where_light_bounces_rays_show_what_shiny_things_do() -> None:
+    assert left_out(scene_of(CHROME))
+    assert not left_out(replace(scene_of(CHROME), diffuse_bounces=1))
 
 
 def test_indirect_light_needs_bounces_and_something_that_scatters() -> None:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.lighting.left_out import INDIRECT
 
 from ..registry import MIRROR, awkward
 from ..stage import add_ball, add_box, add_lamp, add_object, add_sheet, emitter, find, matte, mirror, stage
@@ -122,7 +121,7 @@ def clamp_direct(folder: Path) -> None:
     stage().cycles.sample_clamp_direct = 0.4
 
 
-@awkward("ambient occlusion in place of bounces", words=(INDIRECT,))
+@awkward("ambient occlusion in place of bounces", words=("fast global",))
 def fast_gi(folder: Path) -> None:
     cycles: Any = stage().cycles
     cycles.use_fast_gi, cycles.fast_gi_method = True, "ADD"
@@ -176,7 +175,7 @@ def grazing_sun(folder: Path) -> None:
         )
 
 
-@awkward("a room lit through a window by the sun", words=(INDIRECT,))
+@awkward("a room lit through a window by the sun")
 def room_with_window(folder: Path) -> None:
     stage()
     wall = matte("Wall", (0.15, 0.14, 0.13))
