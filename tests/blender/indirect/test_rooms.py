@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.demo.data_blocks import add_camera, add_object
@@ -159,3 +161,26 @@ def test_ball_lit_by_a_wall_alone() -> None:
     # What faces away has none.
     away = on_ball & (shown.normal[..., 0] > 0.5)
     assert shown.picture[away].mean() < 0.03 * shown.picture[facing].mean()
+
+
+def test_light_comes_through_a_curtain() -> None:
+    """A spot shines on a translucent board alone: what lights the floor has gone through it, and comes back."""
+    start(3)
+    curtain = matte(gray(0.8))
+    tree: Any = curtain.node_tree
+    through = tree.nodes.new("ShaderNodeBsdfTranslucent")
+    through.inputs["Color"].default_value = (0.8, 0.8, 0.8, 1.0)
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(through.outputs[0], output.inputs["Surface"])
+    add_object("floor", plane((6.0, 6.0)), matte(gray(0.6)))
+    add_box("back", (-3.0, 3.0, 0.0), (3.0, 3.1, 4.0), matte(gray(0.6)))
+    add_object("curtain", plane((2.5, 2.5)), curtain, location=(0.0, 0.0, 2.0))
+    add_lamp("SPOT", (0.0, 0.0, 5.0), 1000.0, spot_size=0.5, shadow_soft_size=0.1)
+    add_mirror(0.4, (1.5, 1.5, 0.5))
+    add_camera((0.0, -6.0, 2.5), (0.0, 0.0, 1.2), 35.0)
+    shown, cycles = at_rest(64), by_cycles(192)
+    y, z = shown.position[..., 1], shown.position[..., 2]
+    floor = inner(shown.is_thing & (z < 0.01))
+    above = inner(shown.is_thing & (np.abs(z - 2.0) < 0.01) & (y < 2.0), 1)
+    assert off_by(shown.picture, cycles, floor) == pytest.approx(0.0, abs=0.04)
+    assert off_by(shown.picture, cycles, above) == pytest.approx(0.0, abs=0.06)
