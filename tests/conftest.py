@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 try:
-    import bpy  # noqa: F401  (before gpu)
+    import bpy
 except ImportError:
     HAS_BLENDER = False
 else:
@@ -45,8 +45,8 @@ if HAS_BLENDER:
 
     @bpy.app.handlers.persistent
     def _in_direct_light(_path: str) -> None:
-        """Scenes that tests make have no bounced light but where it is what they are about: most judge other things, and
-        patches take their time."""
+        """Scenes that tests make have no bounced light but where it is what they are about: most judge other things,
+        and patches take their time."""
         for scene in bpy.data.scenes if not bpy.data.filepath else ():
             if hasattr(scene, "cycles"):
                 scene.cycles.diffuse_bounces = 0

@@ -57,9 +57,7 @@ class Appearance:
         elif difference.moved and self.tracer is not None:
             self.tracer.move(scene)
 
-    def light_surfaces(
-        self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None
-    ) -> bool:
+    def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None) -> bool:
         """Find the light between surfaces, as far as that is not known: all, or for so long; returns whether pictures
         are others by it."""
         if self.indirect.is_settled:
@@ -69,6 +67,11 @@ class Appearance:
         if is_changed:
             self.lighting.use(self.indirect.irradiance)
         return is_changed
+
+    @property
+    def for_stage(self) -> tuple[Materials, Lighting, ShadePass]:
+        """Of a `Stage`."""
+        return self.materials, self.lighting, self.shade
 
     def load_some(self, seconds: float) -> bool:
         """See `Materials.load_some`."""

@@ -31,6 +31,7 @@ class Frame:
         times_ms: dict[str, float],
         read_surfaces: Callable[[], dict[str, Float32Array]],
         convergence: Convergence | None = None,
+        bounced_light: str = "",
     ) -> None:
         """`read_surfaces` draws and reads what `surfaces` holds."""
         self.reflection = reflection
@@ -40,9 +41,11 @@ class Frame:
         self.color_texture = color
         """RGBA32F, scene-linear"""
         self.times_ms = times_ms
-        """bake, solve, draw, frame = solve + draw"""
+        """bake, solve, draw, frame = solve + draw; bake and light (between surfaces) of when that was last found"""
         self.convergence = convergence
         """How many sub-frames are in it, and what is left of its error"""
+        self.bounced_light = bounced_light
+        """How light between surfaces was found, or why not"""
         self.warnings = reflection.warnings
         """One sentence each"""
         self.choice = None if reflection.choice is None else reflection.choice.as_report()

@@ -83,7 +83,8 @@ class Preparation:
         if is_calm and any(isinstance(one, ShownRays) for one in shown):
             calm = CalmHistory() if last is None or last.calm is None else last.calm
         told = tuple(dict.fromkeys(warnings))
-        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, calm)
+        gathers = stage.indirect.is_gathered
+        return Reflection(view, settings, tuple(shown), told, choice, coarse, at_rest, gathers, calm)
 
     def _choose(
         self,

@@ -17,7 +17,7 @@ from .mirrors.mirror import Mirror
 from .rays.ray_scene import RayScene
 from .settings import Settings
 from .shading.calm import CalmHistory
-from .shading.shade import RayShadows
+from .shading.features import RayShadows
 from .shown.shown import Shown
 from .vertices.solution import SolvedChunk, VertexSolution
 
@@ -54,7 +54,9 @@ class Reflection:
     coarse_shadows: tuple[bool, bool] = (False, False)
     """Of lamps and of the world: their maps are too coarse for the view"""
     at_rest: bool = False
-    """By rays, where that is so"""
+    """Shadows are found by rays, where that is so, and the light between surfaces"""
+    gathers: bool = False
+    """At rest rays find the light between surfaces"""
     calm: CalmHistory | None = None
     """The view moves: rough mirrors show what sharp ones would, blurred, in place of one noisy path"""
     origin: Float64Array = field(default_factory=lambda: np.zeros(3))
@@ -79,7 +81,9 @@ class Reflection:
         """Nothing is left that `reflect` would do for a view at rest alone."""
         if self.calm is not None:
             return False
-        return all(shown.is_final for shown in self.shown) and (self.at_rest or not any(self.coarse_shadows))
+        return all(shown.is_final for shown in self.shown) and (
+            self.at_rest or not (self.gathers or any(self.coarse_shadows))
+        )
 
     @property
     def methods(self) -> tuple[str, ...]:

@@ -42,7 +42,6 @@ from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
 
-
 LIGHT_SECONDS = 0.03
 """In each redraw, for light between surfaces"""
 
@@ -159,16 +158,7 @@ class Renderer:
     @property
     def _stage(self) -> Stage:
         made = self._appearance
-        return Stage(
-            self.mirrors,
-            self.geometry,
-            made.materials,
-            made.lighting,
-            made.shade,
-            self.rays,
-            made.indirect,
-            made.tracer,
-        )
+        return Stage(self.mirrors, self.geometry, *made.for_stage, self.rays, made.indirect, made.tracer)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
         """One per mirror, drawn when first asked for."""
@@ -216,9 +206,10 @@ class Renderer:
             "solve": 1e3 * (solved - start),
             "draw": 1e3 * (done - solved),
             "frame": 1e3 * (done - start),
+            "light": self._appearance.indirect.prepare_ms,
         }
         surfaces = partial(self._surfaces_while, self.revision, reflection)
-        return Frame(reflection, canvas.texture, times, surfaces, convergence)
+        return Frame(reflection, canvas.texture, times, surfaces, convergence, self.bounced_light)
 
     def reflect(
         self,
@@ -235,8 +226,7 @@ class Renderer:
         only worth its time where the view rests is done `at_rest`: edges are split where their solved midpoints leave
         the chord. A picture on its own `is_still`: its sub-frames share one solve, which counts for `auto`.
         """
-        # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
-        # the full resolution may be drawn another way all the same.)
+        # (At rest costs are counted as while the view moves, when sub-frames come one by one.)
         origin = self._placement.origin
         view = view.about(origin)
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
@@ -326,6 +316,11 @@ class Renderer:
     def ray_counters(self) -> dict[str, int]:
         """How often hierarchies were made, since the start."""
         return {} if self._rays is None else self._rays.counters
+
+    @property
+    def bounced_light(self) -> str:
+        """How it is known, for a panel or a report."""
+        return self._appearance.indirect.state
 
     @property
     def can_improve(self) -> bool:

@@ -295,6 +295,7 @@ def _run(
             "geometry": frame_geometry_error(frame, truth),
             "time_ms": {"extract": extract_ms, **frame.times_ms},
             "solve": frame.solve,
+            "bounced_light": frame.bounced_light,
         }
         if frame.choice is not None:
             known["choice"] = frame.choice

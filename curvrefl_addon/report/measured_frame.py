@@ -28,6 +28,7 @@ class FrameLike(Protocol):
     warnings: tuple[str, ...]
     choice: dict[str, object] | None
     convergence: Convergence | None
+    bounced_light: str
 
     @property
     def solve(self) -> dict[str, Any]: ...
@@ -61,6 +62,8 @@ class MeasuredFrame:
     """What `auto` has chosen, and why"""
     convergence: Convergence | None
     """How many sub-frames are in it, and what is left of its error"""
+    bounced_light: str = ""
+    """How light between surfaces was found, or why not"""
 
     @property
     def times_ms(self) -> dict[str, float]:
@@ -84,6 +87,7 @@ def measure_frame(
             warnings=frame.warnings,
             choice=frame.choice,
             convergence=frame.convergence,
+            bounced_light=frame.bounced_light,
         )
     finally:
         renderer.free()

@@ -164,7 +164,8 @@ class RegionPicture:
                 ("Chosen", ", ".join(labels)),
                 ("Not Reflected", f"{choice.hidden} of {choice.hidden + choice.shown} objects"),
             ]
-        return [*chosen, *progress, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
+        light = [("Bounced Light", self.renderer.bounced_light)] if self._reflection is not None else []
+        return [*chosen, *progress, *light, *self._rows, *((label, f"{ms:.1f} ms") for label, ms in times if ms > 0.0)]
 
     @property
     def reason(self) -> str:

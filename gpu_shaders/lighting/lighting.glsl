@@ -51,7 +51,7 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #include "lighting/lamps.glsl"
 #ifdef LIGHTING_INDIRECT
 #define SMOOTH_CELLS
-#include "indirect/cells.glsl"
+#include "patches/cells.glsl"
 #endif
 
 #ifdef LIGHTING_INDIRECT

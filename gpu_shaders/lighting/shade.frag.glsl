@@ -20,7 +20,7 @@
 #define SHARED_POSITION reflected_position
 #define SHARED_NORMAL reflected_normal
 #endif
-#include "indirect/shared_gather.glsl"
+#include "gather/shared_gather.glsl"
 #endif
 #ifdef SEEN_BY_MIRROR
 #define BY_CAMERA false

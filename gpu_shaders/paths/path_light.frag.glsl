@@ -14,7 +14,7 @@
 #ifdef GATHER_SHARED
 #define SHARED_POSITION vertex_position
 #define SHARED_NORMAL vertex_normal
-#include "indirect/shared_gather.glsl"
+#include "gather/shared_gather.glsl"
 #endif
 #ifdef LIGHTS_GOES_ON
 #include "paths/vertex_light.glsl"

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.arrays import Float64Array
-from ..lighting.cells import SIDE
+from ..cells.lookup import SIDE
 
 SIDES = 6
 """Directions: +x -x +y -y +z -z"""
@@ -83,7 +83,8 @@ def spread_to_neighbors(table: NDArray[np.int32], levels: int, rounds: int = 2) 
     before = grid.copy()
     for side in range(SIDES):
         # (The opposite side comes last.)
-        for other in sorted(range(SIDES), key=lambda k, side=side: (k // 2 == side // 2, k)):
+        others = [other for other in range(SIDES) if other // 2 != side // 2]
+        for other in (*others, side ^ 1):
             here = grid[:, side]
             np.copyto(here, before[:, other], where=(here < 0) & (before[:, other] >= 0))
     return grid.reshape(-1)

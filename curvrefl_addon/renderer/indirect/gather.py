@@ -9,29 +9,36 @@ position", 1992); lobes see that lit as what mirrors show, as edges are seen in 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum, IntEnum
 from typing import Any
 
 from ...optics.scattering.sampler import path_point
+from ..cells.lookup import At
 from ..device.batches import full_screen_triangle
-from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
-from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
+from ..device.shaders import flags, knows
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import depth_texture, empty_texture
-from ..lighting.cells import CELLS, At
-from ..lighting.ggx import GGX_DEFINES
-from ..lighting.lighting import Features, Lighting, lighting_piece
-from ..programs.buffers import Buffers, MaterialBuffers, reads
+from ..lighting.lighting import Features, Lighting
+from ..programs.buffers import MaterialBuffers
 from ..rays.material_pass import Hits, MaterialPass
-from ..rays.ray_scene import RAYS, RayScene
+from ..rays.ray_scene import RayScene
 from ..surfaces.canvas import Canvas
-from ..surfaces.materials import TABLE, Materials
-from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
-from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
-from ..surfaces.view_block import VIEW
+from ..surfaces.materials import Materials
+from ..surfaces.pixel_classes import CLASS_COUNT
+from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
-from .emitters import EMITTERS, SHINES, Emitters
+from .emitters import Emitters
+from .gather_shaders import (
+    LANES,
+    MET,
+    Kind,
+    Source,
+    classes_shader,
+    gather_shader,
+    kinds_shader,
+    lane_of,
+    light_shader,
+)
 from .irradiance import Irradiance
 
 NO_FEATURES: Features = frozenset()
@@ -39,29 +46,9 @@ ASKS_EMITTERS = "ASKS_EMITTERS"
 """Among `Gathering.features`: some rays go to where light comes from"""
 GATHER_BOUNCE = 61
 """Number of the random numbers of these rays, among those of paths' bounces"""
-EMITTER_SHARE = 0.5
-"""Of the rays that go to where light comes from, in scenes with emitters"""
 LARGEST = 1e30
-LANES = 4
-"""Pixels of a quad"""
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
-_MET = ("vertex_position", "vertex_normal", "vertex_color")
-
-
-_OF_EMITTERS = Piece(samplers=SHINES.samplers, defines=EMITTERS.defines)
-
-
-class Source(Enum):
-    """Where rays begin: names of the buffers, beside the three of the surface there."""
-
-    SEEN = ()
-    SHOWN = ("mirror_position", "mirror_normal", "mirror_color")
-    LATER = ("path_direction", "path_throughput")
-    PATHS = ("path_way", "path_throughput")
-
-
-_CONSTANTS = {Source.LATER: {"skips_mirrors": "FLOAT"}, Source.SEEN: {"lane": "IVEC2"}}
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,35 +71,6 @@ class SharedGather:
             shader.uniform_int("lane", self.lane)
         if self.by.irradiance is not None:
             self.by.irradiance.bind(shader, At.ENDS_UNDER_SKY if self.by.has_sky else At.ENDS)
-
-
-def shared_piece(by_quads: bool, with_emitters: bool) -> Piece:
-    """What `shared_gather.glsl` needs."""
-    return Piece(
-        samplers=named("FLOAT_2D", "gather_light", "gather_way"),
-        constants={"share_turn": "INT", **({"lane": "IVEC2"} if by_quads else {})},
-        defines=flags(
-            "GATHER_SHARED",
-            *(("SHARED_BY_QUADS",) if by_quads else ()),
-            *(("EMITTERS",) if with_emitters else ()),
-        ),
-    )
-
-
-def lane_of(sub_frame: int) -> tuple[int, int]:
-    """Which pixel of each quad follows a ray."""
-    return ((0, 0), (1, 1), (1, 0), (0, 1))[sub_frame % LANES]
-
-
-class _Kind(IntEnum):
-    """Of what a ray has met."""
-
-    LOBE_MISSES = 1
-    LOBE_MEETS = 2
-    BASE_MEETS = 3
-    BASE_MISSES = 4
-    SHINES = 5
-    """It went to where light comes from"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,8 +178,13 @@ class GatherPicture:
         lighting, materials = by.lighting, by.materials
         by_quads = shares and source is Source.SEEN
         variant = flags(*(("IS_SHARED",) if shares else ()), *(("SHARED_BY_QUADS",) if by_quads else ()))
-        shader = _gather_shader(
-            source, frozenset(variant), materials.buffers, lighting.features, self._hits is not None, by.emitters is not None
+        shader = gather_shader(
+            source,
+            frozenset(variant),
+            materials.buffers,
+            lighting.features,
+            self._hits is not None,
+            by.emitters is not None,
         )
         depth = None if classes is None else classes[0]
         test = "NONE" if classes is None else "EQUAL"
@@ -236,13 +199,14 @@ class GatherPicture:
                 shader.uniform_int("lane", lane_of(by.sub_frame))
             if source is Source.LATER:
                 shader.uniform_float("skips_mirrors", float(skips_mirrors))
-            # (A pixel of a quad has its turn once in four sub-frames: a sequence of its own, or its rays would be biased.)
+            # (A pixel of a quad has its turn once in four sub-frames, and a sequence of its own: every fourth number of
+            # one is not spread evenly.)
             turns = LANES if by_quads else 1
             number, count = by.sub_frame // turns, -(-lighting.sub_frames // turns)
             shader.uniform_int("path_point", path_point(number, GATHER_BOUNCE, count))
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
-            for name, texture in zip((*_MET, *source.value), (*surface, *others), strict=True):
+            for name, texture in zip((*MET, *source.value), (*surface, *others), strict=True):
                 shader.uniform_sampler(name, texture)
             made.bind(shader, materials.buffers)
             if by.emitters is not None:
@@ -265,7 +229,7 @@ class GatherPicture:
         self.follow(by, source, surface, made, others, classes, shares=True)
         with drawing_state(), self._light.frame_buffer.bind():
             set_viewport(0, 0, self.width, self.height)
-            shader = _kinds_shader()
+            shader = kinds_shader()
             shader.bind()
             shader.uniform_sampler("gather_weight", self._weight)
             full_screen_triangle().draw(shader)
@@ -280,7 +244,7 @@ class GatherPicture:
         materials = by.materials
         with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
-            shader = _classes_shader()
+            shader = classes_shader()
             shader.bind()
             shader.uniform_sampler("gather_weight", self._weight)
             shader.uniform_sampler("vertex_position", self._position)
@@ -289,17 +253,15 @@ class GatherPicture:
             window = self._window or (0, 0, self.width, self.height)
             hits = Hits(self._position, self._normal, self._color, self._hits, None, self._way, is_gathered=True)
             turn = (by.sub_frame, GATHER_BOUNCE)
-            self._pass.draw(
-                hits, self._made, (self._depth, -1.0), by.rays, materials, by.view_uniforms, window, turn
-            )
+            self._pass.draw(hits, self._made, (self._depth, -1.0), by.rays, materials, by.view_uniforms, window, turn)
         target = canvas.with_depth(self._depth)
         blend = "NONE" if is_shared else "ADDITIVE_PREMULT"
         with drawing_state("EQUAL", blend=blend), target.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             for kind in self._kinds(by):
-                features = lobe_features if kind is _Kind.LOBE_MEETS else by.lighting.features
+                features = lobe_features if kind is Kind.LOBE_MEETS else by.lighting.features
                 has_patches = by.irradiance is not None
-                shader = _light_shader(
+                shader = light_shader(
                     kind, materials.buffers, features, by.emitters is not None, has_patches, is_shared
                 )
                 shader.bind()
@@ -309,7 +271,7 @@ class GatherPicture:
                 if knows(shader, "clamp_most"):
                     shader.uniform_float("clamp_most", by.clamp or LARGEST)
                 shader.uniform_sampler("materials", materials.table)
-                for name, texture in zip(_MET, (self._position, self._normal, self._color), strict=True):
+                for name, texture in zip(MET, (self._position, self._normal, self._color), strict=True):
                     shader.uniform_sampler(name, texture)
                 shader.uniform_sampler("path_way", self._way)
                 shader.uniform_sampler("gather_weight", self._weight)
@@ -317,21 +279,21 @@ class GatherPicture:
                 self._made.bind(shader, materials.buffers)
                 by.lighting.bind(shader)
                 if by.irradiance is not None:
-                    by.irradiance.bind(shader, At.HITS if kind is _Kind.BASE_MEETS else At.ENDS)
+                    by.irradiance.bind(shader, At.HITS if kind is Kind.BASE_MEETS else At.ENDS)
                 if by.emitters is not None:
                     by.emitters.bind_densities(shader)
                 full_screen_triangle().draw(shader)
 
     @staticmethod
-    def _kinds(by: Gathering) -> list[_Kind]:
+    def _kinds(by: Gathering) -> list[Kind]:
         """That bring light."""
-        kinds = [_Kind.BASE_MEETS, _Kind.LOBE_MEETS]
+        kinds = [Kind.BASE_MEETS, Kind.LOBE_MEETS]
         if by.emitters is not None:
-            kinds.append(_Kind.SHINES)
+            kinds.append(Kind.SHINES)
         if by.irradiance is not None:
-            kinds.append(_Kind.LOBE_MISSES)
+            kinds.append(Kind.LOBE_MISSES)
         if by.has_sky:
-            kinds.append(_Kind.BASE_MISSES)
+            kinds.append(Kind.BASE_MISSES)
         return kinds
 
     def _target(self, depth: Any) -> Any:
@@ -343,92 +305,3 @@ class GatherPicture:
         target = frame_buffer(*textures, depth=depth)
         self._targets = [*self._targets[-7:], (depth, target)]
         return target
-
-
-@gpu_cache
-def _gather_shader(
-    source: Source, variant: Features, buffers: Buffers, features: Features, with_hits: bool, with_emitters: bool
-) -> Any:
-    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
-    hits = named("VEC4", "hit_out") if with_hits else {}
-    return build_shader(
-        f"gather {source.name}",
-        FULL_SCREEN if source is Source.SEEN else CLASS,
-        VIEW,
-        RAYS,
-        TABLE,
-        reads(buffers),
-        SURFACE_OUTPUTS,
-        *((EMITTERS,) if with_emitters else ()),
-        Piece(
-            samplers=named("FLOAT_2D", *_MET, *source.value, "lighting_ggx"),
-            constants={"path_point": "IVEC4", **_CONSTANTS.get(source, {})},
-            outputs={**hits, **named("VEC4", "way_out", "weight_out")},
-            defines={
-                **GGX_DEFINES,
-                "EMITTER_SHARE": EMITTER_SHARE,
-                **flags("PATHS_ROUGH", f"OF_{source.name}", *sorted(variant), *(("WITH_HITS",) if with_hits else ()), *surfaces),
-            },
-            fragment="indirect/gather.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _kinds_shader() -> Any:
-    return build_shader(
-        "gather kinds",
-        FULL_SCREEN,
-        Piece(
-            samplers={"gather_weight": "FLOAT_2D"},
-            outputs={"color": "VEC4"},
-            fragment="indirect/gather_kinds.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _classes_shader() -> Any:
-    return build_shader(
-        "gather classes",
-        FULL_SCREEN,
-        Piece(
-            samplers=named("FLOAT_2D", "gather_weight", "vertex_position"),
-            defines={"CLASS_COUNT": float(CLASS_COUNT), **{kind.name: float(kind) for kind in _Kind}},
-            writes_depth=True,
-            fragment="indirect/gather_classes.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _light_shader(
-    kind: _Kind, buffers: Buffers, features: Features, with_emitters: bool, has_patches: bool, is_shared: bool
-) -> Any:
-    rays = features & {"RAY_SHADOWS", "WORLD_RAYS"}
-    return build_shader(
-        f"gathered {kind.name}",
-        CLASS,
-        VIEW,
-        TABLE,
-        reads(buffers),
-        CELLS,
-        *((_OF_EMITTERS,) if with_emitters else ()),
-        lighting_piece(features),
-        *((RAYS,) if rays else ()),
-        Piece(
-            samplers=named("FLOAT_2D", *_MET, "path_way", "gather_weight", "patch_light"),
-            constants={"clamp_most": "FLOAT", **({} if is_shared else {"weight": "FLOAT"})},
-            outputs={"color": "VEC4"},
-            defines={
-                **flags(
-                    f"LIGHTS_{kind.name}",
-                    "PATH_LIGHT",
-                    *(() if has_patches else ("DIRECT_ALONE",)),
-                    *(("IS_SHARED",) if is_shared else ()),
-                ),
-                "EMITTER_SHARE": EMITTER_SHARE,
-            },
-            fragment="indirect/gather_light.frag.glsl",
-        ),
-    )

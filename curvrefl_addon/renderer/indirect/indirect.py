@@ -58,8 +58,9 @@ class IndirectLight:
         self._needs_patches = self._needs_light = True
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""
-        self._openness = 0.0
-        self._share = 1.0
+        self._openness, self._share = 0.0, 1.0
+        self.prepare_ms = 0.0
+        """Of the last time that all was found at once"""
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Know another state of the scene, whose geometry the `difference` has changed."""
@@ -84,6 +85,11 @@ class IndirectLight:
         self._needs_light, self._work = True, None
 
     @property
+    def is_gathered(self) -> bool:
+        """There is light for rays to find."""
+        return self.irradiance is not None or self.emitters is not None
+
+    @property
     def is_settled(self) -> bool:
         """Nothing is left to find."""
         return not self._needs_patches and not self._needs_light and self._work is None
@@ -102,8 +108,12 @@ class IndirectLight:
     def prepare(self, means: Means) -> bool:
         """Find all that is missing; returns whether there was something."""
         is_changed = False
+        start = perf_counter()
         while not self.is_settled:
             is_changed |= self._step(means, whole=True)
+        if self.irradiance is not None:
+            self.irradiance.wait()
+        self.prepare_ms = 1e3 * (perf_counter() - start)
         return is_changed
 
     def advance(self, means: Means, seconds: float) -> bool:
@@ -118,7 +128,7 @@ class IndirectLight:
 
     def gathering(self, means: Means, sub_frame: int) -> Gathering | None:
         """What a sub-frame gathers by; None where there is nothing to."""
-        if self.irradiance is None and self.emitters is None:
+        if not self.is_gathered:
             return None
         has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
         made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)
@@ -149,7 +159,8 @@ class IndirectLight:
             self.emitters = None if table is None else Emitters(table)
             found = None
             if is_lit_indirectly(self._scene):
-                for found in self._place():
+                for step in self._place():
+                    found = step
                     yield False
             if found is None:
                 was, self.irradiance, self._share = self.irradiance, None, 1.0
@@ -196,7 +207,8 @@ class IndirectLight:
         focus, half = self._focus(shown)
         surfaces = [Surface(placed[index].mesh, placed[index].instance, bool(is_solid[index])) for index in shown]
         patches = None
-        for patches in place_patches(surfaces, focus, half):
+        for step in place_patches(surfaces, focus, half):
+            patches = step
             yield None
         yield None if patches is None else (patches, is_solid)
 

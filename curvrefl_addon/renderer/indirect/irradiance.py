@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Light between the scene's surfaces: radiosity over patches, whose form factors are rays (links) that are followed once.
+"""Light between the scene's surfaces: radiosity over patches, whose form factors are rays that are followed once.
 
 Each patch sends rays over its hemisphere, by the cosine. Where a ray gets to is kept: which patch is there, and how
 much that sends on. Then light goes from patch to patch any number of times without another ray, and again when only
@@ -16,37 +16,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...scene.arrays import Float32Array
+from ..cells.lookup import WALLS, At
 from ..device.batches import full_screen_triangle
-from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer
+from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, read_records, record_texture
-from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, knows, named
-from ..device.state import blended, drawing_state, scissored, set_viewport
-from ..device.textures import depth_texture, empty_texture, read_texture, texture_2d
-from ..lighting.cells import CELLS, WALLS, At
-from ..lighting.ggx import GGX_DEFINES
-from ..lighting.lighting import Features, Lighting, lighting_piece
-from ..programs.buffers import Buffers, MaterialBuffers, reads
-from ..rays.material_pass import Hits, MaterialPass
-from ..rays.ray_scene import RAYS, RayScene
-from ..surfaces.materials import TABLE, Materials
-from ..surfaces.surface_buffer import SURFACE_OUTPUTS
-from .emitters import EMITTERS, SHINES, Emitters
+from ..device.shaders import knows
+from ..device.state import blended, drawing_state, set_viewport
+from ..device.textures import empty_texture, read_texture, texture_2d
+from ..lighting.lighting import Lighting
+from ..rays.ray_scene import RayScene
+from ..surfaces.materials import Materials
+from .emitters import Emitters
+from .patch_picture import PatchPicture
+from .patch_shaders import (
+    RAYS_AT_ONCE,
+    VERTICES,
+    emitter_links_shader,
+    emitter_sum_shader,
+    light_shader,
+    links_shader,
+    sum_shader,
+    sweep_shader,
+    walls_shader,
+    weights_shader,
+)
 from .points import POINTS, Patches
 
-RAYS_AT_ONCE = 16
-"""Of each patch in a batch"""
-PICTURE_WIDTH = 1024
-"""Of the picture that has a pixel for each ray of a batch"""
-FOLLOWED = 0.5
-"""Depth of all its pixels"""
-ROWS_AT_ONCE = 48
-"""Of that picture, in one step"""
 MOST_SWEEPS = 8
 """Surfaces that light bounces off at most"""
-_POINTS = Piece(samplers={"patch_points": "FLOAT_2D"}, constants={"patches": "INT"}, defines={"PATCH_POINTS": POINTS})
-_BATCH = {"RAYS_AT_ONCE": RAYS_AT_ONCE, "PICTURE_WIDTH": PICTURE_WIDTH}
-_VERTICES = ("vertex_position", "vertex_normal", "vertex_color")
 
 
 class Irradiance:
@@ -76,7 +74,7 @@ class Irradiance:
         """Of the last two sweeps, the last first"""
         self._links: list[Any] = []
         """A texture for each batch"""
-        self._picture: _Picture | None = None
+        self._picture: PatchPicture | None = None
 
     def _fill_points(self) -> None:
         points = np.zeros((self.patches.count, 2, POINTS, 4), np.float32)
@@ -92,7 +90,7 @@ class Irradiance:
 
     def find_walls(self, rays: RayScene) -> None:
         """What parts patches from their surroundings."""
-        shader = _walls_shader()
+        shader = walls_shader()
         with drawing_state(), self._walls.target.bind():
             set_viewport(0, 0, self._walls.texture.width, self._walls.texture.height)
             shader.bind()
@@ -107,6 +105,10 @@ class Irradiance:
         self.patches = self.patches.parted(walls[:, :, :3], walls[:, :, 3])
         self._fill_points()
 
+    def wait(self) -> None:
+        """Return when the GPU has finished."""
+        wait_for(self._sent[0].target)
+
     @property
     def batches(self) -> int:
         """Of rays that have been followed"""
@@ -116,7 +118,7 @@ class Irradiance:
         """See `SurfaceLight`."""
         self._bind_cells(shader)
         before, now = self._sent[1], self._sent[0]
-        shader.uniform_sampler("patch_light", (before.sent, now.arriving, now.under_sky)[at])
+        shader.uniform_sampler("patch_light", (before.under_sky, now.arriving, now.under_sky)[at])
 
     def _bind_cells(self, shader: Any) -> None:
         shader.uniform_sampler("cell_table", self._table)
@@ -134,21 +136,21 @@ class Irradiance:
     ) -> Iterator[None]:
         """Another batch of rays, step by step; `emitters`: surfaces that shine, if there are some."""
         if self._picture is None:
-            self._picture = _Picture(self.patches.count)
+            self._picture = PatchPicture(self.patches.count)
         picture = self._picture
         records = (self._points, self._solids)
         for _ in picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches):
             yield
         links = empty_texture(picture.width, picture.height)
         target = frame_buffer(links)
-        shader = _links_shader(materials.buffers, lighting.features)
+        shader = links_shader(materials.buffers, lighting.features)
         with drawing_state(), target.bind():
             set_viewport(0, 0, picture.width, picture.height)
             shader.bind()
             self._bind_cells(shader)
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
-            for name, texture in zip(_VERTICES, (picture.position, picture.normal, picture.color), strict=True):
+            for name, texture in zip(VERTICES, (picture.position, picture.normal, picture.color), strict=True):
                 shader.uniform_sampler(name, texture)
             shader.uniform_sampler("path_way", picture.way)
             picture.made.bind(shader, materials.buffers)
@@ -175,6 +177,10 @@ class Irradiance:
         weights = np.where(links > -2, reached[:, None], 0.0)
         return float((weights * (links == -1)).sum() / weights.sum()) if weights.sum() > 0.0 else 1.0
 
+    def arriving(self) -> Float32Array:
+        """(patches, 3) irradiance from other surfaces."""
+        return read_records(self._sent[0].arriving, self.patches.count)[:, :3]
+
     def share_of_surfaces(self) -> float:
         """Of all light, at the tenth of the patches that get most of theirs from other surfaces."""
         sent, arriving = (
@@ -188,7 +194,7 @@ class Irradiance:
         """How open points are, by another batch."""
         with blended("ADDITIVE_PREMULT"), self._open.target.bind():
             set_viewport(0, 0, self._open.texture.width, self._open.texture.height)
-            shader = _weights_shader()
+            shader = weights_shader()
             shader.bind()
             shader.uniform_int("patches", self.patches.count)
             shader.uniform_sampler("links", links)
@@ -223,10 +229,10 @@ class Irradiance:
         target = frame_buffer(links)
         with drawing_state(), target.bind():
             set_viewport(0, 0, picture.width, picture.height)
-            shader = _emitter_links_shader(materials.buffers, of_hemisphere)
+            shader = emitter_links_shader(materials.buffers, of_hemisphere)
             shader.bind()
             shader.uniform_sampler("materials", materials.table)
-            for name, texture in zip(_VERTICES, (picture.position, picture.normal, picture.color), strict=True):
+            for name, texture in zip(VERTICES, (picture.position, picture.normal, picture.color), strict=True):
                 shader.uniform_sampler(name, texture)
             shader.uniform_sampler("path_way", picture.way)
             picture.made.bind(shader, materials.buffers)
@@ -236,7 +242,7 @@ class Irradiance:
             full_screen_triangle().draw(shader)
         with blended("ADDITIVE_PREMULT"), self._shone.target.bind():
             set_viewport(0, 0, self._shone.texture.width, self._shone.texture.height)
-            shader = _emitter_sum_shader()
+            shader = emitter_sum_shader()
             shader.bind()
             shader.uniform_int("patches", self.patches.count)
             shader.uniform_sampler("links", links)
@@ -256,7 +262,7 @@ class Irradiance:
         for index in range(sub_frames):
             lighting.prepare(index * lighting.sub_frames // sub_frames)
             for records, of_sky in ((self._of_lamps, False), (self._of_sky, True)):
-                shader = _light_shader(lighting.features, of_sky)
+                shader = light_shader(lighting.features, of_sky)
                 with blended("ADDITIVE_PREMULT"), records.target.bind():
                     set_viewport(0, 0, records.texture.width, records.texture.height)
                     shader.bind()
@@ -271,7 +277,7 @@ class Irradiance:
         """Let light go from patch to patch, off `bounces` surfaces at most."""
         self._sum(is_first=True)
         for _ in range(min(bounces, MOST_SWEEPS)):
-            shader = _sweep_shader()
+            shader = sweep_shader()
             target = self._swept.target
             with target.bind():
                 target.clear(color=(0.0, 0.0, 0.0, 0.0))
@@ -293,7 +299,7 @@ class Irradiance:
             with self._swept.target.bind():
                 self._swept.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         pair = self._sent[0]
-        shader = _sum_shader(self._shone is not None)
+        shader = sum_shader(self._shone is not None)
         with drawing_state(), pair.target.bind():
             set_viewport(0, 0, pair.sent.width, pair.sent.height)
             shader.bind()
@@ -321,199 +327,3 @@ class _Sent:
     def __init__(self, count: int) -> None:
         self.sent, self.arriving, self.under_sky = (empty_record_texture(count) for _ in range(3))
         self.target = frame_buffer(self.sent, self.arriving, self.under_sky)
-
-
-class _Picture:
-    """What the rays of a batch have met, a pixel for each."""
-
-    def __init__(self, patches: int) -> None:
-        self.width, self.height = PICTURE_WIDTH, -(-patches * RAYS_AT_ONCE // PICTURE_WIDTH)
-        size = (self.width, self.height)
-        self.position, self.normal = empty_texture(*size), empty_texture(*size)
-        self.color = empty_texture(*size, "RGBA16F")
-        self.way = empty_texture(*size)
-        self.made = MaterialBuffers(*size)
-        self.hits: Any = None
-        self._depth = depth_texture(*size)
-        self._target: Any = None
-        self._pass = MaterialPass(*size)
-
-    def follow(
-        self, rays: RayScene, materials: Materials, view_uniforms: Any, records: tuple[Any, Any], patches: int, batch: int,
-        emitters: Emitters | None = None,
-    ) -> Iterator[None]:
-        has_programs = materials.has_programs
-        if self._target is None or has_programs != (self.hits is not None):
-            self.hits = empty_texture(self.width, self.height) if has_programs else None
-            hits = [] if self.hits is None else [self.hits]
-            self._target = frame_buffer(self.position, self.normal, self.color, *hits, self.way, depth=self._depth)
-            with self._target.bind():
-                self._target.clear(depth=FOLLOWED)
-        shader = _rays_shader(has_programs, emitters is not None)
-        for first in range(0, self.height, ROWS_AT_ONCE):
-            window = (0, first, self.width, min(ROWS_AT_ONCE, self.height - first))
-            with drawing_state(), self._target.bind(), scissored(window):
-                set_viewport(0, 0, self.width, self.height)
-                shader.bind()
-                rays.bind(shader)
-                shader.uniform_sampler("materials", materials.table)
-                shader.uniform_sampler("patch_points", records[0])
-                shader.uniform_sampler("solids", records[1])
-                shader.uniform_int("patches", patches)
-                shader.uniform_int("batch", batch)
-                if emitters is not None:
-                    emitters.bind(shader)
-                full_screen_triangle().draw(shader)
-            if has_programs:
-                hits = Hits(self.position, self.normal, self.color, self.hits, None, self.way, is_gathered=True)
-                made, turn = (rays, materials, view_uniforms), (batch, 1)
-                self._pass.draw(hits, self.made, (self._depth, FOLLOWED), *made, window, turn)
-            yield
-
-
-@gpu_cache
-def _light_shader(features: Features, of_sky: bool) -> Any:
-    return build_shader(
-        "light of patches",
-        FULL_SCREEN,
-        lighting_piece(features),
-        _POINTS,
-        Piece(
-            constants={"weight": "FLOAT"},
-            outputs={"color": "VEC4"},
-            defines=flags("OF_SKY") if of_sky else {},
-            fragment="indirect/patch_light.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _walls_shader() -> Any:
-    return build_shader(
-        "walls of patches",
-        FULL_SCREEN,
-        RAYS,
-        TABLE,
-        CELLS,
-        _POINTS,
-        Piece(outputs={"wall_out": "VEC4"}, fragment="indirect/patch_walls.frag.glsl"),
-    )
-
-
-@gpu_cache
-def _rays_shader(with_hits: bool, to_emitters: bool) -> Any:
-    outputs = {**(named("VEC4", "hit_out") if with_hits else {}), **named("VEC4", "way_out")}
-    return build_shader(
-        "rays of patches",
-        FULL_SCREEN,
-        RAYS,
-        TABLE,
-        SURFACE_OUTPUTS,
-        _POINTS,
-        *((EMITTERS,) if to_emitters else ()),
-        Piece(
-            samplers={"solids": "FLOAT_2D"},
-            constants={"batch": "INT"},
-            outputs=outputs,
-            defines={**_BATCH, **GGX_DEFINES, **(flags("WITH_HITS") if with_hits else {})},
-            fragment="indirect/patch_rays.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _links_shader(buffers: Buffers, features: Features) -> Any:
-    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
-    return build_shader(
-        "links of patches",
-        FULL_SCREEN,
-        TABLE,
-        reads(buffers),
-        CELLS,
-        Piece(
-            samplers=named("FLOAT_2D", *_VERTICES, "path_way", "lighting_ggx"),
-            outputs={"link_out": "VEC4"},
-            defines={**GGX_DEFINES, **flags(*surfaces)},
-            fragment="indirect/links.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _weights_shader() -> Any:
-    return build_shader(
-        "openness of points",
-        FULL_SCREEN,
-        Piece(
-            samplers={"links": "FLOAT_2D"},
-            constants={"patches": "INT"},
-            outputs={"color": "VEC4"},
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="indirect/point_weights.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _sweep_shader() -> Any:
-    return build_shader(
-        "sweep",
-        FULL_SCREEN,
-        Piece(
-            samplers=named("FLOAT_2D", "patch_sent", "links", "point_weights"),
-            constants={"patches": "INT"},
-            outputs={"color": "VEC4"},
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="indirect/sweep.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
-    points = Piece(samplers={"patch_points": "FLOAT_2D"}, defines={"PATCH_POINTS": POINTS, **flags("OF_HEMISPHERE")})
-    return build_shader(
-        "light of emitters",
-        FULL_SCREEN,
-        TABLE,
-        reads(buffers),
-        *((points, SHINES) if of_hemisphere else ()),
-        Piece(
-            samplers=named("FLOAT_2D", *_VERTICES, "path_way"),
-            outputs={"link_out": "VEC4"},
-            defines=_BATCH,
-            fragment="indirect/emitter_links.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _emitter_sum_shader() -> Any:
-    return build_shader(
-        "sum of emitters",
-        FULL_SCREEN,
-        Piece(
-            samplers=named("FLOAT_2D", "links", "point_weights"),
-            constants={"patches": "INT"},
-            outputs={"color": "VEC4"},
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="indirect/emitter_sum.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
-def _sum_shader(with_emitters: bool) -> Any:
-    return build_shader(
-        "sum of patches",
-        FULL_SCREEN,
-        Piece(
-            samplers=named(
-                "FLOAT_2D", "patch_swept", "patch_lamps", "patch_sky", "point_weights", *(("patch_shone",) if with_emitters else ())
-            ),
-            constants={"patches": "INT"},
-            outputs=named("VEC4", "sent_out", "arriving_out", "under_sky_out"),
-            defines={**_BATCH, "PATCH_POINTS": POINTS, **(EMITTERS.defines if with_emitters else {})},
-            fragment="indirect/patch_sum.frag.glsl",
-        ),
-    )

@@ -54,7 +54,7 @@ class Patches:
         return replace(self, table=spread_to_neighbors(table, self.grid.levels))
 
     def parted(self, normals: Float32Array, distances: Float32Array) -> Patches:
-        """Without the points that are behind one of the walls, planes (patches, n, 3), (patches, n), of their patch: the
+        """Without the points that are behind one of the walls of their patch, planes (patches, n, 3), (patches, n): the
         first one, which is before all of them, stands in."""
         heights = np.einsum("pwk,pnk->pwn", normals, self.positions)
         behind = (heights < distances[:, :, None]).any(axis=1)
@@ -74,8 +74,8 @@ class Surface:
 
 
 def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float) -> Iterator[Patches | None]:
-    """Points on all surfaces about a place (3,), finest within `half` of it: the last that this yields, None where there
-    is no surface; before that None each time that some work is done.
+    """Points on all surfaces about a place (3,), finest within `half` of it: the last that this yields, None where
+    there is no surface; before that None each time that some work is done.
 
     Where that makes too few or too many patches all are smaller or larger.
     """

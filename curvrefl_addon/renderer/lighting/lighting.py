@@ -17,12 +17,12 @@ import numpy as np
 from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
+from ..cells.lookup import CELLS, At, SurfaceLight
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
 from ..geometry.scene_geometry import Difference, SceneGeometry
 from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
-from .cells import CELLS, At, SurfaceLight
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
@@ -34,8 +34,8 @@ from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
 from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
-from .shadow_reach import shadow_pieces
-from .shadow_views import SceneExtent, ShadowView, meets_faces
+from .shadow_reach import cube_holds, shadow_pieces
+from .shadow_views import SceneExtent, ShadowView
 from .suns import shines, split_suns, suns_of_kinds
 from .world import WORLD_DEFINES, world_light
 
@@ -165,12 +165,8 @@ class Lighting:
         corners = self._geometry.box_corners(moved)
         if not self._extent.spares(moved, corners):
             return False
-        lamps = [
-            view
-            for light, planned in zip(self._lights, self._lamp_places, strict=True)
-            if light.casts_shadow
-            for view in planned
-        ]
+        pairs = zip(self._lights, self._lamp_places, strict=True)
+        lamps = [view for light, planned in pairs if light.casts_shadow for view in planned]
         # Where nothing could be in shadow there is no map, and now something may.
         if any(len(layers) == 0 or layers == (-1,) for _, layers in lamps) or -1 in self._world_layers:
             return False
@@ -178,22 +174,9 @@ class Lighting:
             return False
         if not self._world_maps.hold(range(len(self._world_maps.views)), corners):
             return False
-        cubes = [(place, layers) for place, layers in lamps if len(layers) == 6]
         balls = self._geometry.balls(np.array(moved))
-        return all(self._cube_holds(place[:3], layers, *balls) for place, layers in cubes)
-
-    def _cube_holds(
-        self, place: Float64Array, layers: tuple[int, ...], centers: Float64Array, radii: Float64Array
-    ) -> bool:
-        """Whether balls are within a cube map's reach, and no face that has no map sees one."""
-        near_term, far_term = self._lamp_maps.views[max(layers)].depth_terms
-        farthest = far_term / (1.0 - near_term)
-        if (np.linalg.norm(centers - place, axis=1) + radii).max() > farthest:
-            return False
-        if min(layers) >= 0:
-            return True
-        met = meets_faces(place, centers, radii)
-        return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))
+        cubes = [(place[:3], layers) for place, layers in lamps if len(layers) == 6]
+        return all(cube_holds(self._lamp_maps, place, layers, *balls) for place, layers in cubes)
 
     def _found_features(self) -> Features:
         kinds = {light.kind for light in self._lights}

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What shadow maps are to hold: not what lies far out of the rest, or they would have no texels left for it."""
+"""What shadow maps are to hold: not what lies far out of the rest, or they would have no texels left for it. And
+whether a cube map holds what has moved."""
 
 from __future__ import annotations
 
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 from ...scene.arrays import Float64Array
 from ..geometry.mesh_pieces import MeshPieces
 from ..geometry.scene_geometry import SceneGeometry
+from .shadow_maps import ShadowMaps
+from .shadow_views import meets_faces
 
 APART = 32.0
 """What reaches so many times farther from the middle of the scene than all that is nearer, half of the objects or more,
@@ -49,3 +52,17 @@ def shadow_pieces(geometry: SceneGeometry) -> tuple[list[tuple[MeshPieces, Float
     return found, tuple(
         f'"{name}" is so far from the rest, or so much larger, that it casts no shadows.' for name in names
     )
+
+
+def cube_holds(
+    maps: ShadowMaps, place: Float64Array, layers: tuple[int, ...], centers: Float64Array, radii: Float64Array
+) -> bool:
+    """Whether balls are within the reach of the cube map at a place (3,), and no face that has no map sees one."""
+    near_term, far_term = maps.views[max(layers)].depth_terms
+    farthest = far_term / (1.0 - near_term)
+    if (np.linalg.norm(centers - place, axis=1) + radii).max() > farthest:
+        return False
+    if min(layers) >= 0:
+        return True
+    met = meets_faces(place, centers, radii)
+    return all(layer >= 0 or not here for layer, here in zip(layers, met, strict=True))

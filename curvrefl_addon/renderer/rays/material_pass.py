@@ -67,8 +67,8 @@ class MaterialPass:
     ) -> None:
         """Fill base color, normal and `made` where rays have just hit something with a program.
 
-        `followed`: a depth texture, and what it holds where a ray was followed (-1: anything less than 1); `turn`: numbers of the sub-frame and of
-        the bounce.
+        `followed`: a depth texture, and what it holds where a ray was followed (-1: anything less than 1); `turn`:
+        numbers of the sub-frame and of the bounce.
         """
         if self._depth is None:
             self._depth = depth_texture(*self._size)

@@ -5,61 +5,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
-from ..device.context import gpu_cache
-from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
 from ..indirect.gather import (
-    ASKS_EMITTERS,
-    NO_FEATURES,
     Gathering,
     GatherPicture,
     SharedGather,
     Source,
     features_of,
-    shared_piece,
 )
-from ..lighting.lighting import Features, Lighting, lighting_piece
+from ..lighting.lighting import Features, Lighting
 from ..paths.features import has_base
-from ..programs.buffers import NONE, Buffers, MaterialBuffers, reads
-from ..rays.paths import ON_PATHS, PATH_DEPTH, Bounce
-from ..rays.ray_scene import RAYS, RayScene
+from ..programs.buffers import NONE, MaterialBuffers
+from ..rays.paths import PATH_DEPTH, Bounce
+from ..rays.ray_scene import RayScene
 from ..surfaces.canvas import Canvas
-from ..surfaces.materials import TABLE, Materials
-from ..surfaces.pixel_classes import CLASS, CLASS_COUNT, PixelClass, PixelClasses
+from ..surfaces.materials import Materials
+from ..surfaces.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
 from ..surfaces.surface_buffer import SurfaceBuffer
-from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
-from .lookup import Environment, lookup_piece
+from .features import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, rays_of
+from .lookup import Environment
+from .shade_shaders import PATH, REFLECTED, SEEN, environment_shader, front_shader, path_shader, shade_shader
 
-_SEEN = ("seen_position", "seen_normal", "seen_color")
-_REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
-_PATH = ("mirror_position", "path_direction", "path_throughput")
-MIRRORS_END = "MIRRORS_END"
-"""Beside the features of lighting: the file follows no more mirrors, so that what they show has its own light alone"""
-RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
-"""Beside the features of lighting: lamps' shadows by rays, and the world's"""
-FILM_TRANSPARENT = "FILM_TRANSPARENT"
-"""Of the background: lamps alone are seen there, and they cover nothing"""
-LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
-_SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
-
-
-@dataclass(frozen=True, slots=True)
-class RayShadows:
-    """Shadows by rays in place of maps."""
-
-    rays: RayScene
-    of_lamps: bool
-    of_world: bool
-    everywhere: bool
-    """Also of what the eye sees itself, else of what mirrors show"""
 
 
 class ShadePass:
@@ -195,7 +168,7 @@ class ShadePass:
             rays = rays_of(features, shadows)
             buffers = self._materials.buffers if kind is PixelClass.SURFACE else NONE
             is_shared = shared is not None and kind is PixelClass.SURFACE
-            shader = _shade_shader(kind, features, buffers, as_camera, is_shared)
+            shader = shade_shader(kind, features, buffers, as_camera, is_shared)
             self._draw(
                 shader,
                 kind,
@@ -219,25 +192,23 @@ class ShadePass:
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
-            shader = _shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
+            shader = shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
-                features = features_for(
-                    self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered
-                )
+                features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered)
                 is_shared = shared is not None and kind is PixelClass.MIRROR_OF_SURFACE
-                shader = _shade_shader(kind, features, self._materials.buffers, True, is_shared)
+                shader = shade_shader(kind, features, self._materials.buffers, True, is_shared)
                 shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
-                for name, texture in zip(_REFLECTED, textures, strict=True):
+                for name, texture in zip(REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)
                 rays = rays_of(features, shadows)
                 made, rays_shared = reflected.made, shared if is_shared else None
                 self._draw(shader, kind, seen, view_uniforms, weight, rays, made, rays_shared)
             return
         for environment in reflected or ():
-            shader = _environment_shader(environment.lookup, self._lighting.features)
+            shader = environment_shader(environment.lookup, self._lighting.features)
             shader.bind()
             shader.uniform_float("mirror", float(environment.mirror))
             environment.bind(shader, environment.radiance)
@@ -257,7 +228,7 @@ class ShadePass:
         if self._has_base:
             for kind in mirrors:
                 features = features_for(self._lighting, shadows, is_seen=True)
-                shader = _front_shader(True, features, self._materials.buffers, by_camera)
+                shader = front_shader(True, features, self._materials.buffers, by_camera)
                 self._draw(shader, kind, seen, view_uniforms, weight, rays_of(features, shadows), seen.made)
         if mirrors_only:
             return
@@ -267,7 +238,7 @@ class ShadePass:
             others = {PixelClass.BACKGROUND, *(mirrors if self._has_base else ())}
             kinds = [kind for kind in PixelClass if kind not in others]
         for kind in kinds:
-            shader = _front_shader(False, self._lighting.features, NONE, by_camera)
+            shader = front_shader(False, self._lighting.features, NONE, by_camera)
             self._draw(shader, kind, seen, view_uniforms, weight)
 
     def _add_path(
@@ -281,7 +252,7 @@ class ShadePass:
     ) -> None:
         """Add the light of what rays off mirrors seen in mirrors have hit."""
         features = features_for(self._lighting, shadows, ends=bounce.ends, gathered=gathered)
-        shader = _path_shader(bounce.goes_on, features, self._materials.buffers)
+        shader = path_shader(bounce.goes_on, features, self._materials.buffers)
         path = bounce.path
         target = canvas.with_depth(path.depth)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(bounce.window):
@@ -293,9 +264,9 @@ class ShadePass:
             shader.uniform_float("weight", weight)
             shader.uniform_sampler("materials", self._materials.table)
             textures = (bounce.mirrors.position, path.direction, path.throughput)
-            for name, texture in zip(_PATH, textures, strict=True):
+            for name, texture in zip(PATH, textures, strict=True):
                 shader.uniform_sampler(name, texture)
-            for name, texture in zip(_REFLECTED, (path.position, path.normal, path.color), strict=True):
+            for name, texture in zip(REFLECTED, (path.position, path.normal, path.color), strict=True):
                 shader.uniform_sampler(name, texture)
             path.made.bind(shader, self._materials.buffers)
             self._lighting.bind(shader)
@@ -321,7 +292,7 @@ class ShadePass:
         shader.uniform_float("weight", weight)
         shader.uniform_float("pixel_class", float(kind))
         shader.uniform_sampler("materials", self._materials.table)
-        for name, texture in zip(_SEEN, (seen.position, seen.normal, seen.color), strict=True):
+        for name, texture in zip(SEEN, (seen.position, seen.normal, seen.color), strict=True):
             shader.uniform_sampler(name, texture)
         if made is not None:
             made.bind(shader, self._materials.buffers)
@@ -337,99 +308,3 @@ class ShadePass:
                 del self._classes[next(iter(self._classes))]
             self._classes[size] = PixelClasses(*size)
         return self._classes[size]
-
-
-_LIGHT = Piece(constants={"weight": "FLOAT"}, outputs={"color": "VEC4"})
-_OF_SEEN = (VIEW, CLASS, TABLE, Piece(samplers=named("FLOAT_2D", *_SEEN)), _LIGHT)
-"""Pieces of shaders that light a class of pixels of the buffers that the eye sees"""
-_SEEN_BY_MIRROR = Piece(defines=flags("SEEN_BY_MIRROR"))
-_OF_REFLECTED = Piece(samplers=named("FLOAT_2D", *_REFLECTED))
-
-
-def features_for(
-    lighting: Lighting,
-    shadows: RayShadows | None,
-    is_seen: bool = False,
-    ends: bool = False,
-    gathered: Features = NO_FEATURES,
-) -> Features:
-    """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow;
-    `gathered`: of what is left to rays (`Gathering.features`)."""
-    features = lighting.features | gathered
-    if ends:
-        # (What has its own light alone is in no shadow.)
-        return features | {MIRRORS_END}
-    if shadows is None or (is_seen and not shadows.everywhere):
-        return features
-    # Without anything in shadow there is no ray to follow.
-    if shadows.of_lamps and features & _SHADOWS:
-        features |= {RAY_SHADOWS}
-    return features | {WORLD_RAYS} if shadows.of_world and "LIGHTING_WORLD" in features else features
-
-
-def lighting_pieces(features: Features) -> tuple[Piece, ...]:
-    """With the rays that shadow, where these are among the features."""
-    return (lighting_piece(features), *((RAYS,) if features & {RAY_SHADOWS, WORLD_RAYS} else ()))
-
-
-def rays_of(features: Features, shadows: RayShadows | None) -> RayScene | None:
-    """What a shader with these features needs bound."""
-    return shadows.rays if shadows is not None and features & {RAY_SHADOWS, WORLD_RAYS} else None
-
-
-@gpu_cache
-def _shade_shader(
-    kind: PixelClass, features: Features, buffers: Buffers, by_camera: bool = True, is_shared: bool = False
-) -> Any:
-    """For a class of pixels, without environments."""
-    shows_surface = kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR)
-    return build_shader(
-        f"shade {kind.name}",
-        *_OF_SEEN,
-        reads(buffers),
-        *((_OF_REFLECTED,) if shows_surface else ()),
-        *lighting_pieces(features),
-        *(() if by_camera else (_SEEN_BY_MIRROR,)),
-        *((shared_piece(kind is PixelClass.SURFACE, ASKS_EMITTERS in features),) if is_shared else ()),
-        Piece(defines=flags(f"SHADES_{kind.name}"), fragment="lighting/shade.frag.glsl"),
-    )
-
-
-@gpu_cache
-def _environment_shader(lookup: str, features: Features) -> Any:
-    """For mirrors that show an environment, with the name of its lookup."""
-    return build_shader(
-        f"shade {lookup}",
-        *_OF_SEEN,
-        lookup_piece(lookup),
-        lighting_piece(features),
-        Piece(constants={"mirror": "FLOAT"}, fragment="lighting/shade.frag.glsl"),
-    )
-
-
-@gpu_cache
-def _path_shader(goes_on: bool, features: Features, buffers: Buffers) -> Any:
-    return build_shader(
-        "shade path",
-        ON_PATHS,
-        VIEW,
-        TABLE,
-        reads(buffers),
-        Piece(samplers=named("FLOAT_2D", *_PATH)),
-        _OF_REFLECTED,
-        _LIGHT,
-        *lighting_pieces(features),
-        Piece(defines=flags("GOES_ON") if goes_on else {}, fragment="lighting/shade_path.frag.glsl"),
-    )
-
-
-@gpu_cache
-def _front_shader(has_base: bool, features: Features, buffers: Buffers, by_camera: bool) -> Any:
-    return build_shader(
-        "shade front",
-        *_OF_SEEN,
-        reads(buffers),
-        *lighting_pieces(features),
-        *(() if by_camera else (_SEEN_BY_MIRROR,)),
-        Piece(defines=flags("MIRROR_BASE") if has_base else {}, fragment="lighting/shade_front.frag.glsl"),
-    )

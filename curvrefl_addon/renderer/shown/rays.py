@@ -13,7 +13,7 @@ from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
 from ..rays.ray_instances import OWN_RANGE
 from ..settings import Settings
-from ..shading.shade import RayShadows
+from ..shading.features import RayShadows
 from ..surfaces.canvas import Canvas
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import union

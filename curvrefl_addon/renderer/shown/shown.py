@@ -26,8 +26,9 @@ from ..mirrors.mirror import Mirror
 from ..rays.ray_scene import RayScene
 from ..settings import Settings
 from ..shading.calm import CalmHistory
+from ..shading.features import RayShadows
 from ..shading.lookup import Environment
-from ..shading.shade import RayShadows, ShadePass
+from ..shading.shade import ShadePass
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.surface_buffer import SurfaceBuffer

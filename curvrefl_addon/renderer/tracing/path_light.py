@@ -7,16 +7,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from ..cells.lookup import At
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import ASKS_EMITTERS, Gathering, SharedGather, features_of, shared_piece
-from ..lighting.cells import At
+from ..indirect.gather import ASKS_EMITTERS, Gathering, SharedGather, features_of
+from ..indirect.gather_shaders import shared_piece
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
 from ..programs.buffers import Buffers
-from ..shading.shade import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
+from ..shading.features import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
 from ..surfaces.canvas import Canvas
 from ..surfaces.pixel_classes import CLASS
 from ..surfaces.surface_buffer import SurfaceBuffer
@@ -126,9 +127,7 @@ _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "I
 
 def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
     """Whether pixels share the sky's shadows: where there are any, of surfaces that are lit as a whole."""
-    return (
-        kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and "SKY_GATHERED" not in lighting_features
-    )
+    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and "SKY_GATHERED" not in lighting_features
 
 
 @gpu_cache

@@ -12,7 +12,7 @@ from ..indirect.gather import Gathering, GatherPicture, Source
 from ..lighting.lighting import Lighting
 from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
-from ..shading.shade import RayShadows
+from ..shading.features import RayShadows
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT

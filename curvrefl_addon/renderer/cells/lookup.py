@@ -25,7 +25,7 @@ class At(IntEnum):
     """Which light at patches is asked for."""
 
     HITS = 0
-    """All, at surfaces that rays meet after one bounce"""
+    """At surfaces that rays meet after one bounce, all but that of lamps"""
     ENDS = 1
     """What other surfaces send to what is seen"""
     ENDS_UNDER_SKY = 2

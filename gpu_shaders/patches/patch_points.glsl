@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of patches (renderer/indirect/points.py). Needs the sampler `patch_points`: of each patch PATCH_POINTS places,
-// then as many normals.
+// Points of patches (renderer/indirect/points.py). Needs the sampler `patch_points`: of each patch PATCH_POINTS
+// places, then as many normals.
 #include "common/records.glsl"
 
 vec3 patch_place(int number, int point)

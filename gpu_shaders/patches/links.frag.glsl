@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ray from a patch has met, as a link: number of the patch there, -1 for none; how much of what arrives there it
-// sends on. A ray that began inside of a solid thing counts for nothing (-2). A quarter more: it met something close by.
+// What a ray from a patch has met, as a link: number of the patch there, -1 for none; how much of what arrives there
+// it sends on. A ray that began inside of a solid thing counts for nothing (-2). A quarter more: it met something
+// close by.
 #include "lighting/ggx.glsl"
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
-#include "indirect/cells.glsl"
+#include "patches/cells.glsl"
 #include "paths/path_state.glsl"
-#include "indirect/sent_on.glsl"
+#include "gather/sent_on.glsl"
 
 // In cells.
 #define CLOSE 0.25

@@ -4,11 +4,11 @@
 // surface (a fragment each: four of each patch). Normal towards the patch, distance; nothing: far below all.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
-#include "indirect/cells.glsl"
-#include "indirect/patch_points.glsl"
+#include "patches/cells.glsl"
+#include "patches/patch_points.glsl"
 
-// How high above the surface, and how far, in cells: what is lower hardly shadows a cell, what is nearer may part cells
-// between which light is interpolated.
+// How high above the surface, and how far, in cells: what is lower hardly shadows a cell, what is nearer may part
+// cells between which light is interpolated.
 #define WALL_HEIGHT 0.1
 #define WALL_REACH 1.8
 

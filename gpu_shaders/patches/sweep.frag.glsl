@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light that one batch of links brings to each patch (a fragment each): the sum over its rays, and how many count.
 #include "common/records.glsl"
-#include "indirect/point_weight.glsl"
+#include "patches/point_weight.glsl"
 
 void main()
 {

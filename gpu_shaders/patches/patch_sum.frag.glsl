@@ -3,7 +3,7 @@
 // All light at each patch (a fragment each): what lamps and the world send straight there, the mean over its points
 // that are not inside of something; and what has come from other surfaces.
 #include "common/records.glsl"
-#include "indirect/point_weight.glsl"
+#include "patches/point_weight.glsl"
 
 void main()
 {

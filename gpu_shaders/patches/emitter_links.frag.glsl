@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ray from a patch has found of what shines: irradiance. With OF_HEMISPHERE one of those over the hemisphere, else
-// one of those to places that shine.
+// What a ray from a patch has found of what shines: irradiance. With OF_HEMISPHERE one of those over the hemisphere,
+// else one of those to places that shine.
 #include "surfaces/material_at.glsl"
 #include "surfaces/material_number.glsl"
 #include "paths/path_state.glsl"
 #include "scattering/frame.glsl"
 #ifdef OF_HEMISPHERE
-#include "indirect/patch_points.glsl"
-#include "indirect/emitter_density.glsl"
+#include "patches/patch_points.glsl"
+#include "gather/emitter_density.glsl"
 #endif
 
 void main()

@@ -4,13 +4,13 @@
 // of paths. With EMITTERS to places that shine.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
-#include "indirect/patch_points.glsl"
-#include "indirect/directions.glsl"
+#include "patches/patch_points.glsl"
+#include "gather/directions.glsl"
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 #ifdef EMITTERS
-#include "indirect/emitter_density.glsl"
-#include "indirect/emitters.glsl"
+#include "gather/emitter_density.glsl"
+#include "gather/emitters.glsl"
 #endif
 
 void main()

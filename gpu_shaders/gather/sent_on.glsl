@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Share of what arrives at a surface that it sends on towards a viewer, whatever way it came. `side`: its normal towards
-// the viewer, which is turned where by chance (`random`) that on the other side is asked for, which comes through.
+// Share of what arrives at a surface that it sends on towards a viewer, whatever way it came. `side`: its normal
+// towards the viewer, which is turned where by chance (`random`) that on the other side is asked for, which comes
+// through.
 
 vec3 sent_on(Material m, float random, vec3 direction, inout vec3 side)
 {

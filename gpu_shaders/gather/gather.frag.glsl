@@ -1,24 +1,23 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One ray for the light that other surfaces send to what a pixel shows: off its base, by the cosine, or off the lobe
-// above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off later
-// mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's light is
-// multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone counts; 4 a ray
-// that brings nothing, 5 one that met something before the place,
-// 6 through the base to the other side.
-// With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went, over the
-// share of such rays that are not sharp.
+// above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off
+// later mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's
+// light is multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone
+// counts; 4 a ray that brings nothing, 5 one that met something before the place, 6 through the base to the other
+// side. With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went,
+// over the share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "lighting/shade_surfaces.glsl"
 #include "lighting/mirror_tint.glsl"
 #include "scattering/microfacet.glsl"
-#include "indirect/directions.glsl"
-#include "indirect/followed_value.glsl"
+#include "gather/directions.glsl"
+#include "gather/followed_value.glsl"
 #ifdef EMITTERS
-#include "indirect/emitter_density.glsl"
-#include "indirect/emitters.glsl"
+#include "gather/emitter_density.glsl"
+#include "gather/emitters.glsl"
 #endif
 #include "paths/path_state.glsl"
 #include "paths/random.glsl"

@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light of rays between surfaces that pixels share: those off the base with the texels of `gather_light` about the
 // pixel's own whose rays began on the same surface nearby. With SHARED_BY_QUADS a quad of pixels has one texel, whose
-// ray began at one of them (`lane`), another one in each sub-frame. With EMITTERS those that went to where light comes
-// from are shared as well, where none of them met a shadow. `gather_light`: radiance over the chance of the ray;
-// w: what it was. Needs `gather_way`, the push constant `share_turn` (INT: of the sub-frame) and the samplers SHARED_POSITION and SHARED_NORMAL of where rays began.
-#include "indirect/followed_value.glsl"
+// ray began at one of them (`lane`), another one in each sub-frame. With EMITTERS those that went to where light
+// comes from are shared as well, where none of them met a shadow. `gather_light`: radiance over the chance of the
+// ray; w: what it was. Needs `gather_way`, the push constant `share_turn` (INT: of the sub-frame) and the samplers
+// SHARED_POSITION and SHARED_NORMAL of where rays began.
+#include "gather/followed_value.glsl"
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 
 // How many texels are asked, and how far off.
 #define SHARED_TAPS 9
+// How far off in the world, in parts of the way that light comes.
+#define SHARED_WAY 0.1
 #ifdef SHARED_BY_QUADS
 #define SHARED_REACH 2.5
 #else
@@ -51,6 +54,9 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
   ivec2 own_texel = own;
   // (Others about it by chance: a fixed pattern would be seen.)
   uint seed = hashed(uint(pixel.x) | (uint(pixel.y) << 16u)) + uint(share_turn);
+  ivec2 texels[SHARED_TAPS];
+  float away[SHARED_TAPS];  // from the pixel's own place; -1: of another surface
+  float nearness = 0.0, rays = 0.0;
   for (int k = 0; k < SHARED_TAPS; k++) {
     ivec2 texel = own;
     if (k > 0) {
@@ -60,16 +66,28 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
       vec2 off = SHARED_REACH * sqrt((float(k) - random.y) / float(SHARED_TAPS - 1)) * vec2(cos(angle), sin(angle));
       texel = clamp(own + ivec2(round(off)), ivec2(0), most);
     }
-    vec4 light = texelFetch(gather_light, texel, 0);
-    if (light.w > 0.5 && shares_rays(asked_at(texel), place, facing)) {
+    texels[k] = texel;
+    away[k] = -1.0;
+    if (texelFetch(gather_light, texel, 0).w > 0.5 && shares_rays(asked_at(texel), place, facing)) {
+      away[k] = distance(texelFetch(SHARED_POSITION, asked_at(texel), 0).xyz, place.xyz);
+      nearness += 1.0 / max(texelFetch(gather_way, texel, 0).w, 1e-20);
+      rays += 1.0;
+    }
+  }
+  // Light changes over a share of the harmonic mean of the distances that it comes from (Ward et al., "A ray tracing
+  // solution for diffuse interreflection", 1988).
+  float reach = SHARED_WAY * rays / max(nearness, 1e-30);
+  for (int k = 0; k < SHARED_TAPS; k++) {
+    if (away[k] >= 0.0 && (away[k] <= reach || count == 0.0)) {
+      vec4 light = texelFetch(gather_light, texels[k], 0);
       bool is_own = count == 0.0;
       count += 1.0;
       own_light = is_own ? light : own_light;
-      own_texel = is_own ? texel : own_texel;
+      own_texel = is_own ? texels[k] : own_texel;
       off_base += light.w < 1.5 ? light.rgb : vec3(0.0);
 #ifdef EMITTERS
-      if (light.w > 2.5 && light.w < 3.5) {
-        vec3 direction = way_direction(texelFetch(gather_way, texel, 0));
+      if (light.w == 3.0) {
+        vec3 direction = way_direction(texelFetch(gather_way, texels[k], 0));
         vec3 found = light.rgb * (max(dot(normal, direction), 0.0) / LIGHTING_PI);
         shining += found;
         own_shining = is_own ? found : own_shining;
@@ -87,7 +105,8 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
     return surfaces_on(s, lobes);
   }
 #endif
-  // (At the edge of a shadow each has its own alone: rays that agree are as good as one another's, so the mean is right.)
+  // (At the edge of a shadow each has its own alone: rays that agree are as good as one another's, so the mean is
+  // right.)
   vec3 sum = off_base / max(count, 1.0);
   sum += is_shadowed ? own_shining : shining / max(count, 1.0);
   sum *= lobes.diffuse;

@@ -12,10 +12,12 @@ void main()
   if (place >= patches) {
     return;
   }
+  vec4 open = vec4(0.0);
   for (int ray = 0; ray < RAYS_AT_ONCE; ray++) {
     int number = place * RAYS_AT_ONCE + ray;
     float link = texelFetch(links, ivec2(number % PICTURE_WIDTH, number / PICTURE_WIDTH), 0).x;
     bool is_close = fract(link) > 0.1 || link < -1.5;
-    color[ray % PATCH_POINTS] += is_close ? 0.0 : 1.0;
+    open[ray % PATCH_POINTS] += is_close ? 0.0 : 1.0;
   }
+  color = open;
 }

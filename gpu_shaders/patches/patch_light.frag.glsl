@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lamps, or with OF_SKY the world, let arrive at each point of each patch (a fragment each), of one sub-frame: irradiance.
+// What lamps, or with OF_SKY the world, let arrive at each point of each patch (a fragment each), of one sub-frame:
+// irradiance.
 #include "lighting/lighting.glsl"
-#include "indirect/patch_points.glsl"
-#include "indirect/white_surface.glsl"
+#include "patches/patch_points.glsl"
+#include "patches/white_surface.glsl"
 
 void main()
 {

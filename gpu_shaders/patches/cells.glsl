@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of the scene's surfaces (renderer/indirect/cells.py), and what light arrives there. Needs the samplers
 // `cell_table` (numbers of patches, and a half where walls end what one stands for), `patch_walls` (of each patch
-// PATCH_WALLS planes: normal towards its points, distance) and the push constants `cell_grid` (VEC4: focus, half of the
-// side of level 0) and `cell_levels` (FLOAT).
+// PATCH_WALLS planes: normal towards its points, distance) and the push constants `cell_grid` (VEC4: focus, half of
+// the side of level 0) and `cell_levels` (FLOAT).
 #include "common/records.glsl"
 
 // Level of a place, below 0 outside of all.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What there is to light where a ray for light between surfaces was followed, as a depth (renderer/indirect/gather.py).
+// What there is to light where a ray for light between surfaces was followed, as a depth
+// (renderer/indirect/gather.py).
 
 void main()
 {

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Light that a ray between surfaces brings. One of LIGHTS_BASE_MEETS (a ray off a base has met a surface: the light of
-// its patch), LIGHTS_LOBE_MEETS (one off a lobe has: lit as what mirrors show), LIGHTS_SHINES (a ray has gone to a place
-// that shines), LIGHTS_BASE_MISSES and LIGHTS_LOBE_MISSES (the world) is defined. With EMITTERS what shines by itself
-// counts together with the rays that go there (the balance heuristic).
+// Light that a ray between surfaces brings. One of LIGHTS_BASE_MEETS (a ray off a base has met a surface: the light
+// of its patch), LIGHTS_LOBE_MEETS (one off a lobe has: lit as what mirrors show), LIGHTS_SHINES (a ray has gone to a
+// place that shines), LIGHTS_BASE_MISSES and LIGHTS_LOBE_MISSES (the world) is defined. With EMITTERS what shines by
+// itself counts together with the rays that go there (the balance heuristic).
 #include "lighting/lighting.glsl"
 #include "lighting/shade_surfaces.glsl"
-#include "indirect/cells.glsl"
-#include "indirect/sent_on.glsl"
+#include "patches/cells.glsl"
+#include "gather/sent_on.glsl"
 #include "paths/path_state.glsl"
+#include "patches/white_surface.glsl"
 #ifdef EMITTERS
-#include "indirect/emitter_density.glsl"
+#include "gather/emitter_density.glsl"
 #endif
 
 void main()
@@ -39,6 +40,11 @@ void main()
   if (place >= 0) {
     radiance = sent * fetch_record(patch_light, place).rgb / LIGHTING_PI;
   }
+#ifdef LIGHTING_LAMPS
+  // (Edges of lamps' shadows are finer than patches.)
+  Surface met = white_surface(position.xyz, side);
+  radiance += sent * lamps_on(met, base_lobes(met, vec3(1.0), 1.0), side);
+#endif
 #elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
   Surface s = surface_of(pixel, position, normal, base);
   s.emission = vec3(0.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sum over one batch of rays from each patch (a fragment each) to places that shine.
-#include "indirect/point_weight.glsl"
+#include "patches/point_weight.glsl"
 
 void main()
 {

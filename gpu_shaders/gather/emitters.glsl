@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that shine (renderer/indirect/emitters.py), one of them chosen as often as it is strong. Needs the sampler
-// `emitters` and the push constant `emitter_count` (INT). Three records each: corner, sum of chances up to here; edges to
-// the others, the first with the density of a place on it over area.
+// Triangles that shine (renderer/indirect/emitters.py), one of them chosen as often as it is strong. Needs the
+// sampler `emitters` and the push constant `emitter_count` (INT). Three records each: corner, sum of chances up to
+// here; edges to the others, the first with the density of a place on it over area.
 #include "common/records.glsl"
 
 struct EmitterPlace {

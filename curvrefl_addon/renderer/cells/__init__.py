@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cells of the scene's surfaces as shaders look them up."""
