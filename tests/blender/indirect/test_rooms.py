@@ -25,7 +25,7 @@ def off_by(ours: np.ndarray, cycles: np.ndarray, chosen: np.ndarray) -> float:
 
 
 def cornell(lamp_is_mesh: bool) -> None:
-    """An open box with a block and a mirror, lit from the ceiling: a mesh hangs so close that its back lights nothing."""
+    """An open box with a block and a mirror, lit from the ceiling: so close to it that a mesh's back lights nothing."""
     start(4)
     light, red, green = matte(gray(0.75)), matte((0.63, 0.06, 0.05)), matte((0.15, 0.48, 0.09))
     for name, low, high, material in (

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from curvrefl.curvrefl_addon.renderer.cells.lookup import SIDE
 from curvrefl.curvrefl_addon.renderer.indirect.cells import (
     CELLS_OF_LEVEL,
     SIDES,
@@ -13,7 +14,6 @@ from curvrefl.curvrefl_addon.renderer.indirect.cells import (
     levels_of,
     spread_to_neighbors,
 )
-from curvrefl.curvrefl_addon.renderer.lighting.cells import SIDE
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
