@@ -13,7 +13,7 @@
 // How many texels are asked, and how far off.
 #define SHARED_TAPS 9
 // How far off in the world, in parts of the way that light comes.
-#define SHARED_WAY 0.1
+#define SHARED_WAY 0.03
 #ifdef SHARED_BY_QUADS
 #define SHARED_REACH 2.5
 #else

@@ -68,7 +68,8 @@ def test_box_with_colored_walls_has_cycles_light(lamp_is_mesh: bool) -> None:
     ours, theirs = np.minimum(shown.picture, 0.5), np.minimum(cycles, 0.5)
     off = {name: off_by(ours, theirs, chosen) for name, chosen in parts.items()}
     assert all(chosen.sum() > 20 for chosen in parts.values())
-    assert max(map(abs, off.values())) < 0.01, off
+    # (Cells of 7 cm: the lamp that shines is 2 cm below the ceiling, the block 60 cm high.)
+    assert max(map(abs, off.values())) < (0.04 if lamp_is_mesh else 0.02), off
     # Each color by itself: red and green walls color what is beside them.
     everywhere = inner(shown.is_thing | shown.is_mirror)
     assert ours[everywhere].mean(axis=0) == pytest.approx(theirs[everywhere].mean(axis=0), rel=0.015)
@@ -140,10 +141,10 @@ def ball_by_a_wall() -> Shown:
     start(1)
     add_box("wall", (-4.0, -4.0, 0.0), (-3.9, 4.0, 8.0), matte(gray(0.8)))
     add_object("ball", ball(1.0, 64), matte(gray(0.6)), True, (0.0, 0.0, 3.0))
-    spot = add_lamp("SPOT", (0.0, 0.0, 0.0), 2000.0, spot_size=0.5, spot_blend=0.2, shadow_soft_size=0.05)
+    spot = add_lamp("SPOT", (0.0, 0.0, 0.0), 2000.0, spot_size=1.6, spot_blend=0.2, shadow_soft_size=0.05)
     # Past the ball, away from it.
     spot.location = (-1.5, 0.0, 6.0)
-    spot.rotation_euler = (0.0, np.radians(70.0), 0.0)
+    spot.rotation_euler = (0.0, np.radians(80.0), 0.0)
     add_mirror(0.3, (1.0, 2.5, 2.0))
     add_camera((-1.5, -7.0, 3.0), (-0.3, 0.0, 3.0), 60.0)
     return at_rest(64)
