@@ -68,12 +68,7 @@ void main()
   vec4 state = texelFetch(path_throughput, pixel, 0);
   throughput = unpack_state(state.w).ends ? vec3(0.0) : state.rgb;
 #endif
-  float cos_viewer = -dot(s.normal, incoming);
-  if (cos_viewer < 0.0) {
-    s.normal = -s.normal;
-    cos_viewer = -cos_viewer;
-  }
-  Lobes lobes = lobes_of(s, cos_viewer);
+  Lobes lobes = lobes_of(s, -dot(s.normal, incoming));
   vec4 random = path_random(pixel);
   float of_base = mean_of(lobes.diffuse);
   float of_lobe = mean_of(lobes.specular_albedo);

@@ -37,9 +37,8 @@ bool shares_rays(ivec2 other, vec4 place, vec3 normal)
   return there.w == place.w && dot(turned, normal) > 0.9 && abs(dot(off, normal)) <= 0.2 * length(off);
 }
 
-vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer)
+vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer)
 {
-  vec3 normal = dot(facing, to_viewer) < 0.0 ? -facing : facing;
 #ifdef SHARED_BY_QUADS
   ivec2 own = pixel >> 1;
 #else
@@ -68,7 +67,7 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
     }
     texels[k] = texel;
     away[k] = -1.0;
-    if (texelFetch(gather_light, texel, 0).w > 0.5 && shares_rays(asked_at(texel), place, facing)) {
+    if (texelFetch(gather_light, texel, 0).w > 0.5 && shares_rays(asked_at(texel), place, normal)) {
       away[k] = distance(texelFetch(SHARED_POSITION, asked_at(texel), 0).xyz, place.xyz);
       nearness += 1.0 / max(texelFetch(gather_way, texel, 0).w, 1e-20);
       rays += 1.0;
@@ -96,9 +95,7 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 facing, Surface s, vec3 to_viewer
 #endif
     }
   }
-  float cos_viewer = dot(s.normal, to_viewer);
-  s.normal *= cos_viewer < 0.0 ? -1.0 : 1.0;
-  Lobes lobes = lobes_of(s, abs(cos_viewer));
+  Lobes lobes = lobes_of(s, dot(s.normal, to_viewer));
 #ifdef LIGHTING_INDIRECT
   if (count == 0.0) {
     // What its patch knows stands in.

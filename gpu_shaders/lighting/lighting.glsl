@@ -76,15 +76,11 @@ vec3 emission_of(Surface s, Lobes lobes)
 #endif
 }
 
-// Outgoing radiance. `to_viewer`: unit. The normal is turned to the viewer's side.
+// Outgoing radiance. `to_viewer`: unit. The normal is that of the viewer's side; bent, it may turn away all the same,
+// and the surface is lit by it, as in Cycles.
 vec3 shade_surface(Surface s, vec3 to_viewer)
 {
-  float cos_viewer = dot(s.normal, to_viewer);
-  if (cos_viewer < 0.0) {
-    s.normal = -s.normal;
-    cos_viewer = -cos_viewer;
-  }
-  Lobes lobes = lobes_of(s, cos_viewer);
+  Lobes lobes = lobes_of(s, dot(s.normal, to_viewer));
   vec3 sum = emission_of(s, lobes) + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
 #if defined(LIGHTING_INDIRECT) && !defined(GATHERED)
   sum += surfaces_on(s, lobes);
@@ -105,12 +101,7 @@ vec3 shade_under_mirror(Surface s, vec3 to_viewer)
 #ifdef SURFACE_COAT
   s.coat_weight = 0.0;
 #endif
-  float cos_viewer = dot(s.normal, to_viewer);
-  if (cos_viewer < 0.0) {
-    s.normal = -s.normal;
-    cos_viewer = -cos_viewer;
-  }
-  Lobes lobes = lobes_of(s, cos_viewer);
+  Lobes lobes = lobes_of(s, dot(s.normal, to_viewer));
   vec3 sum = emission_of(s, lobes);
   vec3 below = lobes.diffuse;
 #ifdef SURFACE_TRANSLUCENT

@@ -28,12 +28,6 @@
 #define BY_CAMERA true
 #endif
 
-// As shade_surface turns it: neighbors that turn apart share nothing.
-vec3 facing(vec3 normal, vec3 direction)
-{
-  return dot(normal, direction) > 0.0 ? -normal : normal;
-}
-
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -52,7 +46,7 @@ void main()
   vec4 base = texelFetch(seen_color, pixel, 0);
 #ifdef SHADES_SURFACE
 #ifdef QUADS
-  world_is_shared = quad_is_one_surface(position.xyz, facing(normal.xyz, direction), vec3(position.w, normal.w, 0.0));
+  world_is_shared = quad_is_one_surface(position.xyz, normal.xyz, vec3(position.w, normal.w, 0.0));
 #endif
   Surface seen = surface_of(pixel, position, normal, base.rgb);
   vec3 radiance = shade_surface(seen, -direction);
@@ -91,7 +85,7 @@ void main()
 #else
 #ifdef QUADS
   world_is_shared =
-    quad_is_one_surface(shown.position, facing(shown.normal, direction), vec3(position.w, normal.w, seen_mirror));
+    quad_is_one_surface(shown.position, shown.normal, vec3(position.w, normal.w, seen_mirror));
 #endif
   vec3 radiance = shade_surface(shown, -direction);
 #ifdef GATHER_SHARED

@@ -69,8 +69,7 @@ void main()
 #ifdef QUADS
   // (Of other pixels a quad may have what an older step has met.)
   float met_now = texelFetch(classes_before, pixel, 0).x;
-  vec3 towards = dot(normal.xyz, direction) > 0.0 ? -normal.xyz : normal.xyz;
-  world_is_shared = quad_is_one_surface(position.xyz, towards, vec3(position.w, normal.w, met_now));
+  world_is_shared = quad_is_one_surface(position.xyz, normal.xyz, vec3(position.w, normal.w, met_now));
   world_is_parted = density > 0.0;
   // (By a hash, as the directions' order has a pattern.)
   ivec2 quad = pixel >> 1;
