@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 DEMO_SAMPLES, DEMO_SUB_FRAMES = 32, 16
 """Of the demo's reference and of our pictures of it: two cores need about three minutes in all"""
 DEMO_METHODS = ("auto", "secant_star", "environment_cube")
+"""(`exact` is what `auto` chooses there.)"""
 LAYERS = ("unit", "blender", "gui")
 AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
@@ -256,7 +257,7 @@ def demo(options: argparse.Namespace) -> int:
         with dropped(STDOUT):
             build_demo(folder / file.name)
         settings = Settings(samples=DEMO_SUB_FRAMES)
-        comparison = Comparison(DEMO_METHODS, samples=DEMO_SAMPLES, light="full", settings=settings)
+        comparison = Comparison(DEMO_METHODS, samples=DEMO_SAMPLES, settings=settings)
         report = _compare(open_scene(folder / file.name), list(MIRRORS), comparison, folder)
     _print_report(report, output)
     print(f"Scene: {file}")
