@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Pictures painted with numpy: wood, plaster, a rug, a landscape, a beach ball. All sRGB floats, row 0 at the bottom."""
+"""Pictures painted with numpy: wood, plaster, rug, landscape, beach ball. All sRGB floats, row 0 at the bottom."""
 
 from __future__ import annotations
 
@@ -103,16 +103,16 @@ def plaster(size: int, color: Tint, seed: int = 11) -> Float32Array:
 def rug(width: int, height: int) -> Float32Array:
     """(height, width, 4): rhombs in rows between borders, with the grain of threads."""
     rng = np.random.default_rng(5)
-    red, cream, blue, ochre = ((0.52, 0.16, 0.13), (0.86, 0.79, 0.66), (0.14, 0.22, 0.33), (0.78, 0.52, 0.2))
+    red, cream, blue, ocher = ((0.52, 0.16, 0.13), (0.86, 0.79, 0.66), (0.14, 0.22, 0.33), (0.78, 0.52, 0.2))
     y, x = np.indices((height, width))
     u, v = x / width, y / height
     rhomb = np.abs((u * 6.0) % 1.0 - 0.5) + np.abs((v * 9.0) % 1.0 - 0.5)
     image = np.ones((height, width, 4))
     image[..., :3] = red
-    for least, most, color in ((0.36, 0.46, cream), (0.16, 0.36, blue), (0.0, 0.16, ochre)):
+    for least, most, color in ((0.36, 0.46, cream), (0.16, 0.36, blue), (0.0, 0.16, ocher)):
         image[(rhomb >= least) & (rhomb < most), :3] = color
     edge = np.minimum(np.minimum(u, 1.0 - u) * width, np.minimum(v, 1.0 - v) * height) / min(width, height)
-    for least, most, color in ((0.0, 0.035, cream), (0.035, 0.09, blue), (0.09, 0.11, ochre)):
+    for least, most, color in ((0.0, 0.035, cream), (0.035, 0.09, blue), (0.09, 0.11, ocher)):
         image[(edge >= least) & (edge < most), :3] = color
     threads = 0.86 + 0.09 * (y % 2)[..., None] + 0.05 * rng.random((height, width, 1))
     image[..., :3] *= threads

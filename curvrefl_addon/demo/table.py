@@ -86,7 +86,7 @@ def _add_touching_things() -> None:
     under = pages.moved(offset).positions.mean(0)
     top = np.array([under[0] + 0.008, under[1] + 0.004, 0.0412])
     cover, pages = (part.turned(np.radians(-52.0)).moved(top) for part in book((0.115, 0.17, 0.022)))
-    _add_world_shape("Upper book cover", cover, matte("Ochre cloth", (0.5, 0.24, 0.05)))
+    _add_world_shape("Upper book cover", cover, matte("Ocher cloth", (0.5, 0.24, 0.05)))
     _add_world_shape("Upper book pages", pages, paper)
 
 
@@ -108,8 +108,8 @@ def add_jar(place: tuple[float, float]) -> bpy.types.Object:
     jar = add_object(JAR, shape, red, smooth=True, location=at, normals=star_normals(jar_radius, directions))
     knob = turned_profile([(0.006, 0.0), (0.005, 0.005), (0.0105, 0.011), (0.0105, 0.016), (0.0, 0.02)], 20)
     top = float(jar_radius(np.array([[0.0, 0.0, 1.0]]))[0]) - 0.0002
-    ochre = matte("Ochre paint", (0.5, 0.27, 0.06))
-    add_object("Jar knob", knob, ochre, smooth=True, location=(at[0], at[1], at[2] + top))
+    ocher = matte("Ocher paint", (0.5, 0.27, 0.06))
+    add_object("Jar knob", knob, ocher, smooth=True, location=(at[0], at[1], at[2] + top))
     return jar
 
 
