@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -70,8 +70,10 @@ def principled(
     roughness: float = 0.5,
     image: bpy.types.Image | None = None,
     emission: Color | None = None,
+    sockets: Mapping[str, float] | None = None,
 ) -> bpy.types.Material:
-    """A material of one Principled BSDF; `color` is scene-linear and is replaced by `image` where there is one."""
+    """A material of one Principled BSDF; `color` is scene-linear and is replaced by `image` where there is one.
+    `sockets`: values of others by name."""
     material = bpy.data.materials.new(name)
     assert material.node_tree is not None
     # Any: the stubs do not know what the nodes, sockets and lamps of each kind have.
@@ -82,6 +84,8 @@ def principled(
     if emission is not None:
         node.inputs["Emission Color"].default_value = (*emission, 1.0)
         node.inputs["Emission Strength"].default_value = 1.0
+    for socket, value in (sockets or {}).items():
+        node.inputs[socket].default_value = value
     if image is not None:
         texture: Any = material.node_tree.nodes.new("ShaderNodeTexImage")
         texture.image = image
@@ -181,6 +185,19 @@ def set_world_image(path: Path, turn: float, strength: float) -> None:
     tree.links.new(coordinate.outputs["Generated"], mapping.inputs["Vector"])
     tree.links.new(mapping.outputs["Vector"], environment.inputs["Vector"])
     tree.links.new(environment.outputs["Color"], background.inputs["Color"])
+
+
+def set_world_sky(toward: Numbers, strength: float) -> None:
+    """A clear sky lit by a sun in direction `toward` that is itself not in it: a lamp is."""
+    background = _background()
+    tree = background.id_data
+    background.inputs["Strength"].default_value = strength
+    sky: Any = tree.nodes.new("ShaderNodeTexSky")
+    sky.sky_type, sky.sun_disc = "MULTIPLE_SCATTERING", False
+    x, y, z = np.asarray(toward, float) / np.linalg.norm(toward)
+    sky.sun_elevation, sky.sun_rotation = float(np.arcsin(z)), float(np.arctan2(x, y))
+    sky.location = (-300.0, 0.0)
+    tree.links.new(sky.outputs["Color"], background.inputs["Color"])
 
 
 def _background() -> Any:

@@ -243,6 +243,35 @@ def plane(size: Sequence[float], cells: Sequence[int] = (1, 1), tile: float = 0.
     return Shape(positions, tuple(tuple(q) for q in quads.tolist()), uv[quads.ravel()])
 
 
+def projected(shape: Shape, tile: float) -> Shape:
+    """The shape with UVs that repeat every `tile` meters on each face, seen along the axis that it faces most."""
+    uv = []
+    for polygon in shape.polygons:
+        points = shape.positions[list(polygon)]
+        # (Newell's sum, which any polygon has.)
+        normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+        axis = int(np.abs(normal).argmax())
+        kept = [(1, 2), (0, 2), (0, 1)][axis]
+        uv.append(points[:, kept] / tile)
+    return Shape(shape.positions, shape.polygons, np.concatenate(uv))
+
+
+def block(low: Numbers, high: Numbers, bevel: float = 0.0) -> Shape:
+    """A box between two corners."""
+    low, high = np.asarray(low, float), np.asarray(high, float)
+    return box((high - low).tolist(), bevel).moved(0.5 * (low + high))
+
+
+def surface(points: Float64Array) -> Shape:
+    """A sheet of quads through a lattice of points (rows, columns, 3), with UVs once over it."""
+    rows, columns = points.shape[:2]
+    index = np.arange(rows * columns).reshape(rows, columns)
+    quads = np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]], -1).reshape(-1, 4)
+    v, u = np.meshgrid(np.linspace(0.0, 1.0, rows), np.linspace(0.0, 1.0, columns), indexing="ij")
+    uv = np.column_stack([u.ravel(), v.ravel()])[quads.ravel()]
+    return Shape(points.reshape(-1, 3), tuple(tuple(q) for q in quads.tolist()), uv)
+
+
 def surface_samples(shape: Shape, spacing: float) -> Float64Array:
     """(n, 3) points all over a shape's surface, at most about `spacing` meters apart."""
     samples = [shape.positions]

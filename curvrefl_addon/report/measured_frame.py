@@ -16,9 +16,11 @@ from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
 from .geometry_reference import GeometryReference
 from .metrics import BoolArray, GeometryError, flip_in_mask, geometry_error, missing_flip, psnr_in_mask
-from .repeats import Timing
+from .repeats import Timing, repeated
 
 TIMED_FRAMES = 3
+ENOUGH_SECONDS = 5.0
+"""Of timed frames, after which no other one begins"""
 
 
 class FrameLike(Protocol):
@@ -111,7 +113,7 @@ def _timed_frames(
 
     draw()
     renderer.settle()
-    frames = [draw() for _ in range(repeats)]
+    frames = repeated(draw, repeats, ENOUGH_SECONDS)
     steps = frames[0].times_ms
     return frames[-1], {name: Timing(tuple(frame.times_ms[name] for frame in frames)) for name in steps}
 

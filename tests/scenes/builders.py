@@ -37,7 +37,6 @@ from curvrefl.curvrefl_addon.demo.data_blocks import (  # noqa: E402
     start_empty_scene,
     studio_light,
 )
-from curvrefl.curvrefl_addon.demo.scene import add_suzanne  # noqa: E402
 from curvrefl.curvrefl_addon.demo.shapes import (  # noqa: E402
     RadiusFunction,
     Shape,
@@ -48,6 +47,7 @@ from curvrefl.curvrefl_addon.demo.shapes import (  # noqa: E402
     slide_to_contact,
     star_normals,
 )
+from curvrefl.curvrefl_addon.demo.table import add_suzanne  # noqa: E402
 
 from .sheets import LENS, MIRROR, SIZE, Case, Float64Array  # noqa: E402
 
