@@ -291,5 +291,7 @@ class SceneArrays:
     """Where in the world these coordinates have theirs"""
     diffuse_bounces: int = 0
     """Surfaces one after the other from which they follow scattered light"""
+    caustics: bool = True
+    """What reflects sends light on to what scatters it"""
     indirect_clamp: float = 0.0
     """The most that light which has bounced adds to a sample there, mean of red, green and blue; 0: any"""

@@ -331,5 +331,6 @@ class SceneReader:
             transparent_bounces=bounces.transparent,
             diffuse_bounces=bounces.diffuse,
             indirect_clamp=bounces.clamp,
+            caustics=bounces.caustics,
         )
         return arrays if self._last is None else with_kept(arrays, self._last)

@@ -114,6 +114,7 @@ class Bounces:
     diffuse: int = 4
     """(What Cycles begins with, too)"""
     clamp: float = 0.0
+    caustics: bool = True
 
 
 def bounces_of(scene: bpy.types.Scene) -> Bounces:
@@ -130,6 +131,7 @@ def bounces_of(scene: bpy.types.Scene) -> Bounces:
         cycles.transparent_max_bounces,
         min(cycles.max_bounces, cycles.diffuse_bounces),
         cycles.sample_clamp_indirect,
+        cycles.caustics_reflective,
     )
 
 
@@ -249,6 +251,7 @@ def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:
         and result.transparent_bounces == last.transparent_bounces
         and result.diffuse_bounces == last.diffuse_bounces
         and result.indirect_clamp == last.indirect_clamp
+        and result.caustics == last.caustics
         and result.warnings == last.warnings
     )
     return last if same else result

@@ -34,8 +34,8 @@ void main()
   int material = material_number(normal.w);
   Material m = material_at(pixel, material, base);
 #if defined(LIGHTS_BASE_MEETS) && !defined(DIRECT_ALONE)
-  vec3 side = normal.xyz;
-  vec3 sent = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), direction, side);
+  vec3 side = normal.xyz, of_lamps;
+  vec3 sent = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), direction, side, of_lamps);
   int place = patch_at(position.xyz, side);
   if (place >= 0) {
     radiance = sent * fetch_record(patch_light, place).rgb / LIGHTING_PI;
@@ -43,7 +43,7 @@ void main()
 #ifdef LIGHTING_LAMPS
   // (Edges of lamps' shadows are finer than patches.)
   Surface met = white_surface(position.xyz, side);
-  radiance += sent * lamps_on(met, base_lobes(met, vec3(1.0), 1.0), side);
+  radiance += of_lamps * lamps_on(met, base_lobes(met, vec3(1.0), 1.0), side);
 #endif
 #elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
   Surface s = surface_of(pixel, position, normal, base);

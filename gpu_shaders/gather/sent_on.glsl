@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What lobes of at most this roughness send on of lamps is in few places: caustics.
+#define SHARP_ROUGHNESS 0.3
+
 // Share of what arrives at a surface that it sends on towards a viewer, whatever way it came. `side`: its normal
 // towards the viewer, which is turned where by chance (`random`) that on the other side is asked for, which comes
 // through.
 
-vec3 sent_on(Material m, float random, vec3 direction, inout vec3 side)
+vec3 sent_on(Material m, float random, vec3 direction, inout vec3 side, out vec3 of_lamps)
 {
   Surface s;
   s.position = vec3(0.0);
@@ -18,21 +21,25 @@ vec3 sent_on(Material m, float random, vec3 direction, inout vec3 side)
   s.glossy_only = m.glossy_only;
   add_layers(s, m);
   Lobes lobes = lobes_of(s, abs(dot(side, direction)));
-  vec3 sum = lobes.diffuse + lobes.specular_albedo;
+  vec3 above = has_caustics > 0.5 ? lobes.specular_albedo : vec3(0.0);
+  vec3 sum = lobes.diffuse + above;
+  of_lamps = lobes.diffuse + (m.roughness > SHARP_ROUGHNESS ? above : vec3(0.0));
 #ifdef SURFACE_SHEEN
   sum += lobes.sheen;
 #endif
 #ifdef SURFACE_COAT
-  sum += vec3(lobes.coat_albedo);
+  sum += has_caustics * lobes.coat_albedo;
 #endif
 #ifdef SURFACE_TRANSLUCENT
   float through = mean_of(lobes.translucent);
   float chance = through / max(through + mean_of(sum), 1e-9);
   if (random < chance) {
     side = -side;
-    return clamp(lobes.translucent, vec3(0.0), vec3(1.0)) / chance;
+    of_lamps = clamp(lobes.translucent, vec3(0.0), vec3(1.0)) / chance;
+    return of_lamps;
   }
   sum /= 1.0 - chance;
+  of_lamps /= 1.0 - chance;
 #endif
   return max(sum, vec3(0.0));
 }

@@ -27,8 +27,8 @@ void main()
     vec3 from = position.xyz - way.w * way_direction(way);
     bool is_close = way.w < CLOSE * cell_size(max(cell_level(from), 0.0));
     Material m = material_at(pixel, material_number(normal.w), texelFetch(vertex_color, pixel, 0).rgb);
-    vec3 side = normal.xyz;
-    link_out.yzw = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), way_direction(way), side);
+    vec3 side = normal.xyz, of_lamps;
+    link_out.yzw = sent_on(m, fract(way.x * 517.31 + way.y * 389.17), way_direction(way), side, of_lamps);
     link_out.x = float(patch_at(position.xyz, side)) + (is_close ? 0.25 : 0.0);
   }
 }

@@ -88,6 +88,8 @@ class Gathering:
     lighting: Lighting
     view_uniforms: Any
     sub_frame: int
+    has_caustics: bool = True
+    """What reflects takes part in the light that goes on from surface to surface"""
     clamp: float = 0.0
     """The most that a ray which has met a surface brings, mean of red, green and blue; 0: any"""
 
@@ -268,6 +270,8 @@ class GatherPicture:
                 shader.uniform_float("pixel_class", float(kind))
                 if not is_shared:
                     shader.uniform_float("weight", weight)
+                if knows(shader, "has_caustics"):
+                    shader.uniform_float("has_caustics", float(by.has_caustics))
                 if knows(shader, "clamp_most"):
                     shader.uniform_float("clamp_most", by.clamp or LARGEST)
                 shader.uniform_sampler("materials", materials.table)

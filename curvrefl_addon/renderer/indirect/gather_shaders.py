@@ -150,7 +150,7 @@ def light_shader(
         *((RAYS,) if rays else ()),
         Piece(
             samplers=named("FLOAT_2D", *MET, "path_way", "gather_weight", "patch_light"),
-            constants={"clamp_most": "FLOAT", **({} if is_shared else {"weight": "FLOAT"})},
+            constants={"clamp_most": "FLOAT", "has_caustics": "FLOAT", **({} if is_shared else {"weight": "FLOAT"})},
             outputs={"color": "VEC4"},
             defines={
                 **flags(

@@ -66,7 +66,7 @@ class IndirectLight:
         """Know another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene = self._scene, scene
         is_same = all(getattr(scene, name) is getattr(before, name) for name in ("materials", "images"))
-        is_same &= scene.reflectors == before.reflectors and scene.origin == before.origin
+        is_same &= all(getattr(scene, name) == getattr(before, name) for name in ("reflectors", "origin", "caustics"))
         if scene.origin != before.origin:
             self.irradiance = None
         if difference.structure or difference.moved or not is_same:
@@ -132,7 +132,9 @@ class IndirectLight:
             return None
         has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
         made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)
-        return Gathering(self.irradiance, self.emitters, has_sky, *made, self._scene.indirect_clamp)
+        return Gathering(
+            self.irradiance, self.emitters, has_sky, *made, self._scene.caustics, self._scene.indirect_clamp
+        )
 
     def _step(self, means: Means, whole: bool) -> bool:
         if self._work is None:
@@ -172,7 +174,12 @@ class IndirectLight:
             irradiance.find_walls(means.rays())
             for batch in range(BATCHES):
                 for _ in irradiance.follow_rays(
-                    means.rays(), means.materials, means.lighting, means.view_uniforms, self.emitters
+                    means.rays(),
+                    means.materials,
+                    means.lighting,
+                    means.view_uniforms,
+                    self.emitters,
+                    self._scene.caustics,
                 ):
                     yield False
                 if batch == 0:

@@ -132,9 +132,16 @@ class Irradiance:
             shader.uniform_float("cell_levels", float(grid.levels))
 
     def follow_rays(
-        self, rays: RayScene, materials: Materials, lighting: Lighting, view_uniforms: Any, emitters: Emitters | None
+        self,
+        rays: RayScene,
+        materials: Materials,
+        lighting: Lighting,
+        view_uniforms: Any,
+        emitters: Emitters | None,
+        has_caustics: bool,
     ) -> Iterator[None]:
-        """Another batch of rays, step by step; `emitters`: surfaces that shine, if there are some."""
+        """Another batch of rays, step by step; `emitters`: surfaces that shine, if there are some;
+        `has_caustics`: what reflects sends light on, too."""
         if self._picture is None:
             self._picture = PatchPicture(self.patches.count)
         picture = self._picture
@@ -153,6 +160,7 @@ class Irradiance:
             for name, texture in zip(VERTICES, (picture.position, picture.normal, picture.color), strict=True):
                 shader.uniform_sampler(name, texture)
             shader.uniform_sampler("path_way", picture.way)
+            shader.uniform_float("has_caustics", float(has_caustics))
             picture.made.bind(shader, materials.buffers)
             full_screen_triangle().draw(shader)
         self._links.append(links)

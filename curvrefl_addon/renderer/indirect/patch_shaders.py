@@ -88,6 +88,7 @@ def links_shader(buffers: Buffers, features: Features) -> Any:
         CELLS,
         Piece(
             samplers=named("FLOAT_2D", *VERTICES, "path_way", "lighting_ggx"),
+            constants={"has_caustics": "FLOAT"},
             outputs={"link_out": "VEC4"},
             defines={**GGX_DEFINES, **flags(*surfaces)},
             fragment="patches/links.frag.glsl",

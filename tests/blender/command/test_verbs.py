@@ -99,7 +99,7 @@ def test_compare_prints_progress_then_its_table(tmp_path: Path, capfd: pytest.Ca
     report = json.loads((output / "report.json").read_text())
     assert report["scene"] == "scene.blend"
     assert report["resolution"] == list(SIZE)
-    assert (report["reference"]["samples"], report["reference"]["light"]) == (2, "direct")
+    assert (report["reference"]["samples"], report["reference"]["light"]) == (2, "full")
     assert list(report["methods"]) == ["secant_star"]
     assert report["peers"] == {}
     assert "warnings" not in report

@@ -138,4 +138,4 @@ def test_options_reach_the_verb(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cli.main(["render", *FILE, "--resolution", "64X32", "--frame", "-3", "--output", "a.exr"]) == 0
     assert (seen[0].resolution, seen[0].frame, seen[0].camera) == ((64, 32), -3, None)
     assert cli.main(["compare", *FILE, "--output", "d"]) == 0
-    assert (seen[1].light, seen[1].samples, seen[1].resolution) == ("direct", 256, None)
+    assert (seen[1].light, seen[1].samples, seen[1].resolution) == ("full", 256, None)
