@@ -34,9 +34,10 @@ def test_session_runs_to_its_end(session: Session) -> None:
     found = session.seen
     assert "error" not in found, found.get("error")
     assert found["finished"]
-    # (The kettle's handle is shiny and no mirror.)
+    # (Reflection points show the carafe's glass as if it was opaque.)
     said = {message for step in found["steps"] for message in step["messages"]}
-    assert said <= {'Only mirrors reflect objects: "Handle" shows the world and lamps alone.'}
+    glass = 'The transparency of object "Carafe" is left out in mirrors'
+    assert said <= {f"{glass}: choose Automatic or Exact to see what is behind."}
 
 
 def test_only_what_changed_is_done_again(session: Session) -> None:
@@ -120,8 +121,8 @@ def test_window_shows_what_the_headless_renderer_draws(session: Session, picture
 
 @pytest.mark.usefixtures("gpu")
 def test_window_agrees_with_cycles(session: Session) -> None:
-    """The same view by a camera of its own, at half the size, direct light; on the mirror."""
-    if not (session.folder / "enabled.png").is_file():
+    """The same view by a camera of its own, at half the size; on the mirror, which sees itself, so by rays."""
+    if not (session.folder / "exact.png").is_file():
         pytest.skip("no ImageMagick to take a picture of the window")
     import bpy
     from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
@@ -132,7 +133,7 @@ def test_window_agrees_with_cycles(session: Session) -> None:
 
     x, y, width, height = session.seen["view"]["region"]
     width, height = width // 2 * 2, height // 2 * 2
-    image = bpy.data.images.load(str(session.folder / "enabled.png"))
+    image = bpy.data.images.load(str(session.folder / "exact.png"))
     pixels = np.array(image.pixels, np.float32).reshape(image.size[1], image.size[0], 4)
     window = pixels[y : y + height, x : x + width, :3]
     window = window.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3))
@@ -146,7 +147,7 @@ def test_window_agrees_with_cycles(session: Session) -> None:
     camera.data.angle_y = 2.0 * np.arctan(1.0 / session.seen["view"]["window_matrix"][1][1])
     scene.camera = camera
     layer.update()
-    reference = render_reference(scene, layer, width // 2, height // 2, 32)
+    reference = render_reference(scene, layer, width // 2, height // 2, 128, "full")
     ids = {obj.name: number for number, obj in enumerate(scene.objects, 1)}
     inner = render_geometry(scene, layer, width // 2, height // 2, ids, (ids["Kettle"],)).mask > 0
     for _ in range(2):
@@ -154,4 +155,5 @@ def test_window_agrees_with_cycles(session: Session) -> None:
     difference = np.abs(window - display_transform(reference.pixels[..., :3]))[inner]
     assert inner.sum() > 3_000
     assert np.median(difference) < 10 / 255
-    assert np.percentile(difference, 90) < 40 / 255
+    # (Both have the noise of what shines.)
+    assert np.percentile(difference, 90) < 45 / 255
