@@ -19,6 +19,9 @@ from .shading.shade import ShadePass
 from .surfaces.materials import Materials
 from .tracing.tracer import PathTracer
 
+LIGHT_SECONDS = 0.03
+"""In each redraw of a viewport, for light between surfaces"""
+
 
 class Appearance:
     """Of one scene; `free()` when done."""

@@ -16,7 +16,7 @@ import numpy as np
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
-from .appearance import Appearance
+from .appearance import LIGHT_SECONDS, Appearance
 from .device.context import require_gpu
 from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
@@ -41,9 +41,6 @@ from .surfaces.pixel_filter import offsets
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window, union
 from .vertices.mirror_solver import require
-
-LIGHT_SECONDS = 0.03
-"""In each redraw, for light between surfaces"""
 
 
 class Renderer:
@@ -81,7 +78,6 @@ class Renderer:
         self._diagnostics: DiagnosticPass | None = None
         self._is_gradual = is_gradual
         self._view_uniforms: Any = None
-        """Of the last view"""
         self._jitter = offsets(self.settings.samples)
         self._placement = Placement(self.geometry.facts)
         self._given = scene
@@ -161,7 +157,6 @@ class Renderer:
         return Stage(self.mirrors, self.geometry, *made.for_stage, self.rays, made.indirect, made.tracer)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
-        """One per mirror, drawn when first asked for."""
         return self._preparation.environment_cubes(self._stage, self.settings)
 
     @property
@@ -233,6 +228,8 @@ class Renderer:
         view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
         self._view_uniforms = view_block(view)
+        if self.settings.entry.is_environment and not self._is_gradual:
+            self._find_light()
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
         if last is not None and not np.array_equal(last.origin, origin):
@@ -263,7 +260,7 @@ class Renderer:
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         if diagnostic is None and not self._is_gradual:
-            self._appearance.light_surfaces(self.rays, view_block(view))
+            self._find_light()
         sub_frame = self._draw_surfaces(replace(reflection, view=view), window, diagnostic is not None, index)
         groups = reflection.groups
         if diagnostic is not None:
@@ -309,22 +306,26 @@ class Renderer:
         """Go on with that: a program, images for about so long, light."""
         is_changed = self._appearance.load_some(seconds)
         if not self._appearance.materials.is_loading and self._view_uniforms is not None:
-            is_changed |= self._appearance.light_surfaces(self.rays, self._view_uniforms, LIGHT_SECONDS)
+            is_changed |= self._find_light(LIGHT_SECONDS)
         self.revision += is_changed
+
+    def _find_light(self, seconds: float | None = None) -> bool:
+        """Between surfaces: see `Appearance.light_surfaces`."""
+        if not self._appearance.light_surfaces(self.rays, self._view_uniforms, seconds):
+            return False
+        self._preparation.forget_cubes()
+        return True
 
     @property
     def ray_counters(self) -> dict[str, int]:
-        """How often hierarchies were made, since the start."""
         return {} if self._rays is None else self._rays.counters
 
     @property
     def bounced_light(self) -> str:
-        """How it is known, for a panel or a report."""
         return self._appearance.indirect.state
 
     @property
     def can_improve(self) -> bool:
-        """Whether `improve` would do anything."""
         return self._rays is not None and self._rays.can_improve
 
     def improve(self) -> None:

@@ -87,7 +87,9 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
 #ifdef EMITTERS
       if (light.w == 3.0) {
         vec3 direction = way_direction(texelFetch(gather_way, texels[k], 0));
-        vec3 found = light.rgb * (max(dot(normal, direction), 0.0) / LIGHTING_PI);
+        // (By the normal there, which its chance was found with: by another the ray might count far too much.)
+        vec3 there = texelFetch(SHARED_NORMAL, asked_at(texels[k]), 0).xyz;
+        vec3 found = light.rgb * (max(dot(there, direction), 0.0) / LIGHTING_PI);
         shining += found;
         own_shining = is_own ? found : own_shining;
       }
@@ -109,9 +111,10 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
   sum *= lobes.diffuse;
   if (own_light.w == 2.0 || own_light.w == 3.0) {
     vec3 direction = way_direction(texelFetch(gather_way, own_texel, 0));
-    vec3 value = own_light.w == 2.0 ? lobes.specular_albedo : lobe_value(lobes, s.normal, to_viewer, direction);
+    vec3 there = texelFetch(SHARED_NORMAL, asked_at(own_texel), 0).xyz;
+    vec3 value = own_light.w == 2.0 ? lobes.specular_albedo : lobe_value(lobes, there, to_viewer, direction);
 #ifdef SURFACE_TRANSLUCENT
-    value += own_light.w == 3.0 ? lobes.translucent * (max(-dot(s.normal, direction), 0.0) / LIGHTING_PI) : vec3(0.0);
+    value += own_light.w == 3.0 ? lobes.translucent * (max(-dot(there, direction), 0.0) / LIGHTING_PI) : vec3(0.0);
 #endif
     sum += own_light.rgb * value;
   }

@@ -28,8 +28,9 @@ import numpy as np  # noqa: E402
 
 bootstrap.load_package()
 
+from curvrefl.curvrefl_addon.renderer.appearance import LIGHT_SECONDS  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.renderer import LIGHT_SECONDS, Renderer  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
