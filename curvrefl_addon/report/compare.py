@@ -295,10 +295,9 @@ def _run(
             "geometry": frame_geometry_error(frame, truth),
             "time_ms": {"extract": extract_ms, **frame.times_ms},
             "solve": frame.solve,
-            "bounced_light": frame.bounced_light,
         }
-        if frame.choice is not None:
-            known["choice"] = frame.choice
+        told = {"choice": frame.choice, "bounced_light": frame.bounced_light}
+        known |= {name: value for name, value in told.items() if value}
         if frame.convergence is not None:
             known |= {"sub_frames": frame.convergence.done, "noise": frame.convergence.noise}
         methods[method] = known

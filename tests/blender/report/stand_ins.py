@@ -40,7 +40,7 @@ class CyclesFrame:
         self._geometry = render_geometry(blender_scene, view_layer, WIDTH, HEIGHT, ids, scene.reflectors)
         self._color = render_reference(blender_scene, view_layer, WIDTH, HEIGHT, SAMPLES).pixels
         self.choice = self.convergence = None
-        self.bounced_light = "none"
+        self.bounced_light = ""
         self.times_ms = {"bake": 7.0, "solve": 1.0, "draw": frame_ms - 1.0, "frame": frame_ms}
 
     def color(self) -> np.ndarray:
