@@ -21,6 +21,7 @@ ALL = (
     | InstanceFlag.SEEN_IN_MIRRORS
     | InstanceFlag.SEEN_THROUGH_GLASS
     | InstanceFlag.CASTS_SHADOWS
+    | InstanceFlag.SEEN_BY_DIFFUSE
 )
 ITSELF = InstanceFlag.NEVER_SEES_ITSELF | InstanceFlag.IS_CLOSED
 
