@@ -10,13 +10,14 @@
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 
-// How many texels are asked, and how far off.
-#define SHARED_TAPS 9
-// How far off in the world, in parts of the way that light comes.
+// How far off rays are shared in the world, in parts of the way that light comes; how many texels are asked, and how far
+// off these are.
 #define SHARED_WAY 0.03
 #ifdef SHARED_BY_QUADS
-#define SHARED_REACH 2.5
+#define SHARED_TAPS 4
+#define SHARED_REACH 2.0
 #else
+#define SHARED_TAPS 9
 #define SHARED_REACH 3.0
 #endif
 
