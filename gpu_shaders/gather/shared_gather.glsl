@@ -10,8 +10,8 @@
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 
-// How far off rays are shared in the world, in parts of the way that light comes; how many texels are asked, and how far
-// off these are.
+// How far off rays are shared in the world, in parts of the way that light comes; how many texels are asked, and how
+// far off these are.
 #define SHARED_WAY 0.03
 #ifdef SHARED_BY_QUADS
 #define SHARED_TAPS 4
