@@ -95,7 +95,7 @@ def _save_grid(
 def _demo(folder: Path) -> None:
     _verb("demo", "--output", str(folder))
     mirrors = "Kettle,Lacquer jar"
-    given = ("--reflector", mirrors, "--samples", "128", "--output", str(folder / "auto.png"))
+    given = ("--reflector", mirrors, "--samples", "64", "--output", str(folder / "auto.png"))
     _verb("render", str(folder / "demo.blend"), *given)
 
 

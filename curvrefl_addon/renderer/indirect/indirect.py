@@ -26,7 +26,7 @@ from .points import Patches, Surface, place_patches
 BATCHES = 4
 """Of rays, of which each patch sends RAYS_AT_ONCE in each"""
 LIGHTS = 16
-"""Sub-frames whose lamps and directions of the world light the patches"""
+"""Sub-frames whose lamps light the patches, or more: the directions of the world are right together alone"""
 MANY_TO_CLOSE = 300_000
 """A mesh of more triangles is not asked whether it is closed"""
 LEAST_SHARE = 0.02
@@ -149,7 +149,7 @@ class IndirectLight:
 
     def _steps(self, means: Means, anew: bool, whole: bool) -> Iterator[bool]:
         """All that there is to do; not `whole`: with light that is not yet right in between."""
-        lights = min(LIGHTS, means.lighting.sub_frames)
+        lights = max(min(LIGHTS, means.lighting.sub_frames), means.lighting.with_all_directions)
         bounces = self._scene.diffuse_bounces
         if self.irradiance is not None and not whole:
             # What is known of the surfaces before serves until there is more.

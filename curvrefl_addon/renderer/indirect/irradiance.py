@@ -268,7 +268,7 @@ class Irradiance:
             with records.target.bind():
                 records.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         for index in range(sub_frames):
-            lighting.prepare(index * lighting.sub_frames // sub_frames)
+            lighting.prepare(index)
             for records, of_sky in ((self._of_lamps, False), (self._of_sky, True)):
                 shader = light_shader(lighting.features, of_sky)
                 with blended("ADDITIVE_PREMULT"), records.target.bind():

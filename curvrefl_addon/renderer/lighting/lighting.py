@@ -179,10 +179,9 @@ class Lighting:
         return all(cube_holds(self._lamp_maps, place, layers, *balls) for place, layers in cubes)
 
     def _found_features(self) -> Features:
-        kinds = {light.kind for light in self._lights}
         places = (layers for planned in self._lamp_places for _, layers in planned)
         shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
-        found = {f"LIGHTING_{kind}" for kind in kinds}
+        found = {f"LIGHTING_{light.kind}" for light in self._lights}
         found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
         world = self._world
         found |= {"LIGHTING_SPREAD" for light in self._lights if has_spread(light)}
@@ -198,7 +197,7 @@ class Lighting:
         return frozenset(found) | self._world_textures.features | self._looks.features | self._of_surfaces
 
     def use(self, surfaces: SurfaceLight | None) -> None:
-        """Have light from other surfaces, or none."""
+        """Light from other surfaces, or none."""
         self._surfaces = surfaces
         self.features = self._found_features()
 
@@ -294,6 +293,8 @@ class Lighting:
             # More than the directions what is there by chance wants a mean of many.
             self._directions_at_once, count = at_once, min(at_once * self.sub_frames, most)
             self._world_visits = -(-at_once * self.sub_frames // count)
+        self.with_all_directions = -(-count // self._directions_at_once) if self._directions_at_once else 1
+        """Sub-frames, from the first on, that have all directions of the world"""
         light = world_light(self._sky.world, max(count, 1), even.world)
         self._world_light, self._world_is_lit = light, lit
         self._world_textures = WorldTextures(baked, light.maps)
