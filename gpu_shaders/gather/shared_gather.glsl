@@ -14,8 +14,8 @@
 // far off these are.
 #define SHARED_WAY 0.03
 #ifdef SHARED_BY_QUADS
-#define SHARED_TAPS 4
-#define SHARED_REACH 2.0
+#define SHARED_TAPS 9
+#define SHARED_REACH 2.5
 #else
 #define SHARED_TAPS 9
 #define SHARED_REACH 3.0
