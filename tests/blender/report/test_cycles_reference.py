@@ -137,6 +137,7 @@ def test_light_of_a_sun_on_a_diffuse_floor(scene: bpy.types.Scene) -> None:
 @pytest.mark.parametrize(("light", "bounced"), [("direct", False), ("full", True)])
 def test_direct_light_has_no_second_diffuse_bounce(scene: bpy.types.Scene, light: str, bounced: bool) -> None:
     """A wall lit by the sun through no path but the floor: black in direct light."""
+    scene.cycles.diffuse_bounces = 4
     bpy.data.objects["Sun"].rotation_euler = (np.radians(60.0), 0, 0)  # shines towards +Y, the wall's back
     bpy.ops.mesh.primitive_cube_add(size=2, location=(0, 0, 1))
     bpy.context.object.data.materials.append(principled("wall", Base_Color=(0.8, 0.8, 0.8, 1), Specular_IOR_Level=0.0))
