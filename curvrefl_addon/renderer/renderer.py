@@ -35,7 +35,7 @@ from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
-from .shown.targets import TargetPool
+from .shown.targets import target_pool
 from .surfaces.canvas import Canvas
 from .surfaces.pixel_filter import offsets
 from .surfaces.view_block import view_block
@@ -72,7 +72,7 @@ class Renderer:
         """Another one when pictures are not the same any more"""
         self.mirrors: list[Mirror] = []
         self.geometry = SceneGeometry()
-        self._targets = TargetPool()
+        self._targets = target_pool()
         self._preparation = Preparation()
         self._rays: RayScene | None = None
         self._diagnostics: DiagnosticPass | None = None
@@ -127,7 +127,7 @@ class Renderer:
         self._appearance.free()
         self.mirrors = []
         self.geometry = SceneGeometry()
-        self._targets = TargetPool()
+        self._targets = target_pool()
         self._preparation = Preparation()
         self._diagnostics = self._rays = None
 

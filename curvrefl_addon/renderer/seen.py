@@ -9,7 +9,8 @@ from .indirect.indirect import Means
 from .reflection import Reflection
 from .settings import Settings
 from .shown.shown import Stage, SubFrame
-from .shown.targets import TargetPool
+from .shown.targets import Targets
+from .surfaces.by_size import BySize
 from .surfaces.primary import depths_of, draw_primary
 from .surfaces.view_block import view_block
 from .surfaces.windows import Window
@@ -17,7 +18,7 @@ from .surfaces.windows import Window
 
 def draw_seen(
     stage: Stage,
-    pool: TargetPool,
+    pool: BySize[Targets],
     reflection: Reflection,
     settings: Settings,
     window: Window | None = None,

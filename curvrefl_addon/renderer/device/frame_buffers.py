@@ -24,6 +24,24 @@ def frame_buffer(*colors: Any, depth: Any = None) -> Any:
     return gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=colors)
 
 
+class FrameBuffers:
+    """Of the same color textures with one depth texture or another."""
+
+    def __init__(self, *colors: Any, most: int) -> None:
+        """As for `frame_buffer`; `most`: frame buffers that are kept."""
+        self._colors, self._most = colors, most
+        self._held: list[tuple[Any, Any]] = []
+
+    def with_depth(self, depth: Any) -> Any:
+        """Made when first asked for; those that were made the longest ago go."""
+        for known, target in self._held:
+            if known is depth:
+                return target
+        target = frame_buffer(*self._colors, depth=depth)
+        self._held = [*self._held[1 - self._most :], (depth, target)]
+        return target
+
+
 def layer_of(texture: Any, layer: int) -> Any:
     """A layer of an array texture or a face of a cube map, for `frame_buffer`."""
     return {"texture": texture, "layer": layer}

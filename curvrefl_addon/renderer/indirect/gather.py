@@ -14,7 +14,7 @@ from typing import Any
 from ...optics.scattering.sampler import path_point
 from ..cells.lookup import At
 from ..device.batches import full_screen_triangle
-from ..device.frame_buffers import frame_buffer
+from ..device.frame_buffers import FrameBuffers, frame_buffer
 from ..device.shaders import flags, knows
 from ..device.state import drawing_state, scissored, set_viewport
 from ..device.textures import depth_texture, empty_texture
@@ -22,6 +22,7 @@ from ..lighting.lighting import Features, Lighting
 from ..programs.buffers import MaterialBuffers
 from ..rays.material_pass import Hits, MaterialPass
 from ..rays.ray_scene import RayScene
+from ..surfaces.by_size import BySize
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT
@@ -49,6 +50,8 @@ GATHER_BOUNCE = 61
 LARGEST = 1e30
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
+MOST_DEPTHS = 8
+"""Frame buffers that each keeps"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +85,7 @@ class Gathering:
     emitters: Emitters | None
     has_sky: bool
     """The world is among what rays find, in place of its directions' shadows"""
-    pool: GatherPool
+    pool: BySize[GatherPicture]
     rays: RayScene
     materials: Materials
     lighting: Lighting
@@ -121,21 +124,6 @@ def features_of(gathers: Gathering | None) -> Features:
     return NO_FEATURES if gathers is None else gathers.features
 
 
-class GatherPool:
-    """Targets by their size."""
-
-    def __init__(self) -> None:
-        self._pictures: dict[tuple[int, int], GatherPicture] = {}
-
-    def of(self, width: int, height: int) -> GatherPicture:
-        """Made when first asked for."""
-        if (width, height) not in self._pictures:
-            while len(self._pictures) >= MOST_SIZES:
-                del self._pictures[next(iter(self._pictures))]
-            self._pictures[width, height] = GatherPicture(width, height)
-        return self._pictures[width, height]
-
-
 class GatherPicture:
     """What rays have met, one for each pixel."""
 
@@ -149,7 +137,7 @@ class GatherPicture:
         self._depth = depth_texture(width, height)
         self._classes = frame_buffer(depth=self._depth)
         self._weights = frame_buffer(self._weight)
-        self._targets: list[tuple[Any, Any]] = []
+        self._frame_buffers = self._made_frame_buffers()
         self._pass = MaterialPass(width, height)
         self._window: Window | None = None
         self._light: Canvas | None = None
@@ -159,7 +147,7 @@ class GatherPicture:
         self._window = window
         if has_programs != (self._hits is not None):
             self._hits = empty_texture(self.width, self.height) if has_programs else None
-            self._targets = []
+            self._frame_buffers = self._made_frame_buffers()
         with self._weights.bind():
             self._weights.clear(color=(0.0, 0.0, 0.0, 0.0))
 
@@ -190,7 +178,7 @@ class GatherPicture:
         )
         depth = None if classes is None else classes[0]
         test = "NONE" if classes is None else "EQUAL"
-        with drawing_state(test), self._target(depth).bind(), scissored(self._window):
+        with drawing_state(test), self._frame_buffers.with_depth(depth).bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             by.rays.bind(shader)
@@ -300,12 +288,11 @@ class GatherPicture:
             kinds.append(Kind.BASE_MISSES)
         return kinds
 
-    def _target(self, depth: Any) -> Any:
-        for known, target in self._targets:
-            if known is depth:
-                return target
+    def _made_frame_buffers(self) -> FrameBuffers:
         hits = [] if self._hits is None else [self._hits]
         textures = (self._position, self._normal, self._color, *hits, self._way, self._weight)
-        target = frame_buffer(*textures, depth=depth)
-        self._targets = [*self._targets[-7:], (depth, target)]
-        return target
+        return FrameBuffers(*textures, most=MOST_DEPTHS)
+
+
+def gather_pool() -> BySize[GatherPicture]:
+    return BySize(GatherPicture, MOST_SIZES)

@@ -19,7 +19,7 @@ from ..lighting.lighting import Lighting
 from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
 from .emitters import Emitters, emitter_table
-from .gather import Gathering, GatherPool
+from .gather import Gathering, gather_pool
 from .irradiance import RAYS_AT_ONCE, Irradiance
 from .points import Patches, Surface, place_patches
 
@@ -54,7 +54,7 @@ class IndirectLight:
         """None where light bounces off no surface, or changes nothing"""
         self.emitters: Emitters | None = None
         """None where no surface shines"""
-        self._pool = GatherPool()
+        self._pool = gather_pool()
         self._needs_patches = self._needs_light = True
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""

@@ -22,6 +22,7 @@ from ..paths.features import has_base
 from ..programs.buffers import NONE, MaterialBuffers
 from ..rays.paths import PATH_DEPTH, Bounce
 from ..rays.ray_scene import RayScene
+from ..surfaces.by_size import BySize
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
@@ -41,7 +42,7 @@ class ShadePass:
     def __init__(self, scene: SceneArrays, lighting: Lighting, materials: Materials) -> None:
         self._lighting = lighting
         self._materials = materials
-        self._classes: dict[tuple[int, int], PixelClasses] = {}
+        self._classes = BySize(PixelClasses, MOST_SIZES)
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> None:
@@ -92,7 +93,7 @@ class ShadePass:
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
             return
-        classes = self._classes_for(seen)
+        classes = self._classes.of(seen.width, seen.height)
         classes.sort(
             seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
         )
@@ -300,11 +301,3 @@ class ShadePass:
         if shared is not None:
             shared.bind(shader)
         full_screen_triangle().draw(shader)
-
-    def _classes_for(self, seen: SurfaceBuffer) -> PixelClasses:
-        size = (seen.width, seen.height)
-        if size not in self._classes:
-            while len(self._classes) >= MOST_SIZES:
-                del self._classes[next(iter(self._classes))]
-            self._classes[size] = PixelClasses(*size)
-        return self._classes[size]

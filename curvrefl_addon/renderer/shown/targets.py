@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from ..environments.vertex_lookups import VertexLookups
 from ..rays.paths import PathBuffer
 from ..shading.calm import CalmMirrors
+from ..surfaces.by_size import BySize
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..vertices.back_faces import BackFaces
 
@@ -45,20 +46,9 @@ class Targets:
         self.back_faces = BackFaces(self.width, self.height)
 
 
-MOST_TARGETS = 3
-"""Sizes of pictures whose targets are kept: a viewport draws smaller ones while it moves"""
+MOST_SIZES = 3
+"""Of pictures whose targets are kept"""
 
 
-class TargetPool:
-    """Targets by their size."""
-
-    def __init__(self) -> None:
-        self._targets: dict[tuple[int, int], Targets] = {}
-
-    def of(self, width: int, height: int) -> Targets:
-        """Made when first asked for; those that were made the longest ago go."""
-        if (width, height) not in self._targets:
-            while len(self._targets) >= MOST_TARGETS:
-                del self._targets[next(iter(self._targets))]
-            self._targets[width, height] = Targets(width, height)
-        return self._targets[width, height]
+def target_pool() -> BySize[Targets]:
+    return BySize(Targets, MOST_SIZES)

@@ -9,7 +9,7 @@ from typing import Any
 from ...scene.arrays import Float32Array
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer, layer_of, wait_for
+from ..device.frame_buffers import FrameBuffers, frame_buffer, layer_of, wait_for
 from ..device.shaders import FULL_SCREEN, Piece, build_shader
 from ..device.state import blended, set_viewport
 from ..device.textures import empty_texture, read_texture
@@ -24,9 +24,9 @@ class Canvas:
     def __init__(self, texture: Any, face: int | None = None) -> None:
         """`face`: of a cube map."""
         self.texture = texture
-        self._slot = texture if face is None else layer_of(texture, face)
-        self.frame_buffer = frame_buffer(self._slot)
-        self._with_depth: list[tuple[Any, Any]] = []
+        slot = texture if face is None else layer_of(texture, face)
+        self.frame_buffer = frame_buffer(slot)
+        self._frame_buffers = FrameBuffers(slot, most=MOST_DEPTHS)
 
     @classmethod
     def of_size(cls, width: int, height: int, linear: bool = False) -> Canvas:
@@ -61,12 +61,7 @@ class Canvas:
 
     def with_depth(self, depth: Any) -> Any:
         """Frame buffer of the picture and a depth texture of its size."""
-        for known, target in self._with_depth:
-            if known is depth:
-                return target
-        target = frame_buffer(self._slot, depth=depth)
-        self._with_depth = [*self._with_depth[1 - MOST_DEPTHS :], (depth, target)]
-        return target
+        return self._frame_buffers.with_depth(depth)
 
 
 @gpu_cache

@@ -6,10 +6,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..device.frame_buffers import frame_buffer
+from ..device.frame_buffers import FrameBuffers
 from ..device.textures import empty_texture
 from ..programs.buffers import MaterialBuffers
 from ..rays.material_pass import MaterialPass
+
+MOST_DEPTHS = 4
+"""Frame buffers that are kept"""
 
 
 class PathVertices:
@@ -36,14 +39,9 @@ class PathVertices:
         self.material_pass = MaterialPass(width, height)
         hits = [] if self.hits is None else [self.hits]
         # (Blender takes six at most.)
-        self._textures = [self.position, self.normal, self.color, *hits, self.way, self.throughput]
-        self._targets: list[tuple[Any, Any]] = []
+        textures = (self.position, self.normal, self.color, *hits, self.way, self.throughput)
+        self._frame_buffers = FrameBuffers(*textures, most=MOST_DEPTHS)
 
     def target(self, depth: Any) -> Any:
         """The frame buffer whose pixels are those of a class of the step before."""
-        for known, target in self._targets:
-            if known is depth:
-                return target
-        target = frame_buffer(*self._textures, depth=depth)
-        self._targets = [*self._targets[-3:], (depth, target)]
-        return target
+        return self._frame_buffers.with_depth(depth)

@@ -13,6 +13,7 @@ from ..lighting.lighting import Lighting
 from ..paths.features import ABSORPTION, ALPHA, ANISOTROPY, GLASS, ROUGH, goes_on, has_base
 from ..rays.ray_scene import RayScene
 from ..shading.features import RayShadows
+from ..surfaces.by_size import BySize
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT
@@ -29,7 +30,6 @@ LOOK_FROM = 3
 """Steps that have to be left for it to pay to look whether any path goes on"""
 MOST_SIZES = 3
 """Of pictures whose targets are kept"""
-type _Targets = tuple[PathClasses, dict[int, PathVertices]]
 
 
 class PathTracer:
@@ -40,7 +40,7 @@ class PathTracer:
         self.features = features
         self._lighting, self._materials = lighting, materials
         self._has_programs = materials.has_programs
-        self._targets: dict[tuple[int, int], _Targets] = {}
+        self._targets = _targets(materials.has_programs)
         self.follow(scene)
 
     def follow(self, scene: SceneArrays) -> None:
@@ -59,7 +59,7 @@ class PathTracer:
         """Paths begin at other surfaces than mirrors, too"""
         if self._has_programs != self._materials.has_programs:
             self._has_programs = self._materials.has_programs
-            self._targets.clear()
+            self._targets = _targets(self._has_programs)
 
     def move(self, scene: SceneArrays) -> None:
         """Know a state of the scene that differs in its objects' places alone."""
@@ -114,7 +114,7 @@ class PathTracer:
         window = window or (0, 0, seen.width, seen.height)
         if window[2] <= 0 or window[3] <= 0:
             return
-        classes, vertices = self._targets_for(seen)
+        classes, vertices = self._targets.of(seen.width, seen.height)
         around = Surroundings(
             self.features,
             self._materials,
@@ -162,15 +162,13 @@ class PathTracer:
         if gathers is not None and gathered is not None:
             gathered.add(gathers, canvas, weight, self._lighting.features)
 
-    def _targets_for(self, seen: SurfaceBuffer) -> _Targets:
-        size = (seen.width, seen.height)
-        if size not in self._targets:
-            while len(self._targets) >= MOST_SIZES:
-                del self._targets[next(iter(self._targets))]
-            classes = PathClasses([depth_texture(*size) for _ in range(BUFFERS)])
-            vertices = {place: PathVertices(*size, self._has_programs) for place in range(1, BUFFERS)}
-            self._targets[size] = (classes, vertices)
-        return self._targets[size]
+
+def _targets(has_programs: bool) -> BySize[tuple[PathClasses, dict[int, PathVertices]]]:
+    def made(width: int, height: int) -> tuple[PathClasses, dict[int, PathVertices]]:
+        classes = PathClasses([depth_texture(width, height) for _ in range(BUFFERS)])
+        return classes, {place: PathVertices(width, height, has_programs) for place in range(1, BUFFERS)}
+
+    return BySize(made, MOST_SIZES)
 
 
 MOST_EVENTS = 63
