@@ -7,6 +7,7 @@
 #include "paths/path_state.glsl"
 #include "scattering/frame.glsl"
 #ifdef OF_HEMISPHERE
+#include "patches/batch.glsl"
 #include "patches/patch_points.glsl"
 #include "gather/emitter_density.glsl"
 #endif
@@ -23,9 +24,8 @@ void main()
     Material m = material_at(pixel, material, vec3(0.0));
     radiance = m.emission;
 #ifdef OF_HEMISPHERE
-    int number = pixel.y * PICTURE_WIDTH + pixel.x;
-    int place = number / RAYS_AT_ONCE;
-    vec3 from = patch_normal(place, (number - place * RAYS_AT_ONCE) % PATCH_POINTS);
+    ivec2 asked = ray_of_texel(pixel);
+    vec3 from = patch_normal(asked.x, asked.y % PATCH_POINTS);
     float over_area = fetch_record(shining, material).x;
     vec3 direction = way_direction(way);
     float own = max(dot(from, direction), 0.0) / PI;

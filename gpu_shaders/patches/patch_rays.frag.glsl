@@ -4,6 +4,7 @@
 // of paths. With EMITTERS to places that shine.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
+#include "patches/batch.glsl"
 #include "patches/patch_points.glsl"
 #include "gather/directions.glsl"
 #include "paths/path_state.glsl"
@@ -16,9 +17,9 @@
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int number = pixel.y * PICTURE_WIDTH + pixel.x;
-  int place = number / RAYS_AT_ONCE;
-  int ray = number - place * RAYS_AT_ONCE;
+  ivec2 asked = ray_of_texel(pixel);
+  int place = asked.x;
+  int ray = asked.y;
   surface_position = surface_normal = surface_color_out = vec4(0.0);
   way_out = vec4(0.0);
 #ifdef WITH_HITS

@@ -10,7 +10,7 @@ Monte Carlo form factors of Shirley, "Radiosity via ray tracing", 1991).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,15 +23,16 @@ from ..device.frame_buffers import frame_buffer, wait_for
 from ..device.records import TEXTURE_WIDTH, empty_record_texture, padded_count, read_records, record_texture
 from ..device.shaders import knows
 from ..device.state import blended, drawing_state, set_viewport
-from ..device.textures import empty_texture, read_texture, texture_2d
+from ..device.textures import read_texture, texture_2d
 from ..lighting.lighting import Lighting
 from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
 from .emitters import Emitters
 from .patch_picture import PatchPicture
 from .patch_shaders import (
+    LINK_NOTHING,
+    LINK_WITHIN,
     RAYS_AT_ONCE,
-    VERTICES,
     emitter_links_shader,
     emitter_sum_shader,
     light_shader,
@@ -66,8 +67,7 @@ class Irradiance:
         self._swept = _Records(count)
         self._open = _Records(count)
         """How many rays of each point have not met something close by"""
-        with self._open.target.bind():
-            self._open.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+        self._open.clear()
         self._shone: _Records | None = None
         """What emitters send straight to the patches; made where there are some"""
         self._sent = [_Sent(count), _Sent(count)]
@@ -148,23 +148,15 @@ class Irradiance:
         records = (self._points, self._solids)
         for _ in picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches):
             yield
-        links = empty_texture(picture.width, picture.height)
-        target = frame_buffer(links)
-        shader = links_shader(materials.buffers, lighting.features)
-        with drawing_state(), target.bind():
-            set_viewport(0, 0, picture.width, picture.height)
-            shader.bind()
+
+        def bind(shader: Any) -> None:
             self._bind_cells(shader)
-            shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
-            for name, texture in zip(VERTICES, (picture.position, picture.normal, picture.color), strict=True):
-                shader.uniform_sampler(name, texture)
-            shader.uniform_sampler("path_way", picture.way)
             shader.uniform_float("has_caustics", float(has_caustics))
-            picture.made.bind(shader, materials.buffers)
-            full_screen_triangle().draw(shader)
+
+        links = picture.drawn_over(links_shader(materials.buffers, lighting.features), materials, bind)
         self._links.append(links)
-        self._weigh_points(links)
+        self._add_up(self._open, weights_shader(), [links], {})
         if self.batches == 1:
             self._drop_dead()
         if emitters is not None:
@@ -182,8 +174,8 @@ class Irradiance:
         for _ in range(2):
             met = links[reached > 0.0].ravel()
             reached = np.bincount(met[met >= 0], minlength=len(links)).astype(np.float64)
-        weights = np.where(links > -2, reached[:, None], 0.0)
-        return float((weights * (links == -1)).sum() / weights.sum()) if weights.sum() > 0.0 else 1.0
+        weights = np.where(links != LINK_WITHIN, reached[:, None], 0.0)
+        return float((weights * (links == LINK_NOTHING)).sum() / weights.sum()) if weights.sum() > 0.0 else 1.0
 
     def arriving(self) -> Float32Array:
         """(patches, 3) irradiance from other surfaces."""
@@ -198,15 +190,18 @@ class Irradiance:
         lit = np.abs(sent) > 0.0
         return float(np.quantile(np.abs(arriving[lit]) / np.abs(sent[lit]), 0.9)) if lit.any() else 0.0
 
-    def _weigh_points(self, links: Any) -> None:
-        """How open points are, by another batch."""
-        with blended("ADDITIVE_PREMULT"), self._open.target.bind():
-            set_viewport(0, 0, self._open.texture.width, self._open.texture.height)
-            shader = weights_shader()
+    def _add_up(self, records: _Records, shader: Any, batches: Sequence[Any], textures: dict[str, Any]) -> None:
+        """Add to what each patch has in `records` the sum over its rays of some batches, of which these are the links.
+        `textures`: what else the shader reads."""
+        with blended("ADDITIVE_PREMULT"), records.target.bind():
+            set_viewport(0, 0, records.texture.width, records.texture.height)
             shader.bind()
             shader.uniform_int("patches", self.patches.count)
-            shader.uniform_sampler("links", links)
-            full_screen_triangle().draw(shader)
+            for name, texture in textures.items():
+                shader.uniform_sampler(name, texture)
+            for links in batches:
+                shader.uniform_sampler("links", links)
+                full_screen_triangle().draw(shader)
 
     def _drop_dead(self) -> None:
         """Patches all of whose points are inside of something, or in crevices: their cells take others beside them."""
@@ -222,8 +217,7 @@ class Irradiance:
         assert self._picture is not None
         if self._shone is None:
             self._shone = _Records(self.patches.count)
-            with self._shone.target.bind():
-                self._shone.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+            self._shone.clear()
         self._add_shining(emitters, materials, of_hemisphere=True)
         picture, records = self._picture, (self._points, self._solids)
         for _ in picture.follow(rays, materials, view_uniforms, records, self.patches.count, self.batches, emitters):
@@ -231,31 +225,16 @@ class Irradiance:
         self._add_shining(emitters, materials, of_hemisphere=False)
 
     def _add_shining(self, emitters: Emitters, materials: Materials, of_hemisphere: bool) -> None:
-        picture = self._picture
-        assert picture is not None and self._shone is not None
-        links = empty_texture(picture.width, picture.height)
-        target = frame_buffer(links)
-        with drawing_state(), target.bind():
-            set_viewport(0, 0, picture.width, picture.height)
-            shader = emitter_links_shader(materials.buffers, of_hemisphere)
-            shader.bind()
-            shader.uniform_sampler("materials", materials.table)
-            for name, texture in zip(VERTICES, (picture.position, picture.normal, picture.color), strict=True):
-                shader.uniform_sampler(name, texture)
-            shader.uniform_sampler("path_way", picture.way)
-            picture.made.bind(shader, materials.buffers)
+        assert self._picture is not None and self._shone is not None
+
+        def bind(shader: Any) -> None:
             if of_hemisphere:
                 shader.uniform_sampler("patch_points", self._points)
                 emitters.bind_densities(shader)
-            full_screen_triangle().draw(shader)
-        with blended("ADDITIVE_PREMULT"), self._shone.target.bind():
-            set_viewport(0, 0, self._shone.texture.width, self._shone.texture.height)
-            shader = emitter_sum_shader()
-            shader.bind()
-            shader.uniform_int("patches", self.patches.count)
-            shader.uniform_sampler("links", links)
-            shader.uniform_sampler("point_weights", self._open.texture)
-            full_screen_triangle().draw(shader)
+
+        shader = emitter_links_shader(materials.buffers, of_hemisphere)
+        links = self._picture.drawn_over(shader, materials, bind)
+        self._add_up(self._shone, emitter_sum_shader(), [links], {"point_weights": self._open.texture})
 
     def light(self, lighting: Lighting, sub_frames: int) -> None:
         """Find what lamps and the world send straight to the patches: the mean of so many sub-frames' lights."""
@@ -265,8 +244,7 @@ class Irradiance:
     def light_some(self, lighting: Lighting, sub_frames: int) -> Iterator[None]:
         """The same, step by step."""
         for records in (self._of_lamps, self._of_sky):
-            with records.target.bind():
-                records.target.clear(color=(0.0, 0.0, 0.0, 0.0))
+            records.clear()
         for index in range(sub_frames):
             lighting.prepare(index)
             for records, of_sky in ((self._of_lamps, False), (self._of_sky, True)):
@@ -283,29 +261,17 @@ class Irradiance:
 
     def sweep(self, bounces: int) -> None:
         """Let light go from patch to patch, off `bounces` surfaces at most."""
-        self._sum(is_first=True)
+        self._swept.clear()
+        self._sum()
         for _ in range(min(bounces, MOST_SWEEPS)):
-            shader = sweep_shader()
-            target = self._swept.target
-            with target.bind():
-                target.clear(color=(0.0, 0.0, 0.0, 0.0))
-            with blended("ADDITIVE_PREMULT"), target.bind():
-                set_viewport(0, 0, self._swept.texture.width, self._swept.texture.height)
-                shader.bind()
-                shader.uniform_int("patches", self.patches.count)
-                shader.uniform_sampler("patch_sent", self._sent[0].sent)
-                shader.uniform_sampler("point_weights", self._open.texture)
-                for links in self._links:
-                    shader.uniform_sampler("links", links)
-                    full_screen_triangle().draw(shader)
-            self._sum(is_first=False)
+            self._swept.clear()
+            textures = {"patch_sent": self._sent[0].sent, "point_weights": self._open.texture}
+            self._add_up(self._swept, sweep_shader(), self._links, textures)
+            self._sum()
 
-    def _sum(self, is_first: bool) -> None:
+    def _sum(self) -> None:
         """The next pair of what is sent."""
         self._sent.reverse()
-        if is_first:
-            with self._swept.target.bind():
-                self._swept.target.clear(color=(0.0, 0.0, 0.0, 0.0))
         pair = self._sent[0]
         shader = sum_shader(self._shone is not None)
         with drawing_state(), pair.target.bind():
@@ -327,6 +293,11 @@ class _Records:
     def __init__(self, count: int) -> None:
         self.texture = empty_record_texture(count)
         self.target = frame_buffer(self.texture)
+
+    def clear(self) -> None:
+        """Nothing at all of them."""
+        with self.target.bind():
+            self.target.clear(color=(0.0, 0.0, 0.0, 0.0))
 
 
 class _Sent:

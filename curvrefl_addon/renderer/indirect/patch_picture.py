@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from ..device.batches import full_screen_triangle
@@ -16,7 +16,7 @@ from ..rays.material_pass import Hits, MaterialPass
 from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
 from .emitters import Emitters
-from .patch_shaders import PICTURE_WIDTH, RAYS_AT_ONCE, rays_shader
+from .patch_shaders import PICTURE_WIDTH, RAYS_AT_ONCE, VERTICES, rays_shader
 
 FOLLOWED = 0.5
 """Depth of all its pixels"""
@@ -76,3 +76,20 @@ class PatchPicture:
                 made, turn = (rays, materials, view_uniforms), (batch, 1)
                 self._pass.draw(hits, self.made, (self._depth, FOLLOWED), *made, window, turn)
             yield
+
+    def drawn_over(self, shader: Any, materials: Materials, bind: Callable[[Any], None]) -> Any:
+        """A picture of the same size, out of what the rays have met: its texture. `bind`: sets what else the shader
+        reads."""
+        drawn = empty_texture(self.width, self.height)
+        target = frame_buffer(drawn)
+        with drawing_state(), target.bind():
+            set_viewport(0, 0, self.width, self.height)
+            shader.bind()
+            shader.uniform_sampler("materials", materials.table)
+            for name, texture in zip(VERTICES, (self.position, self.normal, self.color), strict=True):
+                shader.uniform_sampler(name, texture)
+            shader.uniform_sampler("path_way", self.way)
+            self.made.bind(shader, materials.buffers)
+            bind(shader)
+            full_screen_triangle().draw(shader)
+        return drawn

@@ -22,8 +22,18 @@ RAYS_AT_ONCE = 16
 """Of each patch in a batch"""
 PICTURE_WIDTH = 1024
 """Of the picture that has a pixel for each ray of a batch"""
+LINK_NOTHING, LINK_WITHIN = -1, -2
+"""In place of the number of a patch: a ray has met nothing, or has begun inside of something solid"""
+LINK_CLOSE = 0.25
+"""More where it has met something close by"""
 _POINTS = Piece(samplers={"patch_points": "FLOAT_2D"}, constants={"patches": "INT"}, defines={"PATCH_POINTS": POINTS})
-_BATCH = {"RAYS_AT_ONCE": RAYS_AT_ONCE, "PICTURE_WIDTH": PICTURE_WIDTH}
+_BATCH = {
+    "RAYS_AT_ONCE": RAYS_AT_ONCE,
+    "PICTURE_WIDTH": PICTURE_WIDTH,
+    "LINK_NOTHING": LINK_NOTHING,
+    "LINK_WITHIN": LINK_WITHIN,
+    "LINK_CLOSE": LINK_CLOSE,
+}
 VERTICES = ("vertex_position", "vertex_normal", "vertex_color")
 
 
@@ -90,7 +100,7 @@ def links_shader(buffers: Buffers, features: Features) -> Any:
             samplers=named("FLOAT_2D", *VERTICES, "path_way", "lighting_ggx"),
             constants={"has_caustics": "FLOAT"},
             outputs={"link_out": "VEC4"},
-            defines={**GGX_DEFINES, **flags(*surfaces)},
+            defines={**GGX_DEFINES, **_BATCH, **flags(*surfaces)},
             fragment="patches/links.frag.glsl",
         ),
     )
@@ -98,30 +108,30 @@ def links_shader(buffers: Buffers, features: Features) -> Any:
 
 @gpu_cache
 def weights_shader() -> Any:
-    return build_shader(
-        "openness of points",
-        FULL_SCREEN,
-        Piece(
-            samplers={"links": "FLOAT_2D"},
-            constants={"patches": "INT"},
-            outputs={"color": "VEC4"},
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="patches/point_weights.frag.glsl",
-        ),
-    )
+    return _sum_over_rays("openness of points", "patches/point_weights.frag.glsl")
 
 
 @gpu_cache
 def sweep_shader() -> Any:
+    return _sum_over_rays("sweep", "patches/sweep.frag.glsl", "patch_sent", "point_weights")
+
+
+@gpu_cache
+def emitter_sum_shader() -> Any:
+    return _sum_over_rays("sum of emitters", "patches/emitter_sum.frag.glsl", "point_weights")
+
+
+def _sum_over_rays(name: str, fragment: str, *samplers: str) -> Any:
+    """Of each patch, over its rays of the batch whose `links` are bound."""
     return build_shader(
-        "sweep",
+        name,
         FULL_SCREEN,
         Piece(
-            samplers=named("FLOAT_2D", "patch_sent", "links", "point_weights"),
+            samplers=named("FLOAT_2D", "links", *samplers),
             constants={"patches": "INT"},
             outputs={"color": "VEC4"},
             defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="patches/sweep.frag.glsl",
+            fragment=fragment,
         ),
     )
 
@@ -145,35 +155,13 @@ def emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
 
 
 @gpu_cache
-def emitter_sum_shader() -> Any:
-    return build_shader(
-        "sum of emitters",
-        FULL_SCREEN,
-        Piece(
-            samplers=named("FLOAT_2D", "links", "point_weights"),
-            constants={"patches": "INT"},
-            outputs={"color": "VEC4"},
-            defines={**_BATCH, "PATCH_POINTS": POINTS},
-            fragment="patches/emitter_sum.frag.glsl",
-        ),
-    )
-
-
-@gpu_cache
 def sum_shader(with_emitters: bool) -> Any:
     shone = ("patch_shone",) if with_emitters else ()
     return build_shader(
         "sum of patches",
         FULL_SCREEN,
         Piece(
-            samplers=named(
-                "FLOAT_2D",
-                "patch_swept",
-                "patch_lamps",
-                "patch_sky",
-                "point_weights",
-                *shone,
-            ),
+            samplers=named("FLOAT_2D", "patch_swept", "patch_lamps", "patch_sky", "point_weights", *shone),
             constants={"patches": "INT"},
             outputs=named("VEC4", "sent_out", "arriving_out", "under_sky_out"),
             defines={**_BATCH, "PATCH_POINTS": POINTS, **(EMITTERS.defines if with_emitters else {})},
