@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles that shine (renderer/indirect/emitters.py), one of them chosen as often as it is strong. Needs the
-// sampler `emitters` and the push constant `emitter_count` (INT). Three records each: corner, sum of chances up to
+// sampler `emitters` and the push constant `emitter_count` (INT). EMITTER_RECORDS each: corner, sum of chances up to
 // here; edges to the others, the first with the density of a place on it over area.
 #include "common/records.glsl"
 
@@ -17,15 +17,16 @@ EmitterPlace emitter_place(vec3 random)
   int high = emitter_count - 1;
   while (low < high) {
     int middle = (low + high) >> 1;
-    bool is_before = fetch_record(emitters, 3 * middle).w <= random.z;
+    bool is_before = fetch_record(emitters, EMITTER_RECORDS * middle).w <= random.z;
     low = is_before ? middle + 1 : low;
     high = is_before ? high : middle;
   }
-  vec4 ab = fetch_record(emitters, 3 * low + 1);
-  vec3 ac = fetch_record(emitters, 3 * low + 2).xyz;
+  int record = EMITTER_RECORDS * low;
+  vec4 ab = fetch_record(emitters, record + 1);
+  vec3 ac = fetch_record(emitters, record + 2).xyz;
   float root = sqrt(random.x);
   EmitterPlace place;
-  place.position = fetch_record(emitters, 3 * low).xyz + ab.xyz * (1.0 - root) + ac * (root * random.y);
+  place.position = fetch_record(emitters, record).xyz + ab.xyz * (1.0 - root) + ac * (root * random.y);
   place.normal = normalize(cross(ab.xyz, ac));
   place.density = ab.w;
   return place;

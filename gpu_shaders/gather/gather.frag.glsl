@@ -3,10 +3,8 @@
 // One ray for the light that other surfaces send to what a pixel shows: off its base, by the cosine, or off the lobe
 // above. One of OF_SEEN (what the eye sees itself), OF_SHOWN (what a mirror shows first), OF_LATER (what rays off
 // later mirrors have hit) and OF_PATHS (where a path stops) says which buffers that is. gather_weight: what the ray's
-// light is multiplied by; w: 1 off the base, 2 off the lobe, 3 towards a place that shines, whose own light alone
-// counts; 4 a ray that brings nothing, 5 one that met something before the place, 6 through the base to the other
-// side. With EMITTERS one ray in two goes there; way.z is the density of a ray off base or lobe to where it went,
-// over the share of such rays that are not sharp.
+// light is multiplied by; w: its kind (ray_kinds.glsl). With EMITTERS one ray in two goes to a place that shines;
+// way.z is the density of a ray off base or lobe to where it went, over the share of such rays that are not sharp.
 #include "lighting/ggx.glsl"
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
@@ -15,14 +13,14 @@
 #include "scattering/microfacet.glsl"
 #include "gather/directions.glsl"
 #include "gather/followed_value.glsl"
+#include "gather/ray_kinds.glsl"
+#include "gather/write_surface.glsl"
 #ifdef EMITTERS
 #include "gather/emitter_density.glsl"
 #include "gather/emitters.glsl"
 #endif
 #include "paths/path_state.glsl"
 #include "paths/random.glsl"
-
-#define START_OFFSET 2e-6
 
 // Of a ray off base and lobe to a direction in the frame of the normal.
 float ray_density(Lobes lobes, float through, float chance, vec3 viewer, vec3 light)
@@ -86,12 +84,9 @@ void main()
   float density = 0.0;
   float inverse_chance;
   vec3 weight;
-  vec3 viewer = -incoming * frame;
-  viewer.z = max(viewer.z, 1e-4);
-  viewer = normalize(viewer);
-  float kind = is_lobe ? 2.0 : 1.0;
-  vec3 size = abs(s.position);
-  vec3 start = s.position + s.normal * (START_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
+  vec3 viewer = viewer_in(frame, -incoming);
+  float kind = is_lobe ? RAY_OFF_LOBE : RAY_OFF_BASE;
+  vec3 start = off_surface(s.position, s.normal);
   float farthest = 3e38;
 #ifdef SURFACE_TRANSLUCENT
   vec3 below = 2.0 * s.position - start;
@@ -115,7 +110,7 @@ void main()
     // (It has to be met itself.)
     farthest *= 1.0001;
     is_lobe = false;
-    kind = 3.0;
+    kind = RAY_TO_EMITTER;
   }
   else
 #endif
@@ -144,41 +139,32 @@ void main()
       start = below;
       inverse_chance = 1.0 / ((1.0 - chance) * through);
       weight = lobes.translucent * inverse_chance;
-      kind = 6.0;
+      kind = RAY_THROUGH;
     }
 #endif
     density = ray_density(lobes, through, chance, viewer, direction * frame);
   }
 #ifdef EMITTERS
-  weight /= kind != 3.0 ? 1.0 - EMITTER_SHARE : 1.0;
-  inverse_chance /= kind != 3.0 ? 1.0 - EMITTER_SHARE : 1.0;
+  weight /= kind != RAY_TO_EMITTER ? 1.0 - EMITTER_SHARE : 1.0;
+  inverse_chance /= kind != RAY_TO_EMITTER ? 1.0 - EMITTER_SHARE : 1.0;
 #endif
   weight *= throughput;
   bool is_asked = largest(throughput) > 0.0;
   bool is_alive = largest(weight) > 0.0 && (start != s.position) && dot(direction, start - s.position) > 0.0;
   int seen_by = is_lobe ? SEEN_IN_MIRRORS : SEEN_BY_DIFFUSE;
   Hit hit = walk(start, direction, is_alive ? farthest : -1.0, seen_by, 0.0, false);
-  surface_position = vec4(start, 0.0);
-  surface_normal = surface_color_out = vec4(0.0);
-#ifdef WITH_HITS
-  hit_out = vec4(0.0);
-#endif
+  write_no_surface(start);
   way_out = pack_way(direction, density, hit.range);
 #ifdef IS_SHARED
   weight = vec3(inverse_chance);
 #endif
 #ifdef EMITTERS
   // (What is before the place may shine, too: it has chances of its own.)
-  is_alive = is_alive && (kind != 3.0 || hit.range > 0.999 * farthest);
+  is_alive = is_alive && (kind != RAY_TO_EMITTER || hit.range > 0.999 * farthest);
 #endif
-  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? (kind == 3.0 ? 5.0 : 4.0) : 0.0);
+  float dark = kind == RAY_TO_EMITTER ? RAY_SHADOWED : RAY_WITHOUT_LIGHT;
+  weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? dark : RAY_NONE);
   if (hit.instance >= 0) {
-    RaySurface surface = surface_of_hit(hit, start, direction);
-    surface_position = vec4(surface.position, surface.object_id);
-    surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
-    surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, 0.0);
-#ifdef WITH_HITS
-    hit_out = packed_hit(hit);
-#endif
+    write_surface(hit, surface_of_hit(hit, start, direction));
   }
 }

@@ -6,21 +6,9 @@
 // Share of what arrives at a surface that it sends on towards a viewer, whatever way it came. `side`: its normal
 // towards the viewer, which is turned where by chance (`random`) that on the other side is asked for, which comes
 // through.
-
 vec3 sent_on(Material m, float random, vec3 direction, inout vec3 side, out vec3 of_lamps)
 {
-  Surface s;
-  s.position = vec3(0.0);
-  s.normal = side;
-  s.base_color = m.base_color;
-  s.metallic = m.metallic;
-  s.roughness = m.roughness;
-  s.ior = m.ior;
-  s.specular_level = m.specular_level;
-  s.emission = vec3(0.0);
-  s.glossy_only = m.glossy_only;
-  add_layers(s, m);
-  Lobes lobes = lobes_of(s, abs(dot(side, direction)));
+  Lobes lobes = lobes_of(surface_made_of(m, vec3(0.0), side), abs(dot(side, direction)));
   vec3 above = has_caustics > 0.5 ? lobes.specular_albedo : vec3(0.0);
   vec3 sum = lobes.diffuse + above;
   of_lamps = lobes.diffuse + (m.roughness > SHARP_ROUGHNESS ? above : vec3(0.0));

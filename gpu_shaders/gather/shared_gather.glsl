@@ -4,20 +4,20 @@
 // pixel's own whose rays began on the same surface nearby. With SHARED_BY_QUADS a quad of pixels has one texel, whose
 // ray began at one of them (`lane`), another one in each sub-frame. With EMITTERS those that went to where light
 // comes from are shared as well, where none of them met a shadow. `gather_light`: radiance over the chance of the
-// ray; w: what it was. Needs `gather_way`, the push constant `share_turn` (INT: of the sub-frame) and the samplers
+// ray; w: its kind. Needs `gather_way`, the push constant `share_turn` (INT: of the sub-frame) and the samplers
 // SHARED_POSITION and SHARED_NORMAL of where rays began.
 #include "gather/followed_value.glsl"
+#include "gather/ray_kinds.glsl"
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 
 // How far off rays are shared in the world, in parts of the way that light comes; how many texels are asked, and how
 // far off these are.
 #define SHARED_WAY 0.03
-#ifdef SHARED_BY_QUADS
 #define SHARED_TAPS 9
+#ifdef SHARED_BY_QUADS
 #define SHARED_REACH 2.5
 #else
-#define SHARED_TAPS 9
 #define SHARED_REACH 3.0
 #endif
 
@@ -68,7 +68,7 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
     }
     texels[k] = texel;
     away[k] = -1.0;
-    if (texelFetch(gather_light, texel, 0).w > 0.5 && shares_rays(asked_at(texel), place, normal)) {
+    if (texelFetch(gather_light, texel, 0).w != RAY_NONE && shares_rays(asked_at(texel), place, normal)) {
       away[k] = distance(texelFetch(SHARED_POSITION, asked_at(texel), 0).xyz, place.xyz);
       nearness += 1.0 / max(texelFetch(gather_way, texel, 0).w, 1e-20);
       rays += 1.0;
@@ -84,9 +84,9 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
       count += 1.0;
       own_light = is_own ? light : own_light;
       own_texel = is_own ? texels[k] : own_texel;
-      off_base += light.w < 1.5 ? light.rgb : vec3(0.0);
+      off_base += light.w == RAY_OFF_BASE ? light.rgb : vec3(0.0);
 #ifdef EMITTERS
-      if (light.w == 3.0) {
+      if (light.w == RAY_TO_EMITTER) {
         vec3 direction = way_direction(texelFetch(gather_way, texels[k], 0));
         // (By the normal there, which its chance was found with: by another the ray might count far too much.)
         vec3 there = texelFetch(SHARED_NORMAL, asked_at(texels[k]), 0).xyz;
@@ -94,7 +94,7 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
         shining += found;
         own_shining = is_own ? found : own_shining;
       }
-      is_shadowed = is_shadowed || light.w == 5.0;
+      is_shadowed = is_shadowed || light.w == RAY_SHADOWED;
 #endif
     }
   }
@@ -110,17 +110,18 @@ vec3 shared_rays(ivec2 pixel, vec4 place, vec3 normal, Surface s, vec3 to_viewer
   vec3 sum = off_base / max(count, 1.0);
   sum += is_shadowed ? own_shining : shining / max(count, 1.0);
   sum *= lobes.diffuse;
-  if (own_light.w == 2.0 || own_light.w == 3.0) {
+  if (own_light.w == RAY_OFF_LOBE || own_light.w == RAY_TO_EMITTER) {
     vec3 direction = way_direction(texelFetch(gather_way, own_texel, 0));
     vec3 there = texelFetch(SHARED_NORMAL, asked_at(own_texel), 0).xyz;
-    vec3 value = own_light.w == 2.0 ? lobes.specular_albedo : lobe_value(lobes, there, to_viewer, direction);
+    bool is_lobe = own_light.w == RAY_OFF_LOBE;
+    vec3 value = is_lobe ? lobes.specular_albedo : lobe_value(lobes, there, to_viewer, direction);
 #ifdef SURFACE_TRANSLUCENT
-    value += own_light.w == 3.0 ? lobes.translucent * (max(-dot(there, direction), 0.0) / LIGHTING_PI) : vec3(0.0);
+    value += is_lobe ? vec3(0.0) : lobes.translucent * (max(-dot(there, direction), 0.0) / LIGHTING_PI);
 #endif
     sum += own_light.rgb * value;
   }
 #ifdef SURFACE_TRANSLUCENT
-  sum += own_light.w == 6.0 ? own_light.rgb * lobes.translucent : vec3(0.0);
+  sum += own_light.w == RAY_THROUGH ? own_light.rgb * lobes.translucent : vec3(0.0);
 #endif
   return sum;
 }

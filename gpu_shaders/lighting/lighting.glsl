@@ -20,8 +20,6 @@
 #endif
 #include "rays/ray_walk.glsl"
 
-// Out of a surface by this share of the place's coordinates, which rounding may have moved it.
-#define SHADOW_OFFSET 2e-6
 #define SHADOW_END 0.9999
 
 // Share of light that gets here the unit way from nearer than `range`, through what casts shadows.
@@ -34,9 +32,7 @@
 #endif
 LIT lit_by_ray(Surface s, vec3 to_light, float range)
 {
-  vec3 size = abs(s.position);
-  vec3 start = s.position + s.normal * (SHADOW_OFFSET * (max(size.x, max(size.y, size.z)) + 1e-4));
-  Hit hit = walk(start, to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true);
+  Hit hit = walk(off_surface(s.position, s.normal), to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true);
 #ifdef LIGHTING_ALPHA
   return walked_light;
 #else

@@ -10,18 +10,7 @@
 Surface surface_of(ivec2 pixel, vec4 position, vec4 normal, vec3 color)
 {
   Material m = material_at(pixel, material_number(normal.w), color);
-  Surface s;
-  s.position = position.xyz;
-  s.normal = normal.xyz;
-  s.base_color = color;
-  s.metallic = m.metallic;
-  s.roughness = m.roughness;
-  s.ior = m.ior;
-  s.specular_level = m.specular_level;
-  s.emission = m.emission;
-  s.glossy_only = m.glossy_only;
-  add_layers(s, m);
-  return s;
+  return surface_made_of(m, position.xyz, normal.xyz);
 }
 
 vec3 world_point(vec2 ndc, float depth)

@@ -30,6 +30,14 @@ int cell_side(vec3 normal)
   return (is_x ? 0 : (is_y ? 2 : 4)) + (along < 0.0 ? 1 : 0);
 }
 
+// The two axes across a side.
+void axes_across(int side, out ivec3 first, out ivec3 second)
+{
+  int along = side / 2;
+  first = along == 0 ? ivec3(0, 1, 0) : ivec3(1, 0, 0);
+  second = along == 2 ? ivec3(0, 1, 0) : ivec3(0, 0, 1);
+}
+
 // In cells from the lowest corner of the level.
 vec3 place_in_level(vec3 position, float level)
 {
@@ -69,9 +77,8 @@ int patch_at(vec3 position, vec3 normal)
   int found = patch_of_cell(cell, side, level, position);
   if (found < 0) {
     // Behind a wall in this cell: what the next cells across the surface stand for.
-    int along = side / 2;
-    ivec3 first = along == 0 ? ivec3(0, 1, 0) : ivec3(1, 0, 0);
-    ivec3 second = along == 2 ? ivec3(0, 1, 0) : ivec3(0, 0, 1);
+    ivec3 first, second;
+    axes_across(side, first, second);
     vec3 off = fract(place) - 0.5;
     ivec3 to_first = first * (dot(off, vec3(first)) < 0.0 ? -1 : 1);
     ivec3 to_second = second * (dot(off, vec3(second)) < 0.0 ? -1 : 1);

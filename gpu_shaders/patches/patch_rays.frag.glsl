@@ -7,6 +7,7 @@
 #include "patches/batch.glsl"
 #include "patches/patch_points.glsl"
 #include "gather/directions.glsl"
+#include "gather/write_surface.glsl"
 #include "paths/path_state.glsl"
 #include "common/hash.glsl"
 #ifdef EMITTERS
@@ -20,11 +21,8 @@ void main()
   ivec2 asked = ray_of_texel(pixel);
   int place = asked.x;
   int ray = asked.y;
-  surface_position = surface_normal = surface_color_out = vec4(0.0);
+  write_no_surface(vec3(0.0));
   way_out = vec4(0.0);
-#ifdef WITH_HITS
-  hit_out = vec4(0.0);
-#endif
   if (place >= patches) {
     return;
   }
@@ -65,13 +63,8 @@ void main()
   }
   RaySurface surface = surface_of_hit(hit, origin, direction);
   bool is_within = surface.is_back && fetch_record(solids, int(fetch_record(rays, hit.instance + 5).w)).x > 0.5;
-  surface_position = vec4(surface.position, surface.object_id);
-  surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
-  surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, 0.0);
+  write_surface(hit, surface);
 #ifndef EMITTERS
   way_out.z = is_within ? 1.0 : 0.0;
-#endif
-#ifdef WITH_HITS
-  hit_out = packed_hit(hit);
 #endif
 }

@@ -24,21 +24,18 @@ void main()
   vec3 normal = patch_normal(place, 0);
   vec3 origin = patch_place(place, 0);
   float size = cell_size(max(cell_level(origin), 0.0));
-  int along = cell_side(normal) / 2;
   int way = number - place * PATCH_WALLS;
-  vec3 first = along == 0 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-  vec3 second = along == 2 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
-  vec3 direction = (way < 2 ? first : second) * ((way & 1) == 0 ? 1.0 : -1.0);
+  ivec3 first, second;
+  axes_across(cell_side(normal), first, second);
+  vec3 direction = vec3(way < 2 ? first : second) * ((way & 1) == 0 ? 1.0 : -1.0);
   // (Across the surface, however that is tilted.)
   direction = normalize(direction - normal * dot(normal, direction));
-  Hit hit = walk(origin + WALL_HEIGHT * size * normal, direction, WALL_REACH * size, SEEN_BY_DIFFUSE, 0.0, false);
+  vec3 start = origin + WALL_HEIGHT * size * normal;
+  Hit hit = walk(start, direction, WALL_REACH * size, SEEN_BY_DIFFUSE, 0.0, false);
   if (hit.instance >= 0) {
-    vec3 facing = cross(fetch_record(rays, hit.triangle + 1).xyz, fetch_record(rays, hit.triangle + 2).xyz);
-    vec3 outward = normalize(facing.x * fetch_record(rays, hit.instance).xyz +
-                             facing.y * fetch_record(rays, hit.instance + 1).xyz +
-                             facing.z * fetch_record(rays, hit.instance + 2).xyz);
+    vec3 outward = normalize(normals_to_world(hit) * facing_of(hit));
     outward *= dot(outward, direction) > 0.0 ? -1.0 : 1.0;
-    vec3 met = origin + WALL_HEIGHT * size * normal + hit.range * direction;
+    vec3 met = start + hit.range * direction;
     // (What only leans over the surface parts nothing.)
     if (dot(outward, direction) < -0.3) {
       wall_out = vec4(outward, dot(outward, met) - 1e-3 * size);

@@ -109,14 +109,6 @@ vec3 rough_lobes(Layers layers, vec3 chances, vec3 to_viewer, vec3 to_light, vec
   return sum;
 }
 
-// The viewer's direction in the surface's frame, a little above it.
-vec3 viewer_in(mat3 frame, vec3 to_viewer)
-{
-  vec3 local = to_viewer * frame;
-  local.z = max(local.z, 1e-4);
-  return normalize(local);
-}
-
 Scatter scatter(Material m, Facing f, vec3 to_viewer, vec4 random)
 {
   Scatter s = Scatter(-to_viewer, vec3(0.0), 0.0, SCATTER_ENDS);

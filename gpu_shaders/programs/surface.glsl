@@ -36,9 +36,18 @@ struct Surface {
 #endif
 };
 
-// What of a Material only some scenes' surfaces have.
-void add_layers(inout Surface s, Material m)
+Surface surface_made_of(Material m, vec3 position, vec3 normal)
 {
+  Surface s;
+  s.position = position;
+  s.normal = normal;
+  s.base_color = m.base_color;
+  s.metallic = m.metallic;
+  s.roughness = m.roughness;
+  s.ior = m.ior;
+  s.specular_level = m.specular_level;
+  s.emission = m.emission;
+  s.glossy_only = m.glossy_only;
 #ifdef SURFACE_TINT
   s.specular_tint = m.specular_tint;
 #endif
@@ -59,4 +68,5 @@ void add_layers(inout Surface s, Material m)
 #ifdef SURFACE_TRANSLUCENT
   s.translucency = m.translucency;
 #endif
+  return s;
 }

@@ -12,6 +12,20 @@ struct RaySurface {
   int material;
 };
 
+// Of the triangle, in object space, as long as twice its area.
+vec3 facing_of(Hit hit)
+{
+  return cross(fetch_record(rays, hit.triangle + 1).xyz, fetch_record(rays, hit.triangle + 2).xyz);
+}
+
+// Of the instance, from object to world space: normals go with the transposed inverse, whose columns are the rows from
+// world to object space.
+mat3 normals_to_world(Hit hit)
+{
+  return mat3(fetch_record(rays, hit.instance).xyz, fetch_record(rays, hit.instance + 1).xyz,
+              fetch_record(rays, hit.instance + 2).xyz);
+}
+
 RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
 {
   vec4 about = fetch_record(rays, hit.instance + 3);
@@ -24,17 +38,13 @@ RaySurface surface_of_hit(Hit hit, vec3 origin, vec3 direction)
   for (int k = 0; k < 3; k++) {
     normal += weights[k] * fetch_record(rays, REGION_UNIT * int(regions.z) + int(numbers[k])).xyz;
   }
-  // Normals go with the transposed inverse, whose columns are the rows from world to object space.
-  vec3 facing = cross(fetch_record(rays, hit.triangle + 1).xyz, fetch_record(rays, hit.triangle + 2).xyz);
-  vec3 x = fetch_record(rays, hit.instance).xyz;
-  vec3 y = fetch_record(rays, hit.instance + 1).xyz;
-  vec3 z = fetch_record(rays, hit.instance + 2).xyz;
-  vec3 outward = facing.x * x + facing.y * y + facing.z * z;
+  mat3 to_world = normals_to_world(hit);
+  vec3 outward = to_world * facing_of(hit);
   bool is_mirrored = (int(about.z) & IS_MIRRORED) != 0;
   bool is_front = (dot(outward, direction) < 0.0) != is_mirrored;
   RaySurface surface;
   surface.position = origin + hit.range * direction;
-  surface.normal = normalize(normal.x * x + normal.y * y + normal.z * z) * (is_front ? 1.0 : -1.0);
+  surface.normal = normalize(to_world * normal) * (is_front ? 1.0 : -1.0);
   int slot = min(int(numbers.w), slots - 1);
   surface.material = int(fetch_record(rays, materials_of_slots + slot / 4)[slot % 4]);
   bool is_followed = about.y > 0.5;

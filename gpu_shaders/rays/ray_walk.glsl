@@ -19,6 +19,15 @@
 #define OVER 99
 // Share of a triangle by which its edges overlap the neighbors', or rounding would let rays through between them.
 #define OVERLAP 2e-6
+// How far off a surface rays begin, by the share of the place's coordinates that rounding may have moved it.
+#define OFF_SURFACE 2e-6
+
+// Where a ray that leaves a surface begins.
+vec3 off_surface(vec3 position, vec3 normal)
+{
+  vec3 size = abs(position);
+  return position + normal * (OFF_SURFACE * (max(size.x, max(size.y, size.z)) + 1e-4));
+}
 
 struct Ray {
   vec3 origin;

@@ -19,6 +19,14 @@ bool is_sharp_alpha(float alpha)
 #endif
 }
 
+// The viewer's direction in the surface's frame, a little above it.
+vec3 viewer_in(mat3 frame, vec3 to_viewer)
+{
+  vec3 local = to_viewer * frame;
+  local.z = max(local.z, 1e-4);
+  return normalize(local);
+}
+
 // Density of microfacet normals, Walter et al. (2007), eq. 33, stretched.
 float ggx_density(vec3 h, vec2 alpha)
 {

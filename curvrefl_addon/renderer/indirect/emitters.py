@@ -17,7 +17,11 @@ RECORDS = 3
 """Of a triangle"""
 MOST_EMITTERS = 200_000
 """Triangles; of more only the strongest are lights"""
-EMITTERS = Piece(samplers={"emitters": "FLOAT_2D"}, constants={"emitter_count": "INT"}, defines={"EMITTERS": ""})
+EMITTERS = Piece(
+    samplers={"emitters": "FLOAT_2D"},
+    constants={"emitter_count": "INT"},
+    defines={"EMITTERS": "", "EMITTER_RECORDS": RECORDS},
+)
 """What `emitters.glsl` needs"""
 SHINES = Piece(samplers={"shining": "FLOAT_2D"})
 """Of materials: the density of a place on them over area"""

@@ -26,12 +26,11 @@ from ..surfaces.by_size import BySize
 from ..surfaces.canvas import Canvas
 from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT
-from ..surfaces.surface_buffer import SurfaceBuffer
+from ..surfaces.surface_buffer import SURFACE_SAMPLERS, SurfaceBuffer
 from ..surfaces.windows import Window
 from .emitters import Emitters
 from .gather_shaders import (
     LANES,
-    MET,
     Kind,
     Source,
     classes_shader,
@@ -43,8 +42,9 @@ from .gather_shaders import (
 from .irradiance import Irradiance
 
 NO_FEATURES: Features = frozenset()
-ASKS_EMITTERS = "ASKS_EMITTERS"
-"""Among `Gathering.features`: some rays go to where light comes from"""
+GATHERED, SKY_GATHERED, ASKS_EMITTERS = "GATHERED", "SKY_GATHERED", "ASKS_EMITTERS"
+"""Among `Gathering.features`: what rays find needs no light of patches, and no directions of the world; some rays go to
+where light comes from"""
 GATHER_BOUNCE = 61
 """Number of the random numbers of these rays, among those of paths' bounces"""
 LARGEST = 1e30
@@ -98,11 +98,10 @@ class Gathering:
 
     @property
     def features(self) -> Features:
-        """Beside those of the lighting: what rays find needs no light of patches (GATHERED) and no directions of the
-        world (SKY_GATHERED)."""
+        """Beside those of the lighting."""
         names = {
-            "GATHERED": self.irradiance is not None,
-            "SKY_GATHERED": self.has_sky,
+            GATHERED: self.irradiance is not None,
+            SKY_GATHERED: self.has_sky,
             ASKS_EMITTERS: self.emitters is not None,
         }
         return frozenset(name for name, is_so in names.items() if is_so)
@@ -196,7 +195,7 @@ class GatherPicture:
             shader.uniform_int("path_point", path_point(number, GATHER_BOUNCE, count))
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
-            for name, texture in zip((*MET, *source.value), (*surface, *others), strict=True):
+            for name, texture in zip((*SURFACE_SAMPLERS, *source.value), (*surface, *others), strict=True):
                 shader.uniform_sampler(name, texture)
             made.bind(shader, materials.buffers)
             if by.emitters is not None:
@@ -223,14 +222,11 @@ class GatherPicture:
             shader.bind()
             shader.uniform_sampler("gather_weight", self._weight)
             full_screen_triangle().draw(shader)
-        self.add(by, self._light, 1.0, by.lighting.features, is_shared=True)
+        self.add(by, self._light, 1.0, is_shared=True)
         return SharedGather(by, self._light.texture, self._way, lane_of(by.sub_frame), source is Source.SEEN)
 
-    def add(
-        self, by: Gathering, canvas: Canvas, weight: float, lobe_features: Features, is_shared: bool = False
-    ) -> None:
-        """Add the light of all rays, times `weight`. `lobe_features`: of the lighting of what lobes see. `is_shared`:
-        see `share`."""
+    def add(self, by: Gathering, canvas: Canvas, weight: float, is_shared: bool = False) -> None:
+        """Add the light of all rays, times `weight`. `is_shared`: see `share`."""
         materials = by.materials
         with drawing_state("ALWAYS", depth_write=True), self._classes.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
@@ -249,8 +245,7 @@ class GatherPicture:
         with drawing_state("EQUAL", blend=blend), target.bind(), scissored(self._window):
             set_viewport(0, 0, self.width, self.height)
             for kind in self._kinds(by):
-                features = lobe_features if kind is Kind.LOBE_MEETS else by.lighting.features
-                has_patches = by.irradiance is not None
+                features, has_patches = by.lighting.features, by.irradiance is not None
                 shader = light_shader(
                     kind, materials.buffers, features, by.emitters is not None, has_patches, is_shared
                 )
@@ -263,7 +258,7 @@ class GatherPicture:
                 if knows(shader, "clamp_most"):
                     shader.uniform_float("clamp_most", by.clamp or LARGEST)
                 shader.uniform_sampler("materials", materials.table)
-                for name, texture in zip(MET, (self._position, self._normal, self._color), strict=True):
+                for name, texture in zip(SURFACE_SAMPLERS, (self._position, self._normal, self._color), strict=True):
                     shader.uniform_sampler(name, texture)
                 shader.uniform_sampler("path_way", self._way)
                 shader.uniform_sampler("gather_weight", self._weight)

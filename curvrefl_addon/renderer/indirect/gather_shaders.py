@@ -12,11 +12,12 @@ from ..device.context import gpu_cache
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, lighting_piece
+from ..paths.surface_features import SURFACE_FEATURES
 from ..programs.buffers import Buffers, reads
 from ..rays.ray_scene import RAYS
 from ..surfaces.materials import TABLE
 from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
-from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SURFACE_SAMPLERS
 from ..surfaces.view_block import VIEW
 from .emitters import EMITTERS, SHINES
 
@@ -24,9 +25,6 @@ EMITTER_SHARE = 0.5
 """Of the rays that go to where light comes from, in scenes with emitters"""
 LANES = 4
 """Pixels of a quad"""
-MET = ("vertex_position", "vertex_normal", "vertex_color")
-
-
 _OF_EMITTERS = Piece(samplers=SHINES.samplers, defines=EMITTERS.defines)
 
 
@@ -75,7 +73,6 @@ class Kind(IntEnum):
 def gather_shader(
     source: Source, variant: Features, buffers: Buffers, features: Features, with_hits: bool, with_emitters: bool
 ) -> Any:
-    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
     hits = named("VEC4", "hit_out") if with_hits else {}
     return build_shader(
         f"gather {source.name}",
@@ -87,7 +84,7 @@ def gather_shader(
         SURFACE_OUTPUTS,
         *((EMITTERS,) if with_emitters else ()),
         Piece(
-            samplers=named("FLOAT_2D", *MET, *source.value, "lighting_ggx"),
+            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, *source.value, "lighting_ggx"),
             constants={"path_point": "IVEC4", **_CONSTANTS.get(source, {})},
             outputs={**hits, **named("VEC4", "way_out", "weight_out")},
             defines={
@@ -98,7 +95,7 @@ def gather_shader(
                     f"OF_{source.name}",
                     *sorted(variant),
                     *(("WITH_HITS",) if with_hits else ()),
-                    *surfaces,
+                    *sorted(features & SURFACE_FEATURES),
                 ),
             },
             fragment="gather/gather.frag.glsl",
@@ -137,7 +134,6 @@ def classes_shader() -> Any:
 def light_shader(
     kind: Kind, buffers: Buffers, features: Features, with_emitters: bool, has_patches: bool, is_shared: bool
 ) -> Any:
-    rays = features & {"RAY_SHADOWS", "WORLD_RAYS"}
     return build_shader(
         f"gathered {kind.name}",
         CLASS,
@@ -147,9 +143,8 @@ def light_shader(
         CELLS,
         *((_OF_EMITTERS,) if with_emitters else ()),
         lighting_piece(features),
-        *((RAYS,) if rays else ()),
         Piece(
-            samplers=named("FLOAT_2D", *MET, "path_way", "gather_weight", "patch_light"),
+            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way", "gather_weight", "patch_light"),
             constants={"clamp_most": "FLOAT", "has_caustics": "FLOAT", **({} if is_shared else {"weight": "FLOAT"})},
             outputs={"color": "VEC4"},
             defines={

@@ -15,8 +15,9 @@ from ..programs.buffers import MaterialBuffers
 from ..rays.material_pass import Hits, MaterialPass
 from ..rays.ray_scene import RayScene
 from ..surfaces.materials import Materials
+from ..surfaces.surface_buffer import SURFACE_SAMPLERS
 from .emitters import Emitters
-from .patch_shaders import PICTURE_WIDTH, RAYS_AT_ONCE, VERTICES, rays_shader
+from .patch_shaders import PICTURE_WIDTH, RAYS_AT_ONCE, rays_shader
 
 FOLLOWED = 0.5
 """Depth of all its pixels"""
@@ -86,7 +87,7 @@ class PatchPicture:
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             shader.uniform_sampler("materials", materials.table)
-            for name, texture in zip(VERTICES, (self.position, self.normal, self.color), strict=True):
+            for name, texture in zip(SURFACE_SAMPLERS, (self.position, self.normal, self.color), strict=True):
                 shader.uniform_sampler(name, texture)
             shader.uniform_sampler("path_way", self.way)
             self.made.bind(shader, materials.buffers)

@@ -11,10 +11,11 @@ from ..device.context import gpu_cache
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
 from ..lighting.ggx import GGX_DEFINES
 from ..lighting.lighting import Features, lighting_piece
+from ..paths.surface_features import SURFACE_FEATURES
 from ..programs.buffers import Buffers, reads
 from ..rays.ray_scene import RAYS
 from ..surfaces.materials import TABLE
-from ..surfaces.surface_buffer import SURFACE_OUTPUTS
+from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SURFACE_SAMPLERS
 from .emitters import EMITTERS, SHINES
 from .points import POINTS
 
@@ -34,7 +35,6 @@ _BATCH = {
     "LINK_WITHIN": LINK_WITHIN,
     "LINK_CLOSE": LINK_CLOSE,
 }
-VERTICES = ("vertex_position", "vertex_normal", "vertex_color")
 
 
 @gpu_cache
@@ -89,7 +89,6 @@ def rays_shader(with_hits: bool, to_emitters: bool) -> Any:
 
 @gpu_cache
 def links_shader(buffers: Buffers, features: Features) -> Any:
-    surfaces = sorted(name for name in features if name.startswith("SURFACE_"))
     return build_shader(
         "links of patches",
         FULL_SCREEN,
@@ -97,10 +96,10 @@ def links_shader(buffers: Buffers, features: Features) -> Any:
         reads(buffers),
         CELLS,
         Piece(
-            samplers=named("FLOAT_2D", *VERTICES, "path_way", "lighting_ggx"),
+            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way", "lighting_ggx"),
             constants={"has_caustics": "FLOAT"},
             outputs={"link_out": "VEC4"},
-            defines={**GGX_DEFINES, **_BATCH, **flags(*surfaces)},
+            defines={**GGX_DEFINES, **_BATCH, **flags(*sorted(features & SURFACE_FEATURES))},
             fragment="patches/links.frag.glsl",
         ),
     )
@@ -146,7 +145,7 @@ def emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
         reads(buffers),
         *((points, SHINES) if of_hemisphere else ()),
         Piece(
-            samplers=named("FLOAT_2D", *VERTICES, "path_way"),
+            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way"),
             outputs={"link_out": "VEC4"},
             defines=_BATCH,
             fragment="patches/emitter_links.frag.glsl",

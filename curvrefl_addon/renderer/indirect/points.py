@@ -132,17 +132,18 @@ def _candidates(surface: Surface, grid: CellGrid, with_least: bool) -> tuple[Flo
     vertices = mesh.corner_vertex[triangles]
     world = mesh.positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     corners = world[vertices]
-    corners, weights = _split(corners, grid, float(stride))
+    corners = _split(corners, grid)
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     facing = np.cross(b - a, c - a)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         facing = -facing
     double_area = np.linalg.norm(facing, axis=1)
     normals = facing / np.maximum(double_area, 1e-300)[:, None]
-    size = grid.sizes(grid.levels_at(corners.mean(axis=1)))
+    levels = grid.levels_at(corners.mean(axis=1))
+    size = grid.sizes(levels)
     # (What is outside of all levels is asked by nobody.)
-    inside = grid.levels_at(corners.mean(axis=1)) < grid.levels
-    wanted = np.where(inside & (double_area > 0.0), POINTS_IN_CELL * weights * 0.5 * double_area / size**2, 0.0)
+    inside = levels < grid.levels
+    wanted = np.where(inside & (double_area > 0.0), POINTS_IN_CELL * stride * 0.5 * double_area / size**2, 0.0)
     total = float(wanted.sum())
     if total <= 0.0:
         return np.empty((0, 3)), np.empty((0, 3))
@@ -165,8 +166,8 @@ def _candidates(surface: Surface, grid: CellGrid, with_least: bool) -> tuple[Flo
     return np.concatenate([places + lift, places - lift]), np.concatenate([normals, -normals])
 
 
-def _split(corners: Float64Array, grid: CellGrid, weight: float) -> tuple[Float64Array, Float64Array]:
-    """Triangles (n, 3, 3) quartered until none is larger than the cells near it; and what each counts."""
+def _split(corners: Float64Array, grid: CellGrid) -> Float64Array:
+    """Triangles (n, 3, 3) quartered until none is larger than the cells near it."""
     done: list[Float64Array] = []
     focus = np.array(grid.focus)
     while len(corners):
@@ -182,8 +183,7 @@ def _split(corners: Float64Array, grid: CellGrid, weight: float) -> tuple[Float6
         ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
         quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (bc, ca, ab)]
         corners = np.concatenate([np.stack(quarter, axis=1) for quarter in quarters]) if large.any() else corners[:0]
-    whole = np.concatenate(done)
-    return whole, np.full(len(whole), weight)
+    return np.concatenate(done)
 
 
 def _chosen(

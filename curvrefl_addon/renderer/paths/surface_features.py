@@ -11,6 +11,7 @@ from .features import in_use
 SHEEN, COAT, DIFFUSE_ROUGHNESS = "SURFACE_SHEEN", "SURFACE_COAT", "SURFACE_DIFFUSE_ROUGHNESS"
 TRANSLUCENT, TINT = "SURFACE_TRANSLUCENT", "SURFACE_TINT"
 """Defines of `lighting.glsl`"""
+SURFACE_FEATURES = frozenset({SHEEN, COAT, DIFFUSE_ROUGHNESS, TRANSLUCENT, TINT})
 
 
 def surface_features(scene: SceneArrays) -> frozenset[str]:

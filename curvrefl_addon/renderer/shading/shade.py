@@ -119,7 +119,7 @@ class ShadePass:
             if gathers is not None and gathered is not None and not bounce.ends:
                 self._gather_later(gathers, gathered, bounce)
         if gathers is not None and gathered is not None:
-            gathered.add(gathers, canvas, weight, self._lighting.features)
+            gathered.add(gathers, canvas, weight)
 
     def _share_shown(
         self,

@@ -17,6 +17,8 @@ from ..programs.buffers import NONE, Buffers, MaterialBuffers
 
 SURFACE_OUTPUTS = Piece(outputs=named("VEC4", "surface_position", "surface_normal", "surface_color_out"))
 """Color targets of a SurfaceBuffer"""
+SURFACE_SAMPLERS = ("vertex_position", "vertex_normal", "vertex_color")
+"""Their names where shaders look up what rays have met"""
 HOLE = -2.0
 """In place of a mirror's number: a hole in the picture"""
 SEEN_THROUGH = -3.0

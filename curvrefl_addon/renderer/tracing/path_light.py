@@ -12,7 +12,7 @@ from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.shaders import Piece, build_shader, flags, named
 from ..device.state import drawing_state, scissored, set_viewport
-from ..indirect.gather import ASKS_EMITTERS, Gathering, SharedGather, features_of
+from ..indirect.gather import ASKS_EMITTERS, SKY_GATHERED, Gathering, SharedGather, features_of
 from ..indirect.gather_shaders import shared_piece
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
@@ -113,7 +113,7 @@ class PathLight:
         if needs_shadows:
             gathered = features_of(self.gathers)
             if kind is not PathClass.STOPS:
-                gathered &= {"SKY_GATHERED"}
+                gathered &= {SKY_GATHERED}
             features = features_for(self.lighting, self.shadows, is_seen=not on_path, gathered=gathered)
         if kind is PathClass.MISSES and self.film_transparent:
             names.add(FILM_TRANSPARENT)
@@ -127,7 +127,7 @@ _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "I
 
 def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
     """Whether pixels share the sky's shadows: where there are any, of surfaces that are lit as a whole."""
-    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and "SKY_GATHERED" not in lighting_features
+    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and SKY_GATHERED not in lighting_features
 
 
 @gpu_cache

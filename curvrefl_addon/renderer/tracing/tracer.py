@@ -160,7 +160,7 @@ class PathTracer:
             if last - step >= LOOK_FROM and step % 2 == 0 and not classes.any_left(step):
                 break
         if gathers is not None and gathered is not None:
-            gathered.add(gathers, canvas, weight, self._lighting.features)
+            gathered.add(gathers, canvas, weight)
 
 
 def _targets(has_programs: bool) -> BySize[tuple[PathClasses, dict[int, PathVertices]]]:
