@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ..optics.catalog import Method
@@ -12,10 +12,12 @@ from ..scene.arrays import SceneArrays
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .indirect.indirect import IndirectLight, Means
 from .lighting.lighting import Lighting
+from .mirrors.mirror import Mirror
 from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
 from .rays.ray_scene import RayScene
 from .shading.shade import ShadePass
+from .shown.shown import Stage
 from .surfaces.materials import Materials
 from .tracing.tracer import PathTracer
 
@@ -71,10 +73,11 @@ class Appearance:
             self.lighting.use(self.indirect.irradiance)
         return is_changed
 
-    @property
-    def for_stage(self) -> tuple[Materials, Lighting, ShadePass]:
-        """Of a `Stage`."""
-        return self.materials, self.lighting, self.shade
+    def stage(self, mirrors: Sequence[Mirror], rays: Callable[[], RayScene]) -> Stage:
+        """With the scene's mirrors, and what makes its rays when first asked."""
+        return Stage(
+            mirrors, self._geometry, self.materials, self.lighting, self.shade, rays, self.indirect, self.tracer
+        )
 
     def load_some(self, seconds: float) -> bool:
         """See `Materials.load_some`."""

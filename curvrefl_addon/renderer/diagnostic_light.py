@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from .reflection import Diagnostic, Reflection
 from .shading.diagnostics import DiagnosticPass
 from .shown.nothing import ShownNothing
@@ -20,10 +18,10 @@ def add_diagnostic(
     sub_frame: SubFrame,
     weight: float,
     diagnostic: Diagnostic,
-    methods: Sequence[str],
 ) -> None:
-    """Add a sub-frame to a picture; `methods`: by which the mirrors are shown, in their order."""
+    """Add a sub-frame to a picture."""
     groups = reflection.groups
+    methods = reflection.methods or (reflection.settings.method,) * len(sub_frame.stage.mirrors)
     for kind, members in groups or [(ShownNothing, [])]:
         shown = kind.draw(members, sub_frame, of_positions=diagnostic.needs_solve)
         if shown is None:

@@ -34,12 +34,12 @@ from .seen import draw_seen
 from .settings import Settings, check_settings
 from .shading.diagnostics import DiagnosticPass
 from .shown.rays import ShownRays, trace_seen_through
-from .shown.shown import Light, Stage, SubFrame, chosen_mirrors
+from .shown.shown import Light, Stage, chosen_mirrors
 from .shown.targets import target_pool
 from .surfaces.canvas import Canvas
 from .surfaces.pixel_filter import offsets
 from .surfaces.view_block import view_block
-from .surfaces.windows import Window, union
+from .surfaces.windows import union
 from .vertices.mirror_solver import require
 
 
@@ -153,10 +153,10 @@ class Renderer:
 
     @property
     def _stage(self) -> Stage:
-        made = self._appearance
-        return Stage(self.mirrors, self.geometry, *made.for_stage, self.rays, made.indirect, made.tracer)
+        return self._appearance.stage(self.mirrors, self.rays)
 
     def environment_cubes(self) -> list[EnvironmentCube]:
+        """One per mirror, drawn when first asked for."""
         return self._preparation.environment_cubes(self._stage, self.settings)
 
     @property
@@ -221,7 +221,8 @@ class Renderer:
         only worth its time where the view rests is done `at_rest`: edges are split where their solved midpoints leave
         the chord. A picture on its own `is_still`: its sub-frames share one solve, which counts for `auto`.
         """
-        # (At rest costs are counted as while the view moves, when sub-frames come one by one.)
+        # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
+        # the full resolution may be drawn another way all the same.)
         origin = self._placement.origin
         view = view.about(origin)
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
@@ -261,23 +262,24 @@ class Renderer:
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         if diagnostic is None and not self._is_gradual:
             self._find_light()
-        sub_frame = self._draw_surfaces(replace(reflection, view=view), window, diagnostic is not None, index)
+        jittered = replace(reflection, view=view)
+        everywhere = diagnostic is not None
+        sub_frame = draw_seen(self._stage, self._targets, jittered, self.settings, window, everywhere, index)
         groups = reflection.groups
         if diagnostic is not None:
             if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
                 self._diagnostics = DiagnosticPass(diagnostic.colors)
-            methods = reflection.methods or (self.settings.method,) * len(self.mirrors)
-            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic, methods)
+            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic)
             return
         self._appearance.lighting.prepare(index)
+        film = self.settings.film_transparent
         if not groups:
-            seen, film, shadows = sub_frame.targets.seen, self.settings.film_transparent, sub_frame.shadows
+            seen, shadows = sub_frame.targets.seen, sub_frame.shadows
             self._appearance.shade.add(
                 canvas, seen, None, sub_frame.uniforms, weight, window, None, shadows, film_transparent=film
             )
         for number, (kind, members) in enumerate(groups):
             chosen = chosen_mirrors(members, len(self.mirrors)) if len(groups) > 1 else None
-            film = self.settings.film_transparent
             light = Light(canvas, weight, chosen, number == 0, film, reflection.calm)
             kind.add_light(members, sub_frame, light)
         by_rays = bool(groups) and groups[0][0] is ShownRays
@@ -318,26 +320,23 @@ class Renderer:
 
     @property
     def ray_counters(self) -> dict[str, int]:
+        """How often hierarchies were made, since the start."""
         return {} if self._rays is None else self._rays.counters
 
     @property
     def bounced_light(self) -> str:
+        """See `IndirectLight.state`."""
         return self._appearance.indirect.state
 
     @property
     def can_improve(self) -> bool:
+        """Whether `improve` would do anything."""
         return self._rays is not None and self._rays.can_improve
 
     def improve(self) -> None:
         """Do a little work that makes later pictures faster, and no different."""
         if self._rays is not None:
             self._rays.improve()
-
-    def _draw_surfaces(
-        self, reflection: Reflection, window: Window | None = None, everywhere: bool = False, index: int = 0
-    ) -> SubFrame:
-        """The pass of what the eye sees directly, in `window` alone if given, but `everywhere` if asked for."""
-        return draw_seen(self._stage, self._targets, reflection, self.settings, window, everywhere, index)
 
     def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
         if revision != self.revision:
@@ -347,4 +346,4 @@ class Renderer:
     def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
         """Surface buffers through the pixel centers, read back (see `Frame`)."""
         self._move_to(reflection.origin)
-        return read_surfaces(reflection, self._draw_surfaces(reflection))
+        return read_surfaces(reflection, draw_seen(self._stage, self._targets, reflection, self.settings))

@@ -131,9 +131,18 @@ class IndirectLight:
         if not self.is_gathered:
             return None
         has_sky = self.irradiance is not None and "LIGHTING_WORLD" in means.lighting.features and self._openness < OPEN
-        made = (self._pool, means.rays(), means.materials, means.lighting, means.view_uniforms, sub_frame)
         return Gathering(
-            self.irradiance, self.emitters, has_sky, *made, self._scene.caustics, self._scene.indirect_clamp
+            self.irradiance,
+            self.emitters,
+            has_sky,
+            self._pool,
+            means.rays(),
+            means.materials,
+            means.lighting,
+            means.view_uniforms,
+            sub_frame,
+            has_caustics=self._scene.caustics,
+            clamp=self._scene.indirect_clamp,
         )
 
     def _step(self, means: Means, whole: bool) -> bool:

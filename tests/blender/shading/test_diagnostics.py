@@ -12,6 +12,7 @@ from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, u
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.seen import draw_seen
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.shading.lookup import Environment
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
@@ -151,7 +152,7 @@ def rendered(method: str, mode: str) -> tuple[np.ndarray, np.ndarray, Renderer]:
     reflection = renderer.reflect(VIEW)
     renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True)
     # One sub-frame has no jitter: it is the view's own.
-    sub_frame = renderer._draw_surfaces(reflection)
+    sub_frame = draw_seen(renderer._stage, renderer._targets, reflection, renderer.settings)
     ((kind, members),) = reflection.groups
     shown = kind.draw(members, sub_frame, of_positions=True)
     assert shown is not None
