@@ -301,8 +301,9 @@ class Renderer:
 
     @property
     def is_loading(self) -> bool:
-        """Some materials or images are not drawn as they are yet, or light between surfaces is not all found."""
-        return self._appearance.materials.is_loading or not self._appearance.indirect.is_settled
+        """Materials or images are not drawn as they are yet, or light between what was drawn before is not all found."""
+        is_drawn = self._view_uniforms is not None
+        return self._appearance.materials.is_loading or (is_drawn and not self._appearance.indirect.is_settled)
 
     def load_some(self, seconds: float) -> None:
         """Go on with that: a program, images for about so long, light."""

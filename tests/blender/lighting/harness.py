@@ -168,20 +168,17 @@ void main()
   vec4 gloss = texelFetch(buffer_gloss, pixel, 0);
   vec4 extra = texelFetch(buffer_extra, pixel, 0);
   vec3 to_viewer = texelFetch(buffer_viewer, pixel, 0).xyz;
-  Surface s;
-  s.position = position.xyz;
-  s.normal = texelFetch(buffer_normal, pixel, 0).xyz;
-  s.base_color = texelFetch(buffer_base, pixel, 0).rgb;
-  s.metallic = gloss.x;
-  s.roughness = gloss.y;
-  s.ior = gloss.z;
-  s.specular_level = gloss.w;
-  s.emission = extra.rgb;
-  s.glossy_only = extra.w > 0.5;
-  Material m;
   vec4 coat = texelFetch(buffer_coat, pixel, 0);
   vec4 coat_tint = texelFetch(buffer_coat_tint, pixel, 0);
   vec4 tint = texelFetch(buffer_tint, pixel, 0);
+  Material m;
+  m.base_color = texelFetch(buffer_base, pixel, 0).rgb;
+  m.metallic = gloss.x;
+  m.roughness = gloss.y;
+  m.ior = gloss.z;
+  m.specular_level = gloss.w;
+  m.emission = extra.rgb;
+  m.glossy_only = extra.w > 0.5;
   m.sheen_tint = texelFetch(buffer_sheen, pixel, 0).rgb;
   m.sheen_weight = 1.0;
   m.coat_weight = coat.x;
@@ -193,7 +190,7 @@ void main()
   m.specular_tint = tint.rgb;
   m.diffuse_roughness = tint.w;
   m.subsurface = 0.0;
-  add_layers(s, m);
+  Surface s = surface_made_of(m, position.xyz, texelFetch(buffer_normal, pixel, 0).xyz);
   color = vec4(world_radiance(-to_viewer), 1.0);
   if (position.w > 0.5) {
     color.rgb = FUNCTION(s, to_viewer);

@@ -47,16 +47,9 @@ void main()
   vec3 light = texelFetch(lights, pixel, 0).xyz;
   Material m;
   FIELDS
-  Surface s;
-  s.position = s.emission = vec3(0.0);
-  s.normal = normal;
-  s.base_color = m.base_color;
-  s.metallic = m.metallic;
-  s.roughness = m.roughness;
-  s.ior = m.ior;
-  s.specular_level = m.specular_level;
-  s.glossy_only = false;
-  add_layers(s, m);
+  m.emission = vec3(0.0);
+  m.glossy_only = false;
+  Surface s = surface_made_of(m, vec3(0.0), normal);
   float cosine = dot(light, normal);
   Lobes lobes = lobes_of(s, dot(viewer.xyz, normal));
   vec3 value = diffuse_lobes(s, lobes, viewer.xyz, light, cosine);
