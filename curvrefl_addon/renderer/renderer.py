@@ -301,7 +301,7 @@ class Renderer:
 
     @property
     def is_loading(self) -> bool:
-        """Materials or images are not drawn as they are yet, or light between what was drawn before is not all found."""
+        """Materials or images are not drawn as they are yet, or light between what was drawn is not all found."""
         is_drawn = self._view_uniforms is not None
         return self._appearance.materials.is_loading or (is_drawn and not self._appearance.indirect.is_settled)
 

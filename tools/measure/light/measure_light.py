@@ -58,12 +58,10 @@ def main() -> None:
     renderer = Renderer(still.scene, Settings(method="exact", samples=16), is_gradual=True)
     canvas = Canvas.of_size(width, height)
     frame(renderer, still.view, canvas)
-    while renderer.is_loading and renderer.bounced_light == "to be found":
-        # (Materials come first, with shaders that compile: both are counted elsewhere.)
-        renderer.load_some(0.0)
-    measure_steps(still.scene, still.view, canvas)
     while renderer.is_loading:
+        # (To its end, so that all shaders are compiled: they are counted elsewhere, as materials are.)
         renderer.load_some(1.0)
+    measure_steps(still.scene, still.view, canvas)
     measure_frames(renderer, still.scene, still.view, canvas)
 
 
