@@ -25,7 +25,7 @@ from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
-from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
+from .lamp_views import LAMP_MAP_RESOLUTIONS, PICKED, picking_turn, picks_lamp, plan_lamps
 from .lamps import LAMP_DEFINES, LAMP_RECORDS, LOOK_RECORD, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
 from .left_out import left_out, oddly_seen
 from .programs.casters import CasterBake
@@ -190,7 +190,7 @@ class Lighting:
         if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
             found.add("LIGHTING_PARTS")
         flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
-        flagged[ALPHA] = bool(self._alpha.materials)
+        flagged |= {ALPHA: bool(self._alpha.materials), PICKED: picks_lamp(self._lights, self.sub_frames)}
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._surfaces is not None:
             found.add(INDIRECT)
@@ -249,12 +249,8 @@ class Lighting:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
-        return (
-            *self._lamp_warnings,
-            *self._left_out,
-            *self._alpha.warnings,
-            *(self._oddly_seen if self._world_is_lit else ()),
-        )
+        oddly_seen = self._oddly_seen if self._world_is_lit else ()
+        return (*self._lamp_warnings, *self._left_out, *self._alpha.warnings, *oddly_seen)
 
     def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
         shining = [light for light in lights if any(light.color)]
@@ -342,7 +338,7 @@ class Lighting:
             # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
             records[[start + 4, 5]] = [*weight, weight.sum()]
             world_layers.append(layer)
-        records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
+        records[0] = [len(self._lights), len(world_layers), float(self._world.image is not None), picking_turn(index)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
         world = self._world
         records[2:5, :3] = world.rotation
