@@ -90,14 +90,15 @@ def open_scene_steps(
 
 
 def chart_steps(
-    files: Sequence[ChartFile], comparison: Comparison, largest: int, output: Path
+    files: Sequence[ChartFile], comparison: Comparison, largest: int, output: Path, sub_frames: Sequence[int] = ()
 ) -> Generator[Step, None, Charts]:
     """Chart files, each in its own resolution, and the solve of up to `largest` vertices around the first's mirror.
 
-    As `open_scene_steps`. Raises InputError without matplotlib before anything else.
+    `sub_frames`: as of `chart_data.sweep`. As `open_scene_steps`. Raises InputError without matplotlib before anything
+    else.
     """
     require_matplotlib()
-    per_file = step_count(comparison)
+    per_file = step_count(comparison, sub_frames)
     counting = len(counts_up_to(largest))
     count = counting + len(files) * per_file + 1
     marks: list[Mark] = []
@@ -112,7 +113,7 @@ def chart_steps(
                 arrays, view = read_render_scene(scene, view_layer, file.reflectors, file.width, file.height)
                 curves = yield from _counted(vertex_count_steps(arrays, view, comparison.methods, largest), 0, count)
             here = replace(comparison, width=file.width, height=file.height)
-            steps = scene_steps(scene, view_layer, file.reflectors, here, file.name)
+            steps = scene_steps(scene, view_layer, file.reflectors, here, file.name, sub_frames)
             more, warned = yield from _counted(steps, counting + index * per_file, count, f"{file.name}: ")
             marks += more
             warnings += [f"{file.name}: {warning}" for warning in warned]

@@ -75,14 +75,16 @@ def require_matplotlib() -> None:
 
 
 def draw_chart(marks: Sequence[Mark], headline: str, folder: Path) -> None:
-    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level.
+    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level that anything is known of.
 
     Raises InputError without matplotlib.
     """
     with _matplotlib():
         scenes = list(dict.fromkeys(mark.scene for mark in marks))
-        figure, panels = _figure(len(LEVELS), len(scenes), headline)
-        for row, level in enumerate(LEVELS.values()):
+        known = [level for level in LEVELS.values() if any(point(level, mark) for mark in marks)]
+        levels = known or list(LEVELS.values())
+        figure, panels = _figure(len(levels), len(scenes), headline)
+        for row, level in enumerate(levels):
             for column, scene in enumerate(scenes):
                 panel = panels[row][column]
                 _draw_panel(panel, level, [mark for mark in marks if mark.scene == scene])
@@ -206,7 +208,8 @@ def _method_handle(name: str, marks: Sequence[Mark]) -> Any:
     from matplotlib.lines import Line2D
 
     method = METHODS[name]
-    field, values = method.sweep
+    values = sorted({mark.value for mark in marks if mark.name == name and mark.value is not None})
+    field = next((mark.setting for mark in marks if mark.name == name and mark.setting), "")
     color, marker = method_style(name)
     varied = f"{field.replace('_', ' ')} {values[0]:g} to {values[-1]:g}" if len(values) > 1 else "no setting"
     return Line2D([], [], color=color, marker=marker, markersize=7, linewidth=0.9, label=f"{method.label}\n{varied}")

@@ -75,6 +75,19 @@ def test_charts_of_a_scene(tmp_path: Path, capfd: pytest.CaptureFixture[str]) ->
     assert not [row for row in counts if row["method"] == "environment_cube"], "it solves no vertices"
 
 
+def test_sub_frames_take_the_place_of_a_methods_own_setting(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Least first, in full light."""
+    file, output = saved(tmp_path), tmp_path / "out"
+    few = ("--method", "exact", "--sub-frames", "4,1", "--light", "full", "--peers", "cycles2", "--vertices", "1000")
+    assert cli.main(["chart", str(file), *BALL, *QUICK[:4], *few, "--output", str(output)]) == 0
+    marks = table(output / "chart.csv")
+    assert [(row["name"], row["setting"], row["value"]) for row in marks] == [
+        ("exact", "sub-frames", "1"),
+        ("exact", "sub-frames", "4"),
+        ("cycles", "samples", "2.0"),
+    ]
+
+
 def test_the_objects_own_switch_names_the_mirrors(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Also where the extension is not registered, as in a plain Python."""
     registration.register()
@@ -106,6 +119,8 @@ def look_away(_ball: bpy.types.Object) -> None:
         (("--reflector", "Mirror Bal"), "Mirror Ball"),
         ((*BALL, "--method", "magic"), "magic"),
         ((*BALL, "--peers", "luxrender"), "luxrender"),
+        ((*BALL, "--sub-frames", "1,few"), "1,few"),
+        ((*BALL, "--sub-frames", "0"), "out of range"),
         ((*BALL, "--vertices", "10"), "10"),
         ((*BALL, "missing.blend"), "missing.blend"),
         (("--reflector", "Block", "--method", "secant_star", "--peers", "none", "--vertices", "1000"), ""),
