@@ -21,7 +21,7 @@ from ...scene.opened.render_depsgraph import read_render_scene
 from ...streams import readable
 from .chart_data import scene_steps, step_count
 from .chart_draw import draw_chart, draw_vertex_count, has_matplotlib, require_matplotlib
-from .chart_marks import Mark, rows, write_csv
+from .chart_marks import LEVELS, Mark, rows, write_csv
 from .vertex_count import vertex_count_steps
 from .vertex_curves import Curve, counts_up_to
 from .vertex_curves import rows as vertex_count_rows
@@ -119,7 +119,8 @@ def chart_steps(
             warnings += [f"{file.name}: {warning}" for warning in warned]
         yield Step("Drawing", 1.0 - 1.0 / count)
         charts = Charts(tuple(marks), tuple(curves), tuple(dict.fromkeys(warnings)))
-        _write(charts, comparison, folder)
+        # (What a pixel shows, and where vertices are reflected, is the same in any number of sub-frames.)
+        _write(charts, comparison, folder, ("image",) if sub_frames else tuple(LEVELS))
     yield Step(f"Wrote {output / 'chart.png'}", 1.0)
     return charts
 
@@ -136,12 +137,12 @@ def _counted[T](steps: Generator[str, None, T], first: int, count: int, prefix: 
         done += 1
 
 
-def _write(charts: Charts, comparison: Comparison, folder: Path) -> None:
+def _write(charts: Charts, comparison: Comparison, folder: Path, levels: Sequence[str] = tuple(LEVELS)) -> None:
     write_csv(rows(charts.marks), folder / "chart.csv")
     machine = f"{renderer_name()}, Blender {bpy.app.version_string}"
     judged = f"against Cycles with {comparison.samples} samples of {comparison.light} light; lower left is better"
     if has_matplotlib():
-        draw_chart(charts.marks, f"Time against error {judged}\n{machine}", folder)
+        draw_chart(charts.marks, f"Time against error {judged}\n{machine}", folder, levels)
     if charts.curves:
         write_csv(vertex_count_rows(charts.curves), folder / "vertex_count.csv")
         draw_vertex_count(charts.curves, f"Time against vertices\n{machine}", folder)

@@ -74,17 +74,18 @@ def require_matplotlib() -> None:
         raise InputError(MISSING_MATPLOTLIB)
 
 
-def draw_chart(marks: Sequence[Mark], headline: str, folder: Path) -> None:
-    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level that anything is known of.
+def draw_chart(marks: Sequence[Mark], headline: str, folder: Path, levels: Sequence[str] = tuple(LEVELS)) -> None:
+    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level
+    of these that anything is known of.
 
     Raises InputError without matplotlib.
     """
     with _matplotlib():
         scenes = list(dict.fromkeys(mark.scene for mark in marks))
-        known = [level for level in LEVELS.values() if any(point(level, mark) for mark in marks)]
-        levels = known or list(LEVELS.values())
-        figure, panels = _figure(len(levels), len(scenes), headline)
-        for row, level in enumerate(levels):
+        asked = [LEVELS[name] for name in levels]
+        drawn = [level for level in asked if any(point(level, mark) for mark in marks)] or asked
+        figure, panels = _figure(len(drawn), len(scenes), headline)
+        for row, level in enumerate(drawn):
             for column, scene in enumerate(scenes):
                 panel = panels[row][column]
                 _draw_panel(panel, level, [mark for mark in marks if mark.scene == scene])

@@ -14,10 +14,13 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.compare import Comparison
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
-from curvrefl.curvrefl_addon.study.charts.chart import open_scene_steps
+from curvrefl.curvrefl_addon.study.charts import chart_data
+from curvrefl.curvrefl_addon.study.charts.chart import chart_open_scene, open_scene_steps
 from curvrefl.curvrefl_addon.study.charts.vertex_count import shell_positions
 from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth
 from curvrefl.operators.compare_with_cycles import TEXT_NAME
@@ -86,6 +89,23 @@ def test_sub_frames_take_the_place_of_a_methods_own_setting(tmp_path: Path, capf
         ("exact", "sub-frames", "4"),
         ("cycles", "samples", "2.0"),
     ]
+
+
+@pytest.mark.parametrize("light", ["direct", "full"])
+def test_ours_is_in_the_references_light(light: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In direct light it bounces off nothing, whatever the file says."""
+    build_scene()
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    bounces = []
+
+    def measured(renderer: Renderer, *_: object) -> None:
+        bounces.append(renderer.scene.diffuse_bounces)
+        raise InputError("That is enough.")
+
+    monkeypatch.setattr(chart_data, "measure_frame", measured)
+    chart_open_scene(scene, layer, ["Mirror Ball"], Comparison(("exact",), 32, 24, 1, light, ()), tmp_path / "out")
+    assert bounces == [0 if light == "direct" else scene.cycles.diffuse_bounces]
+    assert scene.cycles.diffuse_bounces > 0
 
 
 def test_the_objects_own_switch_names_the_mirrors(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

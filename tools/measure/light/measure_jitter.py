@@ -183,7 +183,7 @@ def drawn(
         for step in (1, -1):
             kept &= (np.roll(thing, step, axis=axis) == thing) & (np.roll(mirror, step, axis=axis) == mirror)
     normals = np.where(mirror[..., None], 0.0, surfaces["seen_normal"][..., :3])
-    pixels = np.stack(np.indices(mirror.shape), axis=-1)
+    pixels = np.moveaxis(np.indices(mirror.shape), 0, -1)
     fields = (pictures[1], light, places, normals, spacing, gradient, mirror, pixels)
     return Shown(*(field[kept] for field in fields)), list(reflections)
 
