@@ -178,6 +178,9 @@ IMAGES: dict[str, Picture] = {
 }
 """The pictures of the documents by their names in docs/images"""
 
+KEPT = ("caches.png", "chart_full.png")
+"""Pictures of scenes that are not in the repository, beside these: the documents say by which commands"""
+
 
 def make(names: Sequence[str], folder: Path = IMAGES_FOLDER) -> None:
     """Make these pictures; they come into `folder` together at the end. Raises InputError for an unknown name."""

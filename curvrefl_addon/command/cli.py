@@ -32,7 +32,8 @@ from .signals import StoppedError, answered_signals
 
 DONE, OUR_FAILURE, BAD_INPUT = 0, 1, 2
 
-ALL_PEERS = "eevee,cycles1,cycles8,cycles64"
+CHARTED_PEERS = "eevee,cycles1,cycles8,cycles64"
+PEERS_HELP = "eevee, cycles1, cycles2, cycles4 and so on to cycles64; or none (%(default)s)"
 MAX_FRAME = 1048574
 """Blender's own limit"""
 
@@ -151,7 +152,7 @@ def _parser() -> argparse.ArgumentParser:
         "--peers",
         default="eevee,cycles1,cycles8",
         metavar="P[,P..]",
-        help=f"of {ALL_PEERS}, or none (%(default)s)",
+        help=PEERS_HELP,
     )
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
@@ -166,7 +167,13 @@ def _parser() -> argparse.ArgumentParser:
     chart.add_argument("--method", default="all", metavar="M[,M..]", help="or all (%(default)s)")
     _add_reference_samples(chart, 64, "of the references")
     chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
-    chart.add_argument("--peers", default=ALL_PEERS, metavar="P[,P..]", help="or none (%(default)s)")
+    chart.add_argument("--peers", default=CHARTED_PEERS, metavar="P[,P..]", help=PEERS_HELP)
+    chart.add_argument(
+        "--sub-frames",
+        default="",
+        metavar="N[,N..]",
+        help="chart pictures of so many sub-frames, in place of what else each method can vary",
+    )
     chart.add_argument(
         "--vertices",
         type=_between(1000, 10_000_000),

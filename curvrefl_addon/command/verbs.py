@@ -116,6 +116,7 @@ def chart(options: argparse.Namespace) -> int:
     require_known(methods, list(METHODS), "method")
     peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
     reflectors = [] if options.reflector is None else read_names(options.reflector, "reflector")
+    sub_frames = _sub_frames(options.sub_frames)
     output = checked_folder(options.output)
     start_gpu()
 
@@ -129,7 +130,7 @@ def chart(options: argparse.Namespace) -> int:
     # All files are looked at first: what is wrong with the last one shows before minutes of Cycles.
     files = [_chart_file(options, file, name, reflectors) for file, name in _scene_names(options.files)]
     with dropped(STDOUT) as stdout:
-        steps = chart_steps(files, comparison, options.vertices, output)
+        steps = chart_steps(files, comparison, options.vertices, output, sub_frames)
         while True:
             try:
                 step = next(steps)
@@ -177,6 +178,19 @@ def benchmark(options: argparse.Namespace) -> int:
     print(format_benchmark(report))
     print(f"Numbers: {output / 'benchmark.json'}")
     return 0
+
+
+def _sub_frames(text: str) -> tuple[int, ...]:
+    """Numbers of sub-frames to chart, least first. Raises InputError for what is none."""
+    from ..renderer.settings import Settings, check_settings
+
+    try:
+        numbers = tuple(sorted({int(part) for part in text.split(",") if part.strip()}))
+    except ValueError:
+        raise InputError(f'"{text}" names no numbers of sub-frames: give them as in 1,4,16.') from None
+    for number in numbers:
+        check_settings(Settings(samples=number))
+    return numbers
 
 
 def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:

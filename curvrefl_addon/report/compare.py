@@ -26,7 +26,7 @@ from ..output import checked_folder, folder_to_publish
 from ..renderer.device.context import renderer_name
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings, check_settings
-from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
+from ..scene.arrays import SceneArrays
 from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
@@ -37,7 +37,7 @@ from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, STILL_SAMPLES
 from ..streams import readable
 from .as_shown import save_as_shown
 from .cycles_reference import LIGHTS, PEERS, render_peer, render_reference
-from .direct_light import mirrors_met
+from .direct_light import in_direct_light, mirrors_met
 from .display import inverse_display_transform
 from .geometry_reference import render_geometry
 from .html import report_page
@@ -201,8 +201,8 @@ def compare_steps(
         comparison = replace(comparison, settings=settings)
         arrays = replace(still.scene, warnings=(*still.scene.warnings, *untold))
         if comparison.light == "direct":
-            arrays = _in_direct_light(arrays)
-            moments = tuple(replace(moment, scene=_in_direct_light(moment.scene)) for moment in moments)
+            arrays = in_direct_light(arrays)
+            moments = tuple(replace(moment, scene=in_direct_light(moment.scene)) for moment in moments)
         with folder_to_publish(output) as folder:
             run = _run(
                 scene,
@@ -234,11 +234,6 @@ def compare_steps(
             (folder / "report.json").write_text(text + "\n", encoding="utf-8")
     yield Step("Wrote report.html", 1.0)
     return report
-
-
-def _in_direct_light(scene: SceneArrays) -> SceneArrays:
-    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
-    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0, indirect_clamp=0.0)
 
 
 def _run(

@@ -28,7 +28,7 @@ from .images import load_exr
 from .repeats import Timing, repeated
 
 LIGHTS = ("direct", "full")
-PEERS = ("eevee", "cycles1", "cycles8", "cycles64")
+PEERS = ("eevee", *(f"cycles{2**power}" for power in range(7)))
 EEVEE_SAMPLES = 16
 MOST_SEEDS = 2**31
 

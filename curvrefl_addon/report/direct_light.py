@@ -1,11 +1,19 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How often direct light goes on from mirror to mirror, the same in our pictures and in Cycles'."""
+"""Direct light, the same in our pictures and in Cycles': without bounces, and how often it goes on from mirror to
+mirror."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..renderer.geometry.mesh_facts import MeshFacts
-from ..scene.arrays import SceneArrays
+from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
+
+
+def in_direct_light(scene: SceneArrays) -> SceneArrays:
+    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
+    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0, indirect_clamp=0.0)
 
 
 def mirrors_met(scene: SceneArrays, bounces: int) -> int:

@@ -21,7 +21,7 @@ from ...scene.opened.render_depsgraph import read_render_scene
 from ...streams import readable
 from .chart_data import scene_steps, step_count
 from .chart_draw import draw_chart, draw_vertex_count, has_matplotlib, require_matplotlib
-from .chart_marks import Mark, rows, write_csv
+from .chart_marks import LEVELS, Mark, rows, write_csv
 from .vertex_count import vertex_count_steps
 from .vertex_curves import Curve, counts_up_to
 from .vertex_curves import rows as vertex_count_rows
@@ -90,14 +90,15 @@ def open_scene_steps(
 
 
 def chart_steps(
-    files: Sequence[ChartFile], comparison: Comparison, largest: int, output: Path
+    files: Sequence[ChartFile], comparison: Comparison, largest: int, output: Path, sub_frames: Sequence[int] = ()
 ) -> Generator[Step, None, Charts]:
     """Chart files, each in its own resolution, and the solve of up to `largest` vertices around the first's mirror.
 
-    As `open_scene_steps`. Raises InputError without matplotlib before anything else.
+    `sub_frames`: as of `chart_data.sweep`. As `open_scene_steps`. Raises InputError without matplotlib before anything
+    else.
     """
     require_matplotlib()
-    per_file = step_count(comparison)
+    per_file = step_count(comparison, sub_frames)
     counting = len(counts_up_to(largest))
     count = counting + len(files) * per_file + 1
     marks: list[Mark] = []
@@ -112,13 +113,14 @@ def chart_steps(
                 arrays, view = read_render_scene(scene, view_layer, file.reflectors, file.width, file.height)
                 curves = yield from _counted(vertex_count_steps(arrays, view, comparison.methods, largest), 0, count)
             here = replace(comparison, width=file.width, height=file.height)
-            steps = scene_steps(scene, view_layer, file.reflectors, here, file.name)
+            steps = scene_steps(scene, view_layer, file.reflectors, here, file.name, sub_frames)
             more, warned = yield from _counted(steps, counting + index * per_file, count, f"{file.name}: ")
             marks += more
             warnings += [f"{file.name}: {warning}" for warning in warned]
         yield Step("Drawing", 1.0 - 1.0 / count)
         charts = Charts(tuple(marks), tuple(curves), tuple(dict.fromkeys(warnings)))
-        _write(charts, comparison, folder)
+        # (What a pixel shows, and where vertices are reflected, is the same in any number of sub-frames.)
+        _write(charts, comparison, folder, ("image",) if sub_frames else tuple(LEVELS))
     yield Step(f"Wrote {output / 'chart.png'}", 1.0)
     return charts
 
@@ -135,12 +137,12 @@ def _counted[T](steps: Generator[str, None, T], first: int, count: int, prefix: 
         done += 1
 
 
-def _write(charts: Charts, comparison: Comparison, folder: Path) -> None:
+def _write(charts: Charts, comparison: Comparison, folder: Path, levels: Sequence[str] = tuple(LEVELS)) -> None:
     write_csv(rows(charts.marks), folder / "chart.csv")
     machine = f"{renderer_name()}, Blender {bpy.app.version_string}"
     judged = f"against Cycles with {comparison.samples} samples of {comparison.light} light; lower left is better"
     if has_matplotlib():
-        draw_chart(charts.marks, f"Time against error {judged}\n{machine}", folder)
+        draw_chart(charts.marks, f"Time against error {judged}\n{machine}", folder, levels)
     if charts.curves:
         write_csv(vertex_count_rows(charts.curves), folder / "vertex_count.csv")
         draw_vertex_count(charts.curves, f"Time against vertices\n{machine}", folder)

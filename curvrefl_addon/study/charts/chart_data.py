@@ -19,7 +19,7 @@ from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...report.compare import Comparison
 from ...report.cycles_reference import Still, render_peer, render_reference
-from ...report.direct_light import mirrors_met
+from ...report.direct_light import in_direct_light, mirrors_met
 from ...report.geometry_reference import GeometryReference, render_geometry
 from ...report.measured_frame import frame_geometry_error, image_error, measure_frame, measure_times
 from ...report.metrics import missing_flip
@@ -37,8 +37,13 @@ PEER_REPEATS, PEER_SECONDS = 3, 2.0
 """A peer is timed again while it has taken less: one that needs half a minute once is timed once"""
 
 
-def sweep(name: str) -> Iterator[tuple[Settings, float, bool]]:
-    """Settings, value and whether it is the default, for the values that the method's entry in the catalog names."""
+def sweep(name: str, sub_frames: Sequence[int] = ()) -> Iterator[tuple[Settings, float, bool]]:
+    """Settings, value and whether it is the default, for the values that the method's entry in the catalog names; or
+    for these numbers of sub-frames, if any: in full light they are what a picture gets better by."""
+    for count in sub_frames:
+        yield Settings(method=name, samples=count), count, count == Settings().samples
+    if sub_frames:
+        return
     method = METHODS[name]
     default = default_value(method)
     for value in method.sweep[1]:
@@ -50,9 +55,9 @@ def default_value(method: Method) -> float:
     return float(getattr(Settings(), method.sweep[0])) or float(method.steps)
 
 
-def step_count(comparison: Comparison) -> int:
+def step_count(comparison: Comparison, sub_frames: Sequence[int] = ()) -> int:
     """How many steps `scene_steps` has."""
-    return 4 + 2 * sum(len(list(sweep(name))) for name in comparison.methods) + len(comparison.peers)
+    return 4 + 2 * sum(len(list(sweep(name, sub_frames))) for name in comparison.methods) + len(comparison.peers)
 
 
 def scene_steps(
@@ -61,6 +66,7 @@ def scene_steps(
     reflector_names: Sequence[str],
     comparison: Comparison,
     scene_name: str,
+    sub_frames: Sequence[int] = (),
 ) -> Generator[str, None, tuple[list[Mark], list[str]]]:
     """Measure the open scene at its frame through its camera; yields before each of at most `step_count` steps.
 
@@ -71,11 +77,13 @@ def scene_steps(
     arrays, view = read_render_scene(scene, view_layer, reflector_names, comparison.width, comparison.height)
     is_blurred = scene.render.use_motion_blur or view.lens is not None
     view = replace(view, lens=None)
+    if comparison.light == "direct":
+        arrays = in_direct_light(arrays)
     vertex_truth = VertexTruth(arrays, view)
     warnings = [*vertex_truth.warnings, *filter(None, [missing_flip(), BLURRED if is_blurred else ""])]
 
     try:
-        marks = yield from _marks(scene, view_layer, arrays, view, comparison, scene_name, vertex_truth)
+        marks = yield from _marks(scene, view_layer, arrays, view, comparison, scene_name, vertex_truth, sub_frames)
     finally:
         vertex_truth.free()
     return marks, warnings
@@ -89,6 +97,7 @@ def _marks(
     comparison: Comparison,
     scene_name: str,
     vertex_truth: VertexTruth,
+    sub_frames: Sequence[int],
 ) -> Generator[str, None, list[Mark]]:
     width, height = comparison.width, comparison.height
     yield "Tracing the mirrors' geometry in Cycles"
@@ -107,8 +116,8 @@ def _marks(
     marks: list[Mark] = []
     used: dict[int, Settings] = {}
     for name in comparison.methods:
-        for settings, value, is_default in sweep(name):
-            setting = settings.entry.sweep[0]
+        for settings, value, is_default in sweep(name, sub_frames):
+            setting = "sub-frames" if sub_frames else settings.entry.sweep[0]
             settings = replace(settings, bounces=comparison.settings.bounces)
             yield f"Rendering {name}, {setting} {value:g}"
             mark = Mark(scene_name, name, setting, value, is_default)

@@ -74,15 +74,18 @@ def require_matplotlib() -> None:
         raise InputError(MISSING_MATPLOTLIB)
 
 
-def draw_chart(marks: Sequence[Mark], headline: str, folder: Path) -> None:
-    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level.
+def draw_chart(marks: Sequence[Mark], headline: str, folder: Path, levels: Sequence[str] = tuple(LEVELS)) -> None:
+    """chart.svg and chart.png into `folder`: a column of panels per scene, a row per level
+    of these that anything is known of.
 
     Raises InputError without matplotlib.
     """
     with _matplotlib():
         scenes = list(dict.fromkeys(mark.scene for mark in marks))
-        figure, panels = _figure(len(LEVELS), len(scenes), headline)
-        for row, level in enumerate(LEVELS.values()):
+        asked = [LEVELS[name] for name in levels]
+        drawn = [level for level in asked if any(point(level, mark) for mark in marks)] or asked
+        figure, panels = _figure(len(drawn), len(scenes), headline)
+        for row, level in enumerate(drawn):
             for column, scene in enumerate(scenes):
                 panel = panels[row][column]
                 _draw_panel(panel, level, [mark for mark in marks if mark.scene == scene])
@@ -206,7 +209,8 @@ def _method_handle(name: str, marks: Sequence[Mark]) -> Any:
     from matplotlib.lines import Line2D
 
     method = METHODS[name]
-    field, values = method.sweep
+    values = sorted({mark.value for mark in marks if mark.name == name and mark.value is not None})
+    field = next((mark.setting for mark in marks if mark.name == name and mark.setting), "")
     color, marker = method_style(name)
     varied = f"{field.replace('_', ' ')} {values[0]:g} to {values[-1]:g}" if len(values) > 1 else "no setting"
     return Line2D([], [], color=color, marker=marker, markersize=7, linewidth=0.9, label=f"{method.label}\n{varied}")

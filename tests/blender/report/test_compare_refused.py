@@ -33,7 +33,7 @@ def test_nothing_is_left_by_a_failure(blend: Path, tmp_path: Path) -> None:
         ({"light": "moon"}, "direct, full"),
         ({"methods": ["secant_moon"]}, "secant_star"),
         ({"methods": []}, "secant_star"),
-        ({"peers": ["cycles2"]}, "cycles1"),
+        ({"peers": ["cycles3"]}, "cycles1"),
         ({"reflector_names": ["bal"]}, "ball"),
         ({"camera": "nobody"}, "camera"),
     ],

@@ -260,8 +260,8 @@ def test_peers_are_timed_again_and_draw_other_samples_than_the_reference(
 
 
 def test_unknown_peer_is_named(scene: bpy.types.Scene) -> None:
-    with pytest.raises(InputError, match="eevee, cycles1, cycles8"):
-        render_peer(scene, bpy.context.view_layer, "cycles2", WIDTH, HEIGHT)
+    with pytest.raises(InputError, match="eevee, cycles1, cycles2"):
+        render_peer(scene, bpy.context.view_layer, "cycles3", WIDTH, HEIGHT)
 
 
 def test_temporary_settings_keep_the_first_value(scene: bpy.types.Scene) -> None:

@@ -14,10 +14,13 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.compare import Comparison
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
-from curvrefl.curvrefl_addon.study.charts.chart import open_scene_steps
+from curvrefl.curvrefl_addon.study.charts import chart_data
+from curvrefl.curvrefl_addon.study.charts.chart import chart_open_scene, open_scene_steps
 from curvrefl.curvrefl_addon.study.charts.vertex_count import shell_positions
 from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth
 from curvrefl.operators.compare_with_cycles import TEXT_NAME
@@ -75,6 +78,36 @@ def test_charts_of_a_scene(tmp_path: Path, capfd: pytest.CaptureFixture[str]) ->
     assert not [row for row in counts if row["method"] == "environment_cube"], "it solves no vertices"
 
 
+def test_sub_frames_take_the_place_of_a_methods_own_setting(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Least first, in full light."""
+    file, output = saved(tmp_path), tmp_path / "out"
+    few = ("--method", "exact", "--sub-frames", "4,1", "--light", "full", "--peers", "cycles2", "--vertices", "1000")
+    assert cli.main(["chart", str(file), *BALL, *QUICK[:4], *few, "--output", str(output)]) == 0
+    marks = table(output / "chart.csv")
+    assert [(row["name"], row["setting"], row["value"]) for row in marks] == [
+        ("exact", "sub-frames", "1"),
+        ("exact", "sub-frames", "4"),
+        ("cycles", "samples", "2.0"),
+    ]
+
+
+@pytest.mark.parametrize("light", ["direct", "full"])
+def test_ours_is_in_the_references_light(light: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In direct light it bounces off nothing, whatever the file says."""
+    build_scene()
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene.cycles.diffuse_bounces = 3
+    bounces = []
+
+    def measured(renderer: Renderer, *_: object) -> None:
+        bounces.append(renderer.scene.diffuse_bounces)
+        raise InputError("That is enough.")
+
+    monkeypatch.setattr(chart_data, "measure_frame", measured)
+    chart_open_scene(scene, layer, ["Mirror Ball"], Comparison(("exact",), 32, 24, 1, light, ()), tmp_path / "out")
+    assert bounces == [0 if light == "direct" else 3]
+
+
 def test_the_objects_own_switch_names_the_mirrors(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Also where the extension is not registered, as in a plain Python."""
     registration.register()
@@ -106,6 +139,8 @@ def look_away(_ball: bpy.types.Object) -> None:
         (("--reflector", "Mirror Bal"), "Mirror Ball"),
         ((*BALL, "--method", "magic"), "magic"),
         ((*BALL, "--peers", "luxrender"), "luxrender"),
+        ((*BALL, "--sub-frames", "1,few"), "1,few"),
+        ((*BALL, "--sub-frames", "0"), "out of range"),
         ((*BALL, "--vertices", "10"), "10"),
         ((*BALL, "missing.blend"), "missing.blend"),
         (("--reflector", "Block", "--method", "secant_star", "--peers", "none", "--vertices", "1000"), ""),
