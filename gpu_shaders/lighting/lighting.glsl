@@ -13,6 +13,7 @@
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
 #include "common/records.glsl"
 #include "programs/surface.glsl"
+#include "surfaces/light_sets.glsl"
 #if defined(RAY_SHADOWS) || defined(WORLD_RAYS)
 #ifdef LIGHTING_ALPHA
 #define LIGHT_THROUGH
@@ -60,6 +61,15 @@ vec3 surfaces_on(Surface s, Lobes lobes)
   sum += lobes.translucent * patches_around(s.position, -s.normal) / LIGHTING_PI;
 #endif
   return sum;
+}
+#endif
+
+#ifdef LIGHTING_LINKED
+// The surface as something of a light set sees it shine; below 0: as the camera does.
+Surface shining_on(Surface s, int number)
+{
+  s.emission *= number < 0 || is_for_set(s.shines_on, number) ? 1.0 : 0.0;
+  return s;
 }
 #endif
 

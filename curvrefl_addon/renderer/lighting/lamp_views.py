@@ -61,7 +61,7 @@ def _plan(
             for face, view in enumerate(found):
                 faces.append(-1 if view is None else len(planned.views))
                 if view is not None:
-                    planned.views.append(replace(view, turn=(number, len(places))))
+                    planned.views.append(replace(view, turn=(number, len(places)), blocked_by=light.blocked_by))
                     planned.layers.append(layers.setdefault((row, number % kept, face), len(layers)))
             planned.places[-1].append((place, tuple(faces)))
     return planned

@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, LightArrays
+from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive, progressive_points
+from ..surfaces.light_sets import LINKED, SHADOWS_LINKED, links_of
 
 LAMP_RECORDS = 13
 """vec4 records per lamp"""
@@ -48,6 +50,30 @@ def is_soft(light: LightArrays) -> bool:
 def has_spread(light: LightArrays) -> bool:
     """Whether the lamp shines into a cone from each of its points."""
     return light.kind == "AREA" and light.spread < np.pi - 1e-4
+
+
+def lamp_features(lights: Sequence[LightArrays], scene: SceneArrays) -> set[str]:
+    """Defines of `lamps.glsl` but for those of shadow maps: what lamps there are, and what they light."""
+    found = {f"LIGHTING_{light.kind}" for light in lights}
+    flagged = {
+        "LIGHTING_SPREAD": any(has_spread(light) for light in lights),
+        "LIGHTING_BALLS": any(light.is_ball for light in lights),
+        "LIGHTING_PARTS": any(not (light.lights_diffuse and light.lights_glossy) for light in lights),
+    }
+    return found | {name for name, is_so in flagged.items() if is_so} | links_of(scene)
+
+
+def knows_links(features: frozenset[str]) -> bool:
+    """Whether there are `link_records`."""
+    return not features.isdisjoint({LINKED, SHADOWS_LINKED})
+
+
+def link_records(lights: Sequence[LightArrays]) -> Float64Array:
+    """(MAX_LAMPS, 4): of each lamp bits of the light sets that it lights, and of the shadow sets in its light's way."""
+    records = np.zeros((MAX_LAMPS, 4))
+    for record, light in zip(records, lights, strict=False):
+        record[:2] = light.lights_on, light.blocked_by
+    return records
 
 
 def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:

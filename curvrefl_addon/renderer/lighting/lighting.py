@@ -26,7 +26,18 @@ from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
-from .lamps import LAMP_DEFINES, LAMP_RECORDS, LOOK_RECORD, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
+from .lamps import (
+    LAMP_DEFINES,
+    LAMP_RECORDS,
+    LOOK_RECORD,
+    MAX_LAMPS,
+    is_soft,
+    knows_links,
+    lamp_features,
+    lamp_points,
+    lamp_records,
+    link_records,
+)
 from .left_out import left_out, oddly_seen
 from .programs.casters import CasterBake
 from .programs.lamps import LOOK_DEFINES, LampLooks, look_samplers
@@ -71,6 +82,7 @@ LARGEST_RECORD = 1e30
 
 def lighting_piece(features: Features = FEATURES) -> Piece:
     """What `lighting.glsl` needs; with the `features` of a scene, what it has beyond them is left out."""
+    linked = MAX_LAMPS if knows_links(features) else 0
     return Piece(
         samplers={
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
@@ -81,9 +93,10 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **({**CELLS.samplers, "patch_light": "FLOAT_2D"} if INDIRECT in features else {}),
         },
         constants=CELLS.constants if INDIRECT in features else {},
-        blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
+        blocks={"lighting_data": Block("vec4", length=DATA_RECORDS + linked)},
         defines={
             **flags(*sorted(features)),
+            **({"LINK_RECORDS": DATA_RECORDS} if linked else {}),
             "HEADER_RECORDS": HEADER_RECORDS,
             "DIRECTION_RECORDS": DIRECTION_RECORDS,
             **LAMP_DEFINES,
@@ -181,12 +194,9 @@ class Lighting:
     def _found_features(self) -> Features:
         places = (layers for planned in self._lamp_places for _, layers in planned)
         shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
-        found = {f"LIGHTING_{light.kind}" for light in self._lights}
+        found = lamp_features(self._lights, self._scene)
         found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
         world = self._world
-        found |= {"LIGHTING_SPREAD" for light in self._lights if has_spread(light)}
-        found |= {"LIGHTING_BALLS" for light in self._lights if light.is_ball}
-        found |= {"LIGHTING_PARTS" for light in self._lights if not (light.lights_diffuse and light.lights_glossy)}
         if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
             found.add("LIGHTING_PARTS")
         flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
@@ -314,7 +324,7 @@ class Lighting:
         self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
-        """Views of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+        """Views of lamps and world that the sub-frame needs, and its uniform block."""
         records = np.zeros((DATA_RECORDS, 4))
         lamp_layers: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):
@@ -347,4 +357,6 @@ class Lighting:
         world = self._world
         records[2:5, :3] = world.rotation
         records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
+        if knows_links(self.features):
+            records = np.concatenate([records, link_records(self._lights)])
         return lamp_layers, world_layers, records
