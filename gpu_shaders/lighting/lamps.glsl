@@ -13,8 +13,6 @@
 //   11: layer of that map; whether it lights diffuse parts of surfaces, and glossy ones; seen by the camera
 //   7, 8: cube: layers of +X -X +Y -Y | +Z -Z, depth terms; 9: half a face in texels, texels per slope
 //   12: layer of its map (renderer/lighting/programs/lamps.py) and of what is seen of it, falloff, smoothness
-// With LIGHTING_LINKED or LIGHTING_SHADOWS_LINKED there is a record of each lamp from LINK_RECORDS on: bits of the light
-// sets that it lights, and of the shadow sets that cast shadows in its light.
 // Of a scene without some kind of lamp or shadow the define LIGHTING_KIND is missing (renderer/lighting/lighting.py),
 // as many drivers run all branches.
 #if defined(LIGHTING_POINT) || defined(LIGHTING_SPOT) || defined(LIGHTING_AREA)
@@ -179,13 +177,10 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     if (is_lit && irradiance != vec3(0.0)) {
 #ifdef RAY_SHADOWS
 #ifdef LIGHTING_SHADOWS_LINKED
-      walk_blockers = int(lighting_data[LINK_RECORDS + i].y);
+      lamp_blockers = int(lighting_data[base + 6].w) == 0 ? EVERY_SET : int(lighting_data[LINK_RECORDS + i].y);
 #endif
       // (Without a kind it casts no shadow, or nothing could be in it.)
       irradiance *= int(lighting_data[base + 6].w) == 0 ? LIT(1.0) : lit_by_ray(s, to_light, range);
-#ifdef LIGHTING_SHADOWS_LINKED
-      walk_blockers = EVERY_SET;
-#endif
 #else
       irradiance *= lamp_shadow(base, s.position);
 #endif
@@ -257,11 +252,6 @@ float share_of_ray(int base, float falloff, float cosine)
   float density = 1.0 / max(area * falloff * cosine, 1e-30);
   return ray_density > 0.0 ? ray_density / (ray_density + density) : 1.0;
 }
-#endif
-
-#ifdef LIGHTING_LINKED
-// Light set of what the ray of `lamps_seen` has left; below 0: it sees all lamps, as the camera does.
-int lamps_met_from = -1;
 #endif
 
 // Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
@@ -348,8 +338,7 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
 #endif
     float is_visible = by_camera ? lighting_data[base + 11].w : lighting_data[base + 5].w;
 #ifdef LIGHTING_LINKED
-    int sets = int(lighting_data[LINK_RECORDS + i].x);
-    hit = hit && (lamps_met_from < 0 || is_for_set(sets, lamps_met_from));
+    hit = hit && (lamps_met_from < 0 || is_for_set(int(lighting_data[LINK_RECORDS + i].x), lamps_met_from));
 #endif
     if (hit && is_visible > 0.5 && radiance != vec3(0.0)) {
       sum += vec4(radiance, 1.0);

@@ -10,6 +10,9 @@
 //   lamps or directions the first record is dark: the loops over them run at least once, as a software renderer runs
 //   the body of a `for` once more than it needs.
 
+// With LIGHTING_LINKED or LIGHTING_SHADOWS_LINKED there is a record of each lamp from LINK_RECORDS on: bits of the
+// light sets that it lights, and of the shadow sets in the way of its light.
+
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
 #include "common/records.glsl"
 #include "programs/surface.glsl"
@@ -31,8 +34,17 @@
 #define LIT float
 #define LIT_CHANNELS 1.0
 #endif
+#ifdef LIGHTING_SHADOWS_LINKED
+// Bits of the shadow sets in the way of the next lamp's light.
+int lamp_blockers = EVERY_SET;
+#endif
+
 LIT lit_by_ray(Surface s, vec3 to_light, float range)
 {
+#ifdef LIGHTING_SHADOWS_LINKED
+  walk_blockers = lamp_blockers;
+  lamp_blockers = EVERY_SET;
+#endif
   Hit hit = walk(off_surface(s.position, s.normal), to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true);
 #ifdef LIGHTING_ALPHA
   return walked_light;

@@ -6,6 +6,9 @@
 #ifdef LIGHTING_LINKED
 #from renderer.surfaces.light_sets import LIGHT_SET_SHIFT, SHINES_ON_SHIFT, SET_STEPS
 
+// Of what the ray of `lamps_seen` has left; below 0: it sees all lamps, as the camera does.
+int lamps_met_from = -1;
+
 bool is_for_set(int sets, int number)
 {
   return ((sets >> number) & 1) != 0;

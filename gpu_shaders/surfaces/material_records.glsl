@@ -5,8 +5,8 @@
 // ior, transmission); (coat tint, film thickness); (specular tint, film ior); (absorption, whether it is seen
 // through); (transparent tint, alpha); (anisotropy, its rotation, diffuse roughness, translucency); (sheen tint,
 // sheen weight); (sheen roughness, subsurface, first of its program's parameters, which buffers its program fills:
-// VARIES_ bits). In scenes with light linking the material's light set is above its kind, and the sets that it shines on
-// are above those bits.
+// VARIES_ bits). In scenes with light linking the material's light set is above its kind, and the sets that it shines
+// on are above those bits.
 #include "common/records.glsl"
 #include "surfaces/light_sets.glsl"
 #from renderer.programs.buffers import VARIES_SCALARS, VARIES_SHINE, VARIES_LAYERS

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.arrays import EVERY_SET, Float64Array, LightArrays, SceneArrays, WorldArrays
 from ...scene.camera.sampling import is_progressive, progressive_points
 from ..surfaces.light_sets import LINKED, SHADOWS_LINKED, links_of
 
@@ -52,13 +52,24 @@ def has_spread(light: LightArrays) -> bool:
     return light.kind == "AREA" and light.spread < np.pi - 1e-4
 
 
-def lamp_features(lights: Sequence[LightArrays], scene: SceneArrays) -> set[str]:
-    """Defines of `lamps.glsl` but for those of shadow maps: what lamps there are, and what they light."""
+def strongest(lights: Sequence[LightArrays]) -> tuple[list[LightArrays], tuple[str, ...]]:
+    """As many lamps as shaders know, and a sentence where there are more."""
+    shining = [light for light in lights if any(light.color)]
+    if len(shining) <= MAX_LAMPS:
+        return shining, ()
+    shining.sort(key=lambda light: -sum(map(abs, light.color)))
+    return shining[:MAX_LAMPS], (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+
+
+def lamp_features(lights: Sequence[LightArrays], world: WorldArrays, scene: SceneArrays) -> set[str]:
+    """Defines of `lamps.glsl` but for those of shadow maps: what lamps there are, and what they and the world light."""
     found = {f"LIGHTING_{light.kind}" for light in lights}
+    parts = [(light.lights_diffuse, light.lights_glossy) for light in lights]
+    parts.append((world.visible_diffuse, world.visible_glossy and world.visible_camera))
     flagged = {
         "LIGHTING_SPREAD": any(has_spread(light) for light in lights),
         "LIGHTING_BALLS": any(light.is_ball for light in lights),
-        "LIGHTING_PARTS": any(not (light.lights_diffuse and light.lights_glossy) for light in lights),
+        "LIGHTING_PARTS": not all(map(all, parts)),
     }
     return found | {name for name, is_so in flagged.items() if is_so} | links_of(scene)
 
@@ -122,7 +133,9 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     records[3, :3] = -back
     records[4, :3], records[5, :3] = x, y
     records[5, 3] = float(light.visible_glossy)
-    records[11, 1:] = float(light.lights_diffuse), float(light.lights_glossy), float(light.visible_camera)
+    # (As in Cycles the camera sees no sun that has shadow linking.)
+    is_seen = light.visible_camera and (kind != SUN or light.blocked_by == EVERY_SET)
+    records[11, 1:] = float(light.lights_diffuse), float(light.lights_glossy), float(is_seen)
     if kind == SUN:
         half = 0.5 * light.angle
         # the whole sun gives `color` to a plane that faces its middle

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.arrays import Float64Array, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
 from ..cells.lookup import CELLS, At, SurfaceLight
@@ -25,7 +25,7 @@ from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
-from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps
+from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps, shadow_features
 from .lamps import (
     LAMP_DEFINES,
     LAMP_RECORDS,
@@ -37,6 +37,7 @@ from .lamps import (
     lamp_points,
     lamp_records,
     link_records,
+    strongest,
 )
 from .left_out import left_out, oddly_seen
 from .programs.casters import CasterBake
@@ -192,14 +193,8 @@ class Lighting:
         return all(cube_holds(self._lamp_maps, place, layers, *balls) for place, layers in cubes)
 
     def _found_features(self) -> Features:
-        places = (layers for planned in self._lamp_places for _, layers in planned)
-        shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
-        found = lamp_features(self._lights, self._scene)
-        found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
-        world = self._world
-        if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
-            found.add("LIGHTING_PARTS")
-        flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
+        found = lamp_features(self._lights, self._world, self._scene) | shadow_features(self._lamp_places)
+        flagged = {"LIGHTING_IMAGE": self._world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
         flagged[ALPHA] = bool(self._alpha.materials)
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._surfaces is not None:
@@ -266,19 +261,12 @@ class Lighting:
             *(self._oddly_seen if self._world_is_lit else ()),
         )
 
-    def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
-        shining = [light for light in lights if any(light.color)]
-        if len(shining) > MAX_LAMPS:
-            self._lamp_warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
-            shining.sort(key=lambda light: -sum(map(abs, light.color)))
-        return shining[:MAX_LAMPS]
-
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
         lights = self._looks.follow(self._scene.lights, self._baked.suns, self._baked.looks)
-        self._lights = self._chosen_lights(lights + self._image_suns)
-        self._lamp_warnings += self._looks.warnings
+        self._lights, left_out = strongest(lights + self._image_suns)
+        self._lamp_warnings += left_out + self._looks.warnings
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
         points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]

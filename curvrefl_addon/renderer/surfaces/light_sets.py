@@ -34,5 +34,6 @@ def links_of(scene: SceneArrays) -> frozenset[str]:
     is_linked = any(light.lights_on != EVERY_SET for light in scene.lights) or any(
         item.light_set or item.shines_on != EVERY_SET for item in scene.materials
     )
-    has_shadows = any(item.blocked_by != EVERY_SET for item in (*scene.lights, *scene.materials))
+    masks = {item.blocked_by for item in scene.lights} | {item.blocked_by for item in scene.materials}
+    has_shadows = bool(masks - {EVERY_SET})
     return frozenset(name for name, is_so in ((LINKED, is_linked), (SHADOWS_LINKED, has_shadows)) if is_so)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +14,7 @@ from curvrefl.curvrefl_addon.demo.data_blocks import add_camera, add_object
 from curvrefl.curvrefl_addon.demo.shapes import plane
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
-from indirect.places import add_box, add_mirror, by_cycles, gray, matte, read, start, world_of
+from indirect.places import MIRROR, add_box, add_mirror, by_cycles, gray, matte, read, start, world_of
 from lighting.room import add_lamp
 
 SIZE = (128, 96)
@@ -95,14 +96,16 @@ class Judged:
         return float(self.ours.clip(0.0, 1.0).mean() / self.cycles.clip(0.0, 1.0).mean() - 1.0)
 
 
-def judge(samples: int = 16, of_cycles: int = 96, method: str = "auto", **settings: Any) -> Judged:
+def judge(
+    samples: int = 16, of_cycles: int = 96, method: str = "auto", mirrors: Sequence[str] = (MIRROR,), **settings: Any
+) -> Judged:
     """The open scene by both; its links are gone then."""
     chosen = Settings(method=method, samples=samples, **settings)
-    picture, warnings, features = _ours(chosen)
+    picture, warnings, features = _ours(chosen, mirrors)
     cycles = by_cycles(of_cycles, SIZE)
     for obj in bpy.data.objects:
         obj.light_linking.receiver_collection = obj.light_linking.blocker_collection = None
-    unlinked, _, _ = _ours(Settings(method="exact", samples=4))
+    unlinked, _, _ = _ours(Settings(method="exact", samples=4), mirrors)
     found = Judged(picture, cycles, unlinked, warnings, features)
     print(
         f"off {found.share_off:.4f} mean {found.mean_off:+.4f} unlinked off {found.share_off_unlinked:.4f}",
@@ -112,8 +115,8 @@ def judge(samples: int = 16, of_cycles: int = 96, method: str = "auto", **settin
     return found
 
 
-def _ours(settings: Settings) -> tuple[np.ndarray, tuple[str, ...], frozenset[str]]:
-    arrays, view = read(size=SIZE)
+def _ours(settings: Settings, mirrors: Sequence[str]) -> tuple[np.ndarray, tuple[str, ...], frozenset[str]]:
+    arrays, view = read(mirrors, SIZE)
     renderer = Renderer(arrays, settings)
     frame = renderer.render(view)
     picture = frame.color()[..., :3]
