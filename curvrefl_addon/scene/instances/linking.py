@@ -110,6 +110,10 @@ class _Sets:
         self._numbers: dict[tuple[tuple[bool, ...], int], int] = {}
         """Of sets"""
         self._places: dict[Key, int] = {}
+        self._named: set[int] = set()
+        """Objects that any collection names"""
+        self._said: dict[int, tuple[bool, ...]] = {}
+        """By object, once it was asked for"""
         self._too_many: dict[str, None] = {}
 
     def add(self, key: Key, collection: Any, shines: bool) -> None:
@@ -119,6 +123,7 @@ class _Sets:
         uid = collection.session_uid
         if uid not in self._collections:
             self._collections[uid] = linked_by(collection)
+            self._named |= self._collections[uid].states.keys()
         if shines:
             self._shining.setdefault(uid, len(self._shining))
             self._emitters[key] = uid
@@ -134,8 +139,7 @@ class _Sets:
             self._numbers[self._said_of(0), 0] = 0
         uid, parent = uid_of_part(key[0]), key[1]
         # As in Cycles what instances an object counts first, if any collection names it.
-        is_named = any(parent in linked.states for linked in self._collections.values())
-        asked = (self._said_of(parent if is_named else uid), uid if is_apart else 0)
+        asked = (self._said_of(parent if parent in self._named else uid), uid if is_apart else 0)
         if asked not in self._numbers and len(self._numbers) == MOST_SETS:
             self._too_many[name] = None
         else:
@@ -157,7 +161,12 @@ class _Sets:
             yield f"There are too many groups of linked objects: {listed(self._too_many)} are {what} them."
 
     def _said_of(self, uid: int) -> tuple[bool, ...]:
-        return tuple(self._collections[collection].holds(uid) for collection in self._shining)
+        if uid not in self._named:
+            # (All of these are alike.)
+            uid = 0
+        if uid not in self._said:
+            self._said[uid] = tuple(self._collections[collection].holds(uid) for collection in self._shining)
+        return self._said[uid]
 
 
 def _held(collection: Any) -> Iterator[int]:

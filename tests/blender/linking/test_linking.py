@@ -244,7 +244,7 @@ def test_bounced_light_as_cycles(act: Callable[[], None]) -> None:
 
 
 def test_bounced_light_while_a_view_moves_is_off_receivers_alone() -> None:
-    """Two walls, one of them lit: what the floor beside the other gets is none of the lamp's."""
+    """The floor gets light of the cube that is lit, but not as if the lamp lit the floor itself."""
     build(3, world=0.0)
     includes_one()
     arrays, view = read(size=SIZE)
@@ -256,3 +256,12 @@ def test_bounced_light_while_a_view_moves_is_off_receivers_alone() -> None:
     assert shown.mean(near).min() > 0.0
     assert shown.mean(near).mean() > 5.0 * shown.mean(far).mean()
     assert without.mean(far).mean() > 50.0 * shown.mean(far).mean()
+
+
+def test_links_of_one_lamp_are_not_those_of_the_world() -> None:
+    """The last lamp casts no shadow at all; the world's are by rays, too."""
+    build(world=0.5)
+    lamp = point()
+    lamp.data.use_shadow = False
+    link(lamp, "blocker", ("mirror",))
+    judge(method="exact", shadow_rays=True).agrees(shows=False)
