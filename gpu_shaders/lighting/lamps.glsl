@@ -21,6 +21,9 @@
 #if defined(LIGHTING_SUN) || defined(LIGHTING_NEAR_LAMPS)
 #define LIGHTING_LAMPS
 #endif
+#if defined(LIGHTING_PICKED) && defined(RAY_SHADOWS)
+#define PICKS_LAMP
+#endif
 #if (defined(PATH_LOBES) && defined(PATHS_GLASS)) || defined(SURFACE_TRANSLUCENT)
 #define LIT_FROM_BEHIND
 #endif
@@ -97,11 +100,29 @@ float lamp_shadow(int base, vec3 position)
 vec3 followed_lobes(vec3 to_viewer, vec3 to_light, float density);
 #endif
 
-// Radiance towards the viewer from all lamps.
+#ifdef PICKS_LAMP
+// In 0 .. 1; each pixel has a golden section's steps of its own, which go evenly over all lamps with the sub-frames.
+float lamp_random()
+{
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
+  return fract(float(hashed(pixel.x | (pixel.y << 16u)) >> 8u) / 16777216.0 + lighting_data[0].w);
+}
+#endif
+
+// Radiance towards the viewer from all lamps. With PICKS_LAMP one of them, by what they would send without shadows,
+// stands for all that cast any (Talbot et al., "Importance resampling for global illumination", 2005).
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 {
   vec3 sum = vec3(0.0);
 #ifdef LIGHTING_LAMPS
+#ifdef PICKS_LAMP
+  Surface picked = s;
+  vec3 picked_light = vec3(0.0), picked_way = s.normal;
+  float picked_range = 1.0, picked_weight = 0.0, weights = 0.0, random = lamp_random();
+#ifdef LIGHTING_SHADOWS_LINKED
+  int picked_blockers = EVERY_SET;
+#endif
+#endif
   int count = int(lighting_data[0].x);
   int i = 0;
   do {
@@ -175,13 +196,14 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
     s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
 #endif
     if (is_lit && irradiance != vec3(0.0)) {
-#ifdef RAY_SHADOWS
+      // (Without a kind of shadow it casts none, or nothing could be in it.)
+      bool has_shadow = int(lighting_data[base + 6].w) != 0;
+#if defined(RAY_SHADOWS) && !defined(PICKS_LAMP)
 #ifdef LIGHTING_SHADOWS_LINKED
-      lamp_blockers = int(lighting_data[base + 6].w) == 0 ? EVERY_SET : int(lighting_data[LINK_RECORDS + i].y);
+      lamp_blockers = has_shadow ? int(lighting_data[LINK_RECORDS + i].y) : EVERY_SET;
 #endif
-      // (Without a kind it casts no shadow, or nothing could be in it.)
-      irradiance *= int(lighting_data[base + 6].w) == 0 ? LIT(1.0) : lit_by_ray(s, to_light, range);
-#else
+      irradiance *= has_shadow ? lit_by_ray(s, to_light, range) : LIT(1.0);
+#elif !defined(RAY_SHADOWS)
       irradiance *= lamp_shadow(base, s.position);
 #endif
       vec3 scattered = diffuse_lobes(s, lobes, to_viewer, to_light, cos_light);
@@ -226,125 +248,42 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #endif
       scattered += followed;
 #endif
-      sum += scattered * irradiance;
+      scattered *= irradiance;
+#ifdef PICKS_LAMP
+      if (has_shadow) {
+        float weight = mean_of(abs(scattered));
+        weights += weight;
+        float chance = weight / max(weights, 1e-30);
+        bool is_picked = random < chance;
+        random = is_picked ? random / chance : (random - chance) / max(1.0 - chance, 1e-6);
+        if (is_picked) {
+          picked_light = scattered;
+          picked_weight = weight;
+          picked_way = to_light;
+          picked_range = range;
+          picked.normal = s.normal;
+#ifdef LIGHTING_SHADOWS_LINKED
+          picked_blockers = int(lighting_data[LINK_RECORDS + i].y);
+#endif
+        }
+        scattered = vec3(0.0);
+      }
+#endif
+      sum += scattered;
     }
 #ifdef LIT_FROM_BEHIND
     s.normal *= cos_light < 0.0 ? -1.0 : 1.0;
 #endif
     i++;
   } while (i < count);
+#ifdef PICKS_LAMP
+  if (picked_weight > 0.0) {
+#ifdef LIGHTING_SHADOWS_LINKED
+    lamp_blockers = picked_blockers;
+#endif
+    sum += picked_light * (weights / picked_weight) * lit_by_ray(picked, picked_way, picked_range);
+  }
+#endif
 #endif
   return sum;
-}
-
-#ifdef PATH_LIGHT
-// Density with which the ray was chosen among all that leave a rough surface, whose lobes samples of lamps light too;
-// 0 of other rays.
-float ray_density = 0.0;
-
-// Share of a lamp that is met by chance in what rays and samples find of it (Veach and Guibas, "Optimally combining
-// sampling techniques for Monte Carlo rendering", 1995: the balance heuristic). `cosine` at the lamp, 1 over `falloff`
-// the squared distance.
-float share_of_ray(int base, float falloff, float cosine)
-{
-  vec3 intensity = abs(lighting_data[base + 1].rgb), body = abs(lighting_data[base + 6].rgb);
-  float area = (intensity.r + intensity.g + intensity.b) / max(body.r + body.g + body.b, 1e-30);
-  float density = 1.0 / max(area * falloff * cosine, 1e-30);
-  return ray_density > 0.0 ? ray_density / (ray_density + density) : 1.0;
-}
-#endif
-
-// Radiance of the lamps' bodies along the ray, nearer than `distance`, to be added to what lies behind (rays pass
-// through lamps in Cycles); alpha 1 where any is hit. `by_camera`: those that the camera sees, else those in mirrors.
-vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
-{
-  vec4 sum = vec4(0.0);
-#ifdef LIGHTING_LAMPS
-  int count = int(lighting_data[0].x);
-  int i = 0;
-  do {
-    int base = HEADER_RECORDS + i * LAMP_RECORDS;
-    int kind = int(lighting_data[base].w);
-    vec3 radiance = lighting_data[base + 6].rgb;
-    vec3 shines = lighting_data[base + 3].xyz;
-    bool hit = false;
-    float away_from_it = 1.0;
-    if (kind == LAMP_SUN) {
-      hit = distance > 1e30 && dot(direction, lighting_data[base + 2].xyz) > lighting_data[base + 3].w;
-#ifdef PATH_LIGHT
-      radiance *= share_of_ray(base, 1.0, 1.0);
-#endif
-    }
-#ifdef LIGHTING_NEAR_LAMPS
-    else {
-      vec3 middle = lighting_data[base + 2].xyz - origin;
-      if (kind == LAMP_AREA) {
-        float facing = dot(direction, shines);
-        float t = dot(middle, shines) / (facing == 0.0 ? 1e-30 : facing);
-        vec3 place = t * direction - middle;
-        vec3 axis_x = lighting_data[base + 4].xyz;
-        vec3 axis_y = lighting_data[base + 5].xyz;
-        vec2 across = vec2(dot(place, axis_x) / dot(axis_x, axis_x), dot(place, axis_y) / dot(axis_y, axis_y));
-        bool inside = lighting_data[base + 4].w > 0.5 ? dot(across, across) <= 1.0 :
-                                                       max(abs(across.x), abs(across.y)) <= 1.0;
-        hit = facing < 0.0 && t > 0.0 && t < distance && inside;
-        away_from_it = t;
-#ifdef PATH_LIGHT
-        float nearest2 = lighting_data[base + 1].w * lighting_data[base + 1].w;
-        radiance *= share_of_ray(base, 1.0 / max(t * t, nearest2), -facing);
-#endif
-#ifdef LIGHTING_SPREAD
-        radiance *= spread_share(base, -facing);
-#endif
-      }
-      else {
-        // a disk that faces the ray's origin
-        float away = length(middle);
-        vec3 axis = middle / max(away, 1e-30);
-        float facing = dot(direction, axis);
-        float t = away / max(facing, 1e-30);
-        away_from_it = t;
-        vec3 place = t * direction - middle;
-        float radius = lighting_data[base + 2].w;
-        hit = facing > 0.0 && t < distance && dot(place, place) <= radius * radius;
-#ifdef PATH_LIGHT
-        float falloff = 1.0 / max(t * t, 1e-30);
-#ifdef LIGHTING_BALLS
-        if (lighting_data[base + 5].x > 0.5) {
-          falloff = 1.0 / max(away * away - radius * radius, 1e-30);
-          facing = 1.0;
-        }
-#endif
-        radiance *= share_of_ray(base, falloff, facing);
-#endif
-#ifdef LIGHTING_BALLS
-        if (lighting_data[base + 5].x > 0.5) {
-          float nearest = away * facing;
-          float deep2 = radius * radius - (away * away - nearest * nearest);
-          hit = nearest > 0.0 && deep2 >= 0.0 && nearest - sqrt(max(deep2, 0.0)) < distance;
-        }
-#endif
-        if (kind == LAMP_SPOT) {
-          radiance *= spot_share(base, -direction);
-        }
-      }
-    }
-#endif
-#ifdef LIGHTING_LOOKS
-    radiance *= lamp_look(base, lighting_data[base + 12].y, kind, -direction, origin + away_from_it * direction);
-#endif
-#ifdef LIGHTING_FALLOFF
-    radiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, away_from_it);
-#endif
-    float is_visible = by_camera ? lighting_data[base + 11].w : lighting_data[base + 5].w;
-#ifdef LIGHTING_LINKED
-    hit = hit && (lamps_met_from < 0 || is_for_set(int(lighting_data[LINK_RECORDS + i].x), lamps_met_from));
-#endif
-    if (hit && is_visible > 0.5 && radiance != vec3(0.0)) {
-      sum += vec4(radiance, 1.0);
-    }
-    i++;
-  } while (i < count);
-#endif
-  return vec4(sum.rgb, min(sum.a, 1.0));
 }

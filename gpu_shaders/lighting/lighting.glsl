@@ -4,16 +4,17 @@
 // Needs the samplers and the uniform block of renderer/lighting/lighting.py (lighting_piece).
 //
 // lighting_data: HEADER_RECORDS records, then LAMP_RECORDS for each lamp, then DIRECTION_RECORDS for each direction.
-//   0: number of lamps, number of world directions, 1 for a world image; 1: world color, brightest that
-//   is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of each direction where there is
-//   no image; 6: with LIGHTING_PARTS, whether the camera, diffuse and glossy parts of surfaces see the world. Without
-//   lamps or directions the first record is dark: the loops over them run at least once, as a software renderer runs
-//   the body of a `for` once more than it needs.
+//   0: number of lamps, number of world directions, 1 for a world image, turn of the picked lamp (lamps.glsl);
+//   1: world color, brightest that is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of
+//   each direction where there is no image; 6: with LIGHTING_PARTS, whether the camera, diffuse and glossy parts of
+//   surfaces see the world. Without lamps or directions the first record is dark: the loops over them run at least
+//   once, as a software renderer runs the body of a `for` once more than it needs.
 
 // With LIGHTING_LINKED or LIGHTING_SHADOWS_LINKED there is a record of each lamp from LINK_RECORDS on: bits of the
 // light sets that it lights, and of the shadow sets in the way of its light.
 
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
+#include "common/hash.glsl"
 #include "common/records.glsl"
 #include "programs/surface.glsl"
 #include "surfaces/light_sets.glsl"
@@ -58,6 +59,7 @@ LIT lit_by_ray(Surface s, vec3 to_light, float range)
 #include "emitters/lamp_looks.glsl"
 #include "lighting/world_light.glsl"
 #include "lighting/lamps.glsl"
+#include "emitters/lamps_seen.glsl"
 #ifdef LIGHTING_INDIRECT
 #define SMOOTH_CELLS
 #include "patches/cells.glsl"

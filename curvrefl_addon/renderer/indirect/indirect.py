@@ -102,7 +102,9 @@ class IndirectLight:
                 return "to be found"
             return "none" if self._share >= LEAST_SHARE else f"left out: {100.0 * self._share:.1f} % of the light"
         rays = RAYS_AT_ONCE * self.irradiance.batches
-        patches = f"{self.irradiance.patches.count:,} patches, {rays} rays each"
+        # (What is sharp sends light on as if it scattered it.)
+        caustics = "; caustics spread evenly" if self._scene.caustics else ""
+        patches = f"{self.irradiance.patches.count:,} patches, {rays} rays each{caustics}"
         return patches if self.is_settled else f"{patches}, not settled"
 
     def prepare(self, means: Means) -> bool:

@@ -248,6 +248,9 @@ class Irradiance:
             records.clear()
         for index in range(sub_frames):
             lighting.prepare(index)
+            yield
+            # (What is drawn between steps may have prepared another.)
+            lighting.prepare(index)
             for records, of_sky in ((self._of_lamps, False), (self._of_sky, True)):
                 shader = light_shader(lighting.features, of_sky)
                 with blended("ADDITIVE_PREMULT"), records.target.bind():

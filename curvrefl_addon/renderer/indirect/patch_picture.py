@@ -21,7 +21,7 @@ from .patch_shaders import PICTURE_WIDTH, RAYS_AT_ONCE, rays_shader
 
 FOLLOWED = 0.5
 """Depth of all its pixels"""
-ROWS_AT_ONCE = 48
+ROWS_AT_ONCE = 24
 """Of that picture, in one step"""
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,21 @@ from .shadow_views import SceneExtent, ShadowView
 LAMP_MAP_RESOLUTIONS = (2048, 1024, 512, 256)
 LAMP_MAP_BYTES = 160 << 20
 """The finest resolution that fits is taken"""
+PICKED = "LIGHTING_PICKED"
+"""Among the features of the lighting: one lamp of many in each sub-frame, where shadows are found by rays"""
+FEWEST_PICKING = 8
+"""Sub-frames: in fewer the shadows of one lamp would be seen apart from those of others"""
+GOLDEN_SECTION = 0.6180339887498949
+
+
+def picks_lamp(lights: Iterable[LightArrays], sub_frames: int) -> bool:
+    """Whether one lamp's shadow ray stands for those of all (`lamps_on` in `lamps.glsl`)."""
+    return sub_frames >= FEWEST_PICKING and sum(light.casts_shadow for light in lights) > 1
+
+
+def picking_turn(sub_frame: int) -> float:
+    """In 0 .. 1: of successive sub-frames any few are spread evenly."""
+    return sub_frame * GOLDEN_SECTION % 1.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
-from .lamp_views import LAMP_MAP_RESOLUTIONS, plan_lamps, shadow_features
+from .lamp_views import LAMP_MAP_RESOLUTIONS, PICKED, picking_turn, picks_lamp, plan_lamps, shadow_features
 from .lamps import (
     LAMP_DEFINES,
     LAMP_RECORDS,
@@ -195,7 +195,7 @@ class Lighting:
     def _found_features(self) -> Features:
         found = lamp_features(self._lights, self._world, self._scene) | shadow_features(self._lamp_places)
         flagged = {"LIGHTING_IMAGE": self._world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
-        flagged[ALPHA] = bool(self._alpha.materials)
+        flagged |= {ALPHA: bool(self._alpha.materials), PICKED: picks_lamp(self._lights, self.sub_frames)}
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._surfaces is not None:
             found.add(INDIRECT)
@@ -254,12 +254,8 @@ class Lighting:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be represented, one sentence each."""
-        return (
-            *self._lamp_warnings,
-            *self._left_out,
-            *self._alpha.warnings,
-            *(self._oddly_seen if self._world_is_lit else ()),
-        )
+        oddly_seen = self._oddly_seen if self._world_is_lit else ()
+        return (*self._lamp_warnings, *self._left_out, *self._alpha.warnings, *oddly_seen)
 
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
@@ -340,7 +336,7 @@ class Lighting:
             # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
             records[[start + 4, 5]] = [*weight, weight.sum()]
             world_layers.append(layer)
-        records[0, :3] = [len(self._lights), len(world_layers), float(self._world.image is not None)]
+        records[0] = [len(self._lights), len(world_layers), float(self._world.image is not None), picking_turn(index)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
         world = self._world
         records[2:5, :3] = world.rotation

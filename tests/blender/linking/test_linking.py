@@ -145,11 +145,17 @@ def test_empty_collections_change_nothing() -> None:
     assert found.features.isdisjoint({LINKED, SHADOWS_LINKED})
 
 
-@pytest.mark.parametrize("act", [includes_one, sun_past_a_cube, point_past_a_cube, both_links])
+def two_lamps_two_shadows() -> None:
+    """One of them stands for both in each sub-frame."""
+    link(point(), "blocker", excluded=("two",))
+    sun_past_a_cube()
+
+
+@pytest.mark.parametrize("act", [includes_one, sun_past_a_cube, point_past_a_cube, both_links, two_lamps_two_shadows])
 def test_shadows_by_rays_as_cycles(act: Callable[[], None]) -> None:
     build()
     act()
-    judge(method="exact", shadow_rays=True).agrees()
+    judge(method="exact", samples=32, shadow_rays=True).agrees()
 
 
 def rough_mirror() -> None:
