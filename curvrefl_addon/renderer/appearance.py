@@ -11,6 +11,7 @@ from ..optics.catalog import Method
 from ..scene.arrays import SceneArrays
 from .geometry.scene_geometry import Difference, SceneGeometry
 from .indirect.indirect import IndirectLight, Means
+from .lighting.left_out import seen_in_spite_of_links
 from .lighting.lighting import Lighting
 from .mirrors.mirror import Mirror
 from .paths.features import same_for_paths
@@ -100,6 +101,8 @@ class Appearance:
         """What is not shown as it is, one sentence each."""
         found = [*self.needs.left_out_by(method)]
         found += (*self.materials.warnings, *self.lighting.warnings, *self.lighting.world_warnings)
+        if not (method.follows_rays or method.chooses or method.solves_vertices):
+            found += seen_in_spite_of_links(self._scene)
         if self.tracer is not None:
             found += self.tracer.warnings
         return tuple(found)

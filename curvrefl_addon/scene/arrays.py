@@ -28,6 +28,10 @@ UNLIMITED_BOUNCES = 1 << 30
 """More than any ray is followed"""
 LARGEST_COORDINATE = 1e18
 """Squares of larger ones overflow in single precision"""
+MOST_SETS = 20
+"""Sets of objects that light linking tells apart; so many for lamps' light, and as many for their shadows"""
+EVERY_SET = (1 << MOST_SETS) - 1
+"""A bit for each"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +143,12 @@ class MaterialArrays:
     """What differs from place to place: it sets channels in place of the constants here"""
     ranges: tuple[tuple[str, float, float], ...] = ()
     """(channel, lowest, highest) of what the program sets, as far as they are known"""
+    light_set: int = 0
+    """Of the objects that have it; those of other sets have copies of it"""
+    shines_on: int = EVERY_SET
+    """Bits of the light sets of the objects that its emission gets to"""
+    blocked_by: int = EVERY_SET
+    """And of the shadow sets of the objects that cast shadows in that"""
 
     @property
     def kind(self) -> float:
@@ -207,6 +217,10 @@ class LightArrays:
     """Highlights of surfaces"""
     emitter: Emitter | None = None
     """By its nodes: `color` is multiplied with what it says"""
+    lights_on: int = EVERY_SET
+    """Bits of the light sets of the objects that it lights"""
+    blocked_by: int = EVERY_SET
+    """Bits of the shadow sets of the objects that cast shadows in its light"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,6 +262,8 @@ class InstanceArrays:
     visible_shadow: bool = True
     visible_transmission: bool = True
     holdout: bool = False
+    shadow_set: int = 0
+    """Of shadow linking"""
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Object space of its object less that of `matrix`: not 0 where the mesh has been moved to its middle"""
     color: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
@@ -295,3 +311,7 @@ class SceneArrays:
     """What reflects sends light on to what scatters it"""
     indirect_clamp: float = 0.0
     """The most that light which has bounced adds to a sample there, mean of red, green and blue; 0: any"""
+
+    def light_set_of(self, instance: InstanceArrays) -> int:
+        """All materials of an instance have the same."""
+        return self.materials[instance.materials[0]].light_set

@@ -17,6 +17,7 @@ import numpy as np
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
+from .instances.linking import LightLinks
 from .instances.parts import SHOWN, parts_of, uid_of_part
 from .instances.values import comparable, values_of_instance
 from .materials.color_spaces import working_space
@@ -29,6 +30,7 @@ from .reads import (
     PlainObject,
     ShownInstance,
     bounces_of,
+    has_links,
     listing_of,
     needs_of,
     object_of,
@@ -72,6 +74,7 @@ class SceneReader:
         self._program_images = ProgramImages()
         self._materials = MaterialReader(self._program_images)
         self._meshes = MeshStore()
+        self._links = LightLinks()
         self._shown: dict[tuple[int, int, int], ShownInstance] = {}
         """By (object, what instances it or 0, which of these)"""
         self._instancers: set[int] = set()
@@ -289,7 +292,9 @@ class SceneReader:
                 holdout=rays.holdout,
                 **asked,
             )
-        return ShownInstance(made, None, tuple(warnings), True, made_of, error, rays.any, name)
+        return ShownInstance(
+            made, None, tuple(warnings), True, made_of, error, rays.any, name, materials, has_links(obj)
+        )
 
     def _slots(self, obj: bpy.types.Object, uid: int, override: bpy.types.Material | None) -> list[ReadMaterial]:
         if uid in self._overrides:
@@ -309,6 +314,7 @@ class SceneReader:
     def _arrays(self, reflectors: Sequence[bpy.types.Object], bounces: Bounces) -> SceneArrays:
         chosen = {obj.original.session_uid: obj.name for obj in reflectors}
         require_reflectors(self._shown, chosen, self._id)
+        self._links.follow(self._shown, self._materials)
         instances = [
             item.instance
             for key, item in self._shown.items()
@@ -324,7 +330,7 @@ class SceneReader:
             lights=tuple([item.light for item in self._shown.values() if item.light is not None]),
             world=self._world,
             reflectors=tuple(self._ids[uid] for uid in chosen),
-            warnings=sentences([*warnings, *self._unseen, *of_images, *self._world_warnings]),
+            warnings=sentences([*warnings, *self._unseen, *of_images, *self._world_warnings, *self._links.remarks]),
             most_bounces=bounces.most,
             mirror_bounces=bounces.mirror,
             transmission_bounces=bounces.transmission,

@@ -123,13 +123,6 @@ def read_light(
 
 def _warn_of_limits(obj: bpy.types.Object, cycles: Any, warnings: list[Remark | str]) -> None:
     """What limits the reach of a lamp in Cycles and is not followed."""
-    linking = obj.original.light_linking
-    for collection, what in (
-        (linking.receiver_collection, "lights all objects: its light linking"),
-        (linking.blocker_collection, "is shadowed by all objects: its shadow linking"),
-    ):
-        if collection is not None:
-            warnings.append(f'Lamp "{obj.name}" {what} is left out.')
     if cycles is not None and cycles.max_bounces < FEW_BOUNCES:
         warnings.append(
             f'Lamp "{obj.name}" lights all that mirrors show: its limit of {cycles.max_bounces} bounces is left out.'

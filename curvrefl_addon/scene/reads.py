@@ -71,6 +71,10 @@ class ShownInstance:
     """Anything can see it"""
     name: str = ""
     """Of the object"""
+    materials: tuple[int, ...] = ()
+    """Of the instance, whatever light linking makes of them"""
+    has_links: bool = False
+    """The object has collections for its light (`instances/linking.py`)"""
 
 
 def unplaced(name: str, matrix: Float64Array, is_seen: bool) -> ShownInstance | None:
@@ -207,6 +211,12 @@ def needs_of(
     )
 
 
+def has_links(obj: Any) -> bool:
+    """Whether an object has collections of its own for its light."""
+    linking = obj.original.light_linking
+    return linking.receiver_collection is not None or linking.blocker_collection is not None
+
+
 def is_same_light(one: LightArrays, other: LightArrays) -> bool:
     plain = [item.name for item in fields(LightArrays) if item.name != "matrix"]
     return np.array_equal(one.matrix, other.matrix) and all(getattr(one, n) == getattr(other, n) for n in plain)
@@ -218,9 +228,12 @@ def shown_light(instance: Any, view_layer: bpy.types.ViewLayer, before: ShownIns
     warnings: list[Remark | str] = []
     matrix = np.array(instance.matrix_world, dtype=np.float64)
     light = read_light(obj, matrix, rays_of(instance, view_layer), warnings)
-    if light is not None and before is not None and before.light is not None and is_same_light(light, before.light):
-        light = before.light
-    return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name)
+    if light is not None and before is not None and before.light is not None:
+        # (What linking makes of it is found later.)
+        known = before.light
+        light = replace(light, lights_on=known.lights_on, blocked_by=known.blocked_by)
+        light = known if is_same_light(light, known) else light
+    return ShownInstance(light=light, warnings=tuple(warnings), name=obj.original.name, has_links=has_links(obj))
 
 
 def with_kept(arrays: SceneArrays, last: SceneArrays) -> SceneArrays:

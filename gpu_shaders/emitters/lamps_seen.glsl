@@ -102,6 +102,9 @@ vec4 lamps_seen(vec3 origin, vec3 direction, float distance, bool by_camera)
     radiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, away_from_it);
 #endif
     float is_visible = by_camera ? lighting_data[base + 11].w : lighting_data[base + 5].w;
+#ifdef LIGHTING_LINKED
+    hit = hit && (lamps_met_from < 0 || is_for_set(int(lighting_data[LINK_RECORDS + i].x), lamps_met_from));
+#endif
     if (hit && is_visible > 0.5 && radiance != vec3(0.0)) {
       sum += vec4(radiance, 1.0);
     }

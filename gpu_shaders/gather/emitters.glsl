@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles that shine (renderer/indirect/emitters.py), one of them chosen as often as it is strong. Needs the
 // sampler `emitters` and the push constant `emitter_count` (INT). EMITTER_RECORDS each: corner, sum of chances up to
-// here; edges to the others, the first with the density of a place on it over area.
+// here; edges to the others, the first with the density of a place on it over area, the second with bits of the shadow
+// sets in the way of its light.
 #include "common/records.glsl"
 
 struct EmitterPlace {
   vec3 position;
   vec3 normal;     // unit, of either side
   float density;   // over area, of all places that shine
+#ifdef LIGHTING_SHADOWS_LINKED
+  int blocked_by;
+#endif
 };
 
 EmitterPlace emitter_place(vec3 random)
@@ -29,5 +33,8 @@ EmitterPlace emitter_place(vec3 random)
   place.position = fetch_record(emitters, record).xyz + ab.xyz * (1.0 - root) + ac * (root * random.y);
   place.normal = normalize(cross(ab.xyz, ac));
   place.density = ab.w;
+#ifdef LIGHTING_SHADOWS_LINKED
+  place.blocked_by = int(fetch_record(emitters, record + 2).w);
+#endif
   return place;
 }

@@ -106,6 +106,13 @@ void main()
     start = light.z < 0.0 ? below : start;
 #endif
     inverse_chance = 1.0 / (EMITTER_SHARE * found + (1.0 - EMITTER_SHARE) * density);
+#ifdef LIGHTING_SHADOWS_LINKED
+    walk_blockers = shining.blocked_by;
+    if (walk_blockers != EVERY_SET) {
+      // (Other rays meet what is not in this one's way.)
+      inverse_chance = 1.0 / (EMITTER_SHARE * found);
+    }
+#endif
     weight *= inverse_chance;
     // (It has to be met itself.)
     farthest *= 1.0001;
@@ -164,6 +171,9 @@ void main()
 #endif
   float dark = kind == RAY_TO_EMITTER ? RAY_SHADOWED : RAY_WITHOUT_LIGHT;
   weight_out = is_alive ? vec4(weight, kind) : vec4(vec3(0.0), is_asked ? dark : RAY_NONE);
+#ifdef LIGHTING_LINKED
+  set_on_leaving = s.light_set;
+#endif
   if (hit.instance >= 0) {
     write_surface(hit, surface_of_hit(hit, start, direction));
   }

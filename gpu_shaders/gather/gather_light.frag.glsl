@@ -43,6 +43,9 @@ void main()
 #ifdef LIGHTING_LAMPS
   // (Edges of lamps' shadows are finer than patches.)
   Surface met = white_surface(position.xyz, side);
+#ifdef LIGHTING_LINKED
+  met.light_set = m.light_set;
+#endif
   radiance += of_lamps * lamps_on(met, base_lobes(met, vec3(1.0), 1.0), side);
 #endif
 #elif defined(LIGHTS_LOBE_MEETS) && !defined(DIRECT_ALONE)
@@ -66,7 +69,13 @@ void main()
     float found = EMITTER_SHARE * emitter_density(over_area, way.w, dot(normal.xyz, direction));
     float own = (1.0 - EMITTER_SHARE) * way.z;
     share = own / (own + found);
+#ifdef LIGHTING_SHADOWS_LINKED
+    share *= fetch_record(shining, material).y > 0.5 ? 0.0 : 1.0;
+#endif
   }
+#endif
+#ifdef LIGHTING_LINKED
+  share *= is_for_set(m.shines_on, set_on_way(position, normal)) ? 1.0 : 0.0;
 #endif
   radiance += share * m.emission;
 #endif

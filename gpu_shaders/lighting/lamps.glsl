@@ -119,6 +119,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
   Surface picked = s;
   vec3 picked_light = vec3(0.0), picked_way = s.normal;
   float picked_range = 1.0, picked_weight = 0.0, weights = 0.0, random = lamp_random();
+#ifdef LIGHTING_SHADOWS_LINKED
+  int picked_blockers = EVERY_SET;
+#endif
 #endif
   int count = int(lighting_data[0].x);
   int i = 0;
@@ -182,6 +185,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #ifdef LIGHTING_FALLOFF
     irradiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, range);
 #endif
+#ifdef LIGHTING_LINKED
+    irradiance *= is_for_set(int(lighting_data[LINK_RECORDS + i].x), s.light_set) ? 1.0 : 0.0;
+#endif
     float cos_light = dot(s.normal, to_light);
     bool is_lit = cos_light > 0.0;
 #ifdef LIT_FROM_BEHIND
@@ -193,6 +199,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
       // (Without a kind of shadow it casts none, or nothing could be in it.)
       bool has_shadow = int(lighting_data[base + 6].w) != 0;
 #if defined(RAY_SHADOWS) && !defined(PICKS_LAMP)
+#ifdef LIGHTING_SHADOWS_LINKED
+      lamp_blockers = has_shadow ? int(lighting_data[LINK_RECORDS + i].y) : EVERY_SET;
+#endif
       irradiance *= has_shadow ? lit_by_ray(s, to_light, range) : LIT(1.0);
 #elif !defined(RAY_SHADOWS)
       irradiance *= lamp_shadow(base, s.position);
@@ -253,6 +262,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
           picked_way = to_light;
           picked_range = range;
           picked.normal = s.normal;
+#ifdef LIGHTING_SHADOWS_LINKED
+          picked_blockers = int(lighting_data[LINK_RECORDS + i].y);
+#endif
         }
         scattered = vec3(0.0);
       }
@@ -266,6 +278,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
   } while (i < count);
 #ifdef PICKS_LAMP
   if (picked_weight > 0.0) {
+#ifdef LIGHTING_SHADOWS_LINKED
+    lamp_blockers = picked_blockers;
+#endif
     sum += picked_light * (weights / picked_weight) * lit_by_ray(picked, picked_way, picked_range);
   }
 #endif

@@ -10,10 +10,14 @@
 //   surfaces see the world. Without lamps or directions the first record is dark: the loops over them run at least
 //   once, as a software renderer runs the body of a `for` once more than it needs.
 
+// With LIGHTING_LINKED or LIGHTING_SHADOWS_LINKED there is a record of each lamp from LINK_RECORDS on: bits of the
+// light sets that it lights, and of the shadow sets in the way of its light.
+
 // (Includes are put in place before defines are known: what others include too must not be behind one.)
 #include "common/hash.glsl"
 #include "common/records.glsl"
 #include "programs/surface.glsl"
+#include "surfaces/light_sets.glsl"
 #if defined(RAY_SHADOWS) || defined(WORLD_RAYS)
 #ifdef LIGHTING_ALPHA
 #define LIGHT_THROUGH
@@ -31,8 +35,17 @@
 #define LIT float
 #define LIT_CHANNELS 1.0
 #endif
+#ifdef LIGHTING_SHADOWS_LINKED
+// Bits of the shadow sets in the way of the next lamp's light.
+int lamp_blockers = EVERY_SET;
+#endif
+
 LIT lit_by_ray(Surface s, vec3 to_light, float range)
 {
+#ifdef LIGHTING_SHADOWS_LINKED
+  walk_blockers = lamp_blockers;
+  lamp_blockers = EVERY_SET;
+#endif
   Hit hit = walk(off_surface(s.position, s.normal), to_light, range * SHADOW_END, CASTS_SHADOWS, 0.0, true);
 #ifdef LIGHTING_ALPHA
   return walked_light;
@@ -62,6 +75,15 @@ vec3 surfaces_on(Surface s, Lobes lobes)
   sum += lobes.translucent * patches_around(s.position, -s.normal) / LIGHTING_PI;
 #endif
   return sum;
+}
+#endif
+
+#ifdef LIGHTING_LINKED
+// The surface as something of a light set sees it shine; below 0: as the camera does.
+Surface shining_on(Surface s, int number)
+{
+  s.emission *= number < 0 || is_for_set(s.shines_on, number) ? 1.0 : 0.0;
+  return s;
 }
 #endif
 

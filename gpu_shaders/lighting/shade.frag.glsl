@@ -62,6 +62,9 @@ void main()
 #endif
   vec3 tint = mirror_tint(int(normal.w + 0.5), base.rgb, max(-dot(normal.xyz, direction), 0.0));
   float seen_mirror = base.w;
+#ifdef LIGHTING_LINKED
+  lamps_met_from = light_set_of(material_number(normal.w));
+#endif
   origin = position.xyz;
   direction = reflect(direction, normal.xyz);
 #ifdef ENVIRONMENT
@@ -77,6 +80,9 @@ void main()
   // What is shown stands where it is, not where this pixel's own ray would have met it.
   direction = normalize(position.xyz - origin);
   Surface shown = surface_of(pixel, position, normal, base.rgb);
+#ifdef LIGHTING_LINKED
+  shown = shining_on(shown, lamps_met_from);
+#endif
 #if defined(MIRRORS_END)
   vec3 radiance = shown.emission;
 #elif defined(SHADES_MIRROR_OF_MIRROR)

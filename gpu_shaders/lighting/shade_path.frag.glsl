@@ -14,6 +14,9 @@ void main()
   vec3 direction = texelFetch(path_direction, pixel, 0).xyz;
   float range = distance(position.xyz, origin.xyz);
   vec3 radiance = vec3(0.0);
+#ifdef LIGHTING_LINKED
+  lamps_met_from = set_on_way(position, texelFetch(reflected_normal, pixel, 0));
+#endif
   if (position.w == 0.0) {
     range = 2e30;
     radiance = world_seen(direction, false);
@@ -21,6 +24,9 @@ void main()
   else {
     vec4 base = texelFetch(reflected_color, pixel, 0);
     Surface surface = surface_of(pixel, position, texelFetch(reflected_normal, pixel, 0), base.rgb);
+#ifdef LIGHTING_LINKED
+    surface = shining_on(surface, lamps_met_from);
+#endif
 #if defined(MIRRORS_END)
     radiance = surface.emission;
 #elif defined(GOES_ON)

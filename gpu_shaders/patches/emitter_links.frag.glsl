@@ -23,6 +23,9 @@ void main()
     int material = material_number(normal.w);
     Material m = material_at(pixel, material, vec3(0.0));
     radiance = m.emission;
+#ifdef LIGHTING_LINKED
+    radiance *= is_for_set(m.shines_on, set_on_way(texelFetch(vertex_position, pixel, 0), normal)) ? 1.0 : 0.0;
+#endif
 #ifdef OF_HEMISPHERE
     ivec2 asked = ray_of_texel(pixel);
     vec3 from = patch_normal(asked.x, asked.y % PATCH_POINTS);
@@ -31,6 +34,9 @@ void main()
     float own = max(dot(from, direction), 0.0) / PI;
     float found = emitter_density(over_area, way.w, dot(normal.xyz, direction));
     strength = way.z > 0.5 ? 0.0 : PI * own / max(own + found, 1e-20);
+#ifdef LIGHTING_SHADOWS_LINKED
+    strength *= fetch_record(shining, material).y > 0.5 ? 0.0 : 1.0;
+#endif
 #endif
   }
   // (Both kinds of rays count: each stands for the other as well.)

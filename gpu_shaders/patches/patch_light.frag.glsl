@@ -17,6 +17,9 @@ void main()
   }
   int point = number - place * PATCH_POINTS;
   Surface s = white_surface(patch_place(place, point), patch_normal(place, point));
+#ifdef LIGHTING_LINKED
+  s.light_set = patch_set(place, point);
+#endif
   Lobes lobes = base_lobes(s, vec3(1.0), 1.0);
 #ifdef OF_SKY
   vec3 radiance = world_on(s, lobes, s.normal);

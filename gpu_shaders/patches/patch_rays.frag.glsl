@@ -44,6 +44,10 @@ void main()
   // Irradiance over radiance, with the rays over the hemisphere, of which there are as many (the balance heuristic).
   float cosine = max(dot(normal, direction), 0.0);
   float strength = cosine / (density + cosine / PI);
+#ifdef LIGHTING_SHADOWS_LINKED
+  walk_blockers = shining.blocked_by;
+  strength = walk_blockers == EVERY_SET ? strength : cosine / density;
+#endif
   farthest *= 1.0001;
   if (strength <= 0.0) {
     return;
@@ -63,6 +67,9 @@ void main()
   }
   RaySurface surface = surface_of_hit(hit, origin, direction);
   bool is_within = surface.is_back && fetch_record(solids, int(fetch_record(rays, hit.instance + 5).w)).x > 0.5;
+#ifdef LIGHTING_LINKED
+  set_on_leaving = patch_set(place, point);
+#endif
   write_surface(hit, surface);
 #ifndef EMITTERS
   way_out.z = is_within ? 1.0 : 0.0;

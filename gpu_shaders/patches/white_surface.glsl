@@ -32,5 +32,8 @@ Surface white_surface(vec3 position, vec3 normal)
 #ifdef SURFACE_TRANSLUCENT
   s.translucency = 0.0;
 #endif
+#ifdef LIGHTING_LINKED
+  s.light_set = s.shines_on = 0;
+#endif
   return s;
 }

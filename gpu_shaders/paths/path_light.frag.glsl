@@ -43,6 +43,9 @@ void main()
 #endif
   vec3 radiance = vec3(0.0);
   float range = distance(position.xyz, origin);
+#ifdef LIGHTING_LINKED
+  lamps_met_from = by_camera ? -1 : set_on_way(position, texelFetch(vertex_normal, pixel, 0));
+#endif
 #ifdef LIGHTS_MISSES
   range = 2e30;
   bool is_hole = texelFetch(vertex_color, pixel, 0).w == HOLE;
@@ -66,6 +69,9 @@ void main()
   vec3 base = texelFetch(vertex_color, pixel, 0).rgb;
 #ifdef LIGHTS_STOPS
   Surface surface = surface_of(pixel, position, normal, base);
+#ifdef LIGHTING_LINKED
+  surface = shining_on(surface, lamps_met_from);
+#endif
 #ifdef QUADS
   // (Of other pixels a quad may have what an older step has met.)
   float met_now = texelFetch(classes_before, pixel, 0).x;
@@ -85,7 +91,12 @@ void main()
   radiance = shade_surface(surface, -direction);
 #endif
 #else
+#ifdef LIGHTING_LINKED
+  Surface surface = shining_on(surface_of(pixel, position, normal, base), lamps_met_from);
+  radiance = light_of_vertex(surface, vertex_at(pixel), -direction);
+#else
   radiance = light_of_vertex(surface_of(pixel, position, normal, base), vertex_at(pixel), -direction);
+#endif
 #endif
 #endif
 #if defined(LIGHTS_MISSES) || defined(LIGHTING_NEAR_LAMPS)

@@ -70,6 +70,15 @@ void main()
   }
 #endif
   way_out = pack_way(next.direction, next.pdf, media);
+#ifdef LIGHTING_LINKED
+  // (What goes straight on is still on the way from what it left before.)
+  int number = v.material.light_set;
+#ifdef ON_PATH
+  if (next.kind == SCATTER_PASSES) {
+    number = set_on_way(texelFetch(vertex_position, pixel, 0), vec4(0.0));
+  }
+#endif
+#endif
   bool is_alive = max(throughput.r, max(throughput.g, throughput.b)) > 0.0;
   // (See `walk`.)
   own_side = crosses == v.facing.is_back ? 1.0 : -1.0;
@@ -82,6 +91,9 @@ void main()
   throughput_out = vec4(throughput, pack_state(state));
   surface_position = vec4(next.direction, 0.0);
   surface_normal = surface_color_out = vec4(0.0);
+#ifdef LIGHTING_LINKED
+  surface_normal.w = float(number);
+#endif
 #ifdef WITH_HITS
   hit_out = vec4(0.0);
 #endif
@@ -95,6 +107,9 @@ void main()
     vec4 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2);
     bool is_seen_through = fetch_record(materials, MATERIAL_RECORDS * surface.material + 6).w > 0.5;
     surface_position = vec4(surface.position, surface.object_id);
+#ifdef LIGHTING_LINKED
+    surface_position.w = with_set(surface.object_id, number);
+#endif
     surface_normal = vec4(surface.normal, float(surface.material) + (surface.is_back ? 0.25 : 0.0));
     float shows = surface.mirror > 0.5 ? surface.mirror : (is_seen_through ? SEEN_THROUGH : -1.0);
     surface_color_out = vec4(base.rgb, shows);

@@ -35,4 +35,8 @@ struct Material {
   bool thin_wall;
   int glass;                  // scene/arrays.py, Glass: GLASS_PRINCIPLED, GLASS_GLASS, GLASS_REFRACTION
   vec3 absorption;            // per meter, inside
+#ifdef LIGHTING_LINKED
+  int light_set;
+  int shines_on;              // bits of the light sets that its emission gets to
+#endif
 };

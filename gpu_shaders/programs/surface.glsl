@@ -34,6 +34,10 @@ struct Surface {
 #ifdef SURFACE_TRANSLUCENT
   float translucency; // share of the base that shines on the other side
 #endif
+#ifdef LIGHTING_LINKED
+  int light_set;
+  int shines_on;      // bits of the light sets that its emission gets to
+#endif
 };
 
 Surface surface_made_of(Material m, vec3 position, vec3 normal)
@@ -67,6 +71,10 @@ Surface surface_made_of(Material m, vec3 position, vec3 normal)
 #endif
 #ifdef SURFACE_TRANSLUCENT
   s.translucency = m.translucency;
+#endif
+#ifdef LIGHTING_LINKED
+  s.light_set = m.light_set;
+  s.shines_on = m.shines_on;
 #endif
   return s;
 }

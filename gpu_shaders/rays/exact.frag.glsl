@@ -45,6 +45,9 @@ void main()
     surface_position = vec4(direction, 0.0);
     surface_normal = vec4(0.0);
     surface_color_out = vec4(0.0);
+#ifdef LIGHTING_LINKED
+    surface_normal.w = float(light_set_of(int(mirror_facing.w + 0.5)));
+#endif
 #ifdef WITH_HITS
     hit_out = vec4(0.0);
 #endif
@@ -58,6 +61,9 @@ void main()
   }
 #endif
   surface_position = vec4(surface.position, surface.object_id);
+#ifdef LIGHTING_LINKED
+  surface_position.w = with_set(surface.object_id, light_set_of(int(mirror_facing.w + 0.5)));
+#endif
   surface_normal = vec4(surface.normal, float(surface.material));
   surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, surface.mirror);
 #ifdef WITH_HITS

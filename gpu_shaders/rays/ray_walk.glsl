@@ -21,6 +21,12 @@
 #define OVERLAP 2e-6
 // How far off a surface rays begin, by the share of the place's coordinates that rounding may have moved it.
 #define OFF_SURFACE 2e-6
+#ifdef LIGHTING_SHADOWS_LINKED
+#from renderer.surfaces.light_sets import SHADOW_SET_SHIFT
+#from scene.arrays import EVERY_SET
+// Bits of the shadow sets whose instances are there.
+int walk_blockers = EVERY_SET;
+#endif
 
 // Where a ray that leaves a surface begins.
 vec3 off_surface(vec3 position, vec3 normal)
@@ -197,6 +203,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
       int record = rays_top.y + INSTANCE_RECORDS * link;
       vec4 about = fetch_record(rays, record + 3);
       int flags = int(about.z);
+#ifdef LIGHTING_SHADOWS_LINKED
+      flags *= (walk_blockers >> (flags >> SHADOW_SET_SHIFT)) & 1;
+#endif
 #ifdef PATH_STEP
       bool is_own = abs(about.x - own) < 0.5;
       bool never = own_side > 0.0 && (flags & NEVER_SEES_ITSELF) != 0;

@@ -56,6 +56,10 @@ Material material_constants(int index)
   m.translucency = rest.w;
   m.kind = emission.w;
   m.absorption = fetch_record(materials, record + 6).rgb;
+#ifdef LIGHTING_LINKED
+  m.light_set = int(emission.w + 0.5) >> LIGHT_SET_SHIFT;
+  m.shines_on = int(last.w + 0.5) >> SHINES_ON_SHIFT;
+#endif
   return m;
 }
 

@@ -104,4 +104,5 @@ def differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) 
         and old.visible_glossy == instance.visible_glossy
         and old.visible_shadow == instance.visible_shadow
         and old.holdout == instance.holdout
+        and old.shadow_set == instance.shadow_set
     )

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...scene.arrays import Float32Array, Float64Array, MaterialArrays, SceneArrays
+from ...scene.arrays import EVERY_SET, Float32Array, Float64Array, MaterialArrays, SceneArrays
 from ..device.records import record_texture
 from ..device.shaders import Piece
 
@@ -24,7 +25,7 @@ EMITTERS = Piece(
 )
 """What `emitters.glsl` needs"""
 SHINES = Piece(samplers={"shining": "FLOAT_2D"})
-"""Of materials: the density of a place on them over area"""
+"""Of materials: the density of a place on them over area, and with shadow linking 1 where rays to them find all"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,8 @@ class EmitterTable:
     """(triangles * RECORDS, 4), see `emitters.glsl`"""
     densities: Float32Array
     """(materials,) of a place on a material over area, 1/m2; 0 of those that do not shine"""
+    are_linked: NDArray[np.bool_]
+    """(materials,) some objects cast no shadow in their light"""
 
     @property
     def count(self) -> int:
@@ -48,7 +51,7 @@ class Emitters:
         self.count = table.count
         self._records = record_texture(table.records)
         densities = np.zeros((len(table.densities), 4), np.float32)
-        densities[:, 0] = table.densities
+        densities[:, 0], densities[:, 1] = table.densities, table.are_linked
         self._densities = record_texture(densities)
 
     def bind(self, shader: Any) -> None:
@@ -69,6 +72,8 @@ def emitter_table(scene: SceneArrays) -> EmitterTable | None:
     parts: list[Float64Array] = []
     powers: list[Float64Array] = []
     strong: list[Float64Array] = []
+    blocked: list[Float64Array] = []
+    blocked_by = np.array([float(material.blocked_by) for material in scene.materials])
     for instance in scene.instances:
         of_slots = strengths[list(instance.materials)]
         if instance.holdout or not instance.visible_diffuse or not (of_slots > 0.0).any():
@@ -84,19 +89,23 @@ def emitter_table(scene: SceneArrays) -> EmitterTable | None:
         parts.append(np.concatenate([corners[:, :1], edges], axis=1)[kept])
         strong.append(of_slots[slots[shining]][kept])
         powers.append(area[kept] * strong[-1])
+        blocked.append(blocked_by[list(instance.materials)][slots[shining]][kept])
     if not parts or sum(map(len, parts)) == 0:
         return None
     triangles, power, strength = np.concatenate(parts), np.concatenate(powers), np.concatenate(strong)
+    blocking = np.concatenate(blocked)
     if len(power) > MOST_EMITTERS:
         chosen = np.argpartition(-power, MOST_EMITTERS)[:MOST_EMITTERS]
-        triangles, power, strength = triangles[chosen], power[chosen], strength[chosen]
+        triangles, power, strength, blocking = triangles[chosen], power[chosen], strength[chosen], blocking[chosen]
     total = float(power.sum())
     records = np.zeros((len(power), RECORDS, 4), np.float32)
     records[:, :, :3] = triangles
     records[:, 0, 3] = np.cumsum(power) / total
     records[-1, 0, 3] = 2.0
     records[:, 1, 3] = strength / total
-    return EmitterTable(records.reshape(-1, 4), (strengths / total).astype(np.float32))
+    records[:, 2, 3] = blocking
+    densities = (strengths / total).astype(np.float32)
+    return EmitterTable(records.reshape(-1, 4), densities, blocked_by != EVERY_SET)
 
 
 def strength_of(material: MaterialArrays) -> float:

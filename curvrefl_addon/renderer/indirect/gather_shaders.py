@@ -15,6 +15,7 @@ from ..lighting.lighting import Features, lighting_piece
 from ..paths.surface_features import SURFACE_FEATURES
 from ..programs.buffers import Buffers, reads
 from ..rays.ray_scene import RAYS
+from ..surfaces.light_sets import LINKED, SHADOWS_LINKED
 from ..surfaces.materials import TABLE
 from ..surfaces.pixel_classes import CLASS, CLASS_COUNT
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SURFACE_SAMPLERS
@@ -95,7 +96,7 @@ def gather_shader(
                     f"OF_{source.name}",
                     *sorted(variant),
                     *(("WITH_HITS",) if with_hits else ()),
-                    *sorted(features & SURFACE_FEATURES),
+                    *sorted(features & (SURFACE_FEATURES | {LINKED, SHADOWS_LINKED})),
                 ),
             },
             fragment="gather/gather.frag.glsl",

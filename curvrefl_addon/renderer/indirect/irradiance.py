@@ -78,6 +78,7 @@ class Irradiance:
 
     def _fill_points(self) -> None:
         points = np.zeros((self.patches.count, 2, POINTS, 4), np.float32)
+        points[:, 0, :, 3] = self.patches.light_sets
         points[:, 0, :, :3], points[:, 1, :, :3] = self.patches.positions, self.patches.normals
         self._points = record_texture(points.reshape(-1, 4))
 
@@ -232,7 +233,7 @@ class Irradiance:
                 shader.uniform_sampler("patch_points", self._points)
                 emitters.bind_densities(shader)
 
-        shader = emitter_links_shader(materials.buffers, of_hemisphere)
+        shader = emitter_links_shader(materials.buffers, of_hemisphere, materials.links)
         links = self._picture.drawn_over(shader, materials, bind)
         self._add_up(self._shone, emitter_sum_shader(), [links], {"point_weights": self._open.texture})
 

@@ -57,7 +57,7 @@ class PatchPicture:
             self._target = frame_buffer(self.position, self.normal, self.color, *held, self.way, depth=self._depth)
             with self._target.bind():
                 self._target.clear(depth=FOLLOWED)
-        shader = rays_shader(has_programs, emitters is not None)
+        shader = rays_shader(has_programs, emitters is not None, materials.links)
         for first in range(0, self.height, ROWS_AT_ONCE):
             window = (0, first, self.width, min(ROWS_AT_ONCE, self.height - first))
             with drawing_state(), self._target.bind(), scissored(window):

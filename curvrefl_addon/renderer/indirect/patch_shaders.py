@@ -67,7 +67,7 @@ def walls_shader() -> Any:
 
 
 @gpu_cache
-def rays_shader(with_hits: bool, to_emitters: bool) -> Any:
+def rays_shader(with_hits: bool, to_emitters: bool, links: frozenset[str]) -> Any:
     outputs = {**(named("VEC4", "hit_out") if with_hits else {}), **named("VEC4", "way_out")}
     return build_shader(
         "rays of patches",
@@ -81,7 +81,7 @@ def rays_shader(with_hits: bool, to_emitters: bool) -> Any:
             samplers={"solids": "FLOAT_2D"},
             constants={"batch": "INT"},
             outputs=outputs,
-            defines={**_BATCH, **GGX_DEFINES, **(flags("WITH_HITS") if with_hits else {})},
+            defines={**_BATCH, **GGX_DEFINES, **(flags("WITH_HITS") if with_hits else {}), **flags(*sorted(links))},
             fragment="patches/patch_rays.frag.glsl",
         ),
     )
@@ -136,7 +136,7 @@ def _sum_over_rays(name: str, fragment: str, *samplers: str) -> Any:
 
 
 @gpu_cache
-def emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
+def emitter_links_shader(buffers: Buffers, of_hemisphere: bool, links: frozenset[str]) -> Any:
     points = Piece(samplers={"patch_points": "FLOAT_2D"}, defines={"PATCH_POINTS": POINTS, **flags("OF_HEMISPHERE")})
     return build_shader(
         "light of emitters",
@@ -147,7 +147,7 @@ def emitter_links_shader(buffers: Buffers, of_hemisphere: bool) -> Any:
         Piece(
             samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way"),
             outputs={"link_out": "VEC4"},
-            defines=_BATCH,
+            defines={**_BATCH, **flags(*sorted(links))},
             fragment="patches/emitter_links.frag.glsl",
         ),
     )

@@ -43,6 +43,8 @@ class Patches:
     """(patches, POINTS, 3) a little above the surface, world space"""
     normals: Float32Array
     """(patches, POINTS, 3) of the triangles"""
+    light_sets: NDArray[np.int32]
+    """(patches, POINTS) of what they are on"""
 
     @property
     def count(self) -> int:
@@ -60,7 +62,12 @@ class Patches:
         behind = (heights < distances[:, :, None]).any(axis=1)
         places = np.where(behind, 0, np.arange(POINTS)[None])
         rows = np.arange(self.count)[:, None]
-        return replace(self, positions=self.positions[rows, places], normals=self.normals[rows, places])
+        return replace(
+            self,
+            positions=self.positions[rows, places],
+            normals=self.normals[rows, places],
+            light_sets=self.light_sets[rows, places],
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +78,7 @@ class Surface:
     instance: InstanceArrays
     is_solid: bool
     """Nothing looks at it from within"""
+    light_set: int = 0
 
 
 def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float) -> Iterator[Patches | None]:
@@ -98,6 +106,7 @@ def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float)
                 done = 0
                 yield None
         positions, normals = (np.concatenate(part) for part in zip(*found, strict=True))
+        light_sets = np.repeat([surface.light_set for surface in surfaces], [len(places) for places, _ in found])
         cells = grid.numbers(positions, normals)
         kept = np.flatnonzero(cells >= 0)
         if len(kept) == 0:
@@ -113,7 +122,7 @@ def place_patches(surfaces: Sequence[Surface], focus: Float64Array, half: float)
         factor = float(np.clip((len(numbers) / WANTED_PATCHES) ** 0.5, 0.25, 4.0))
         half = max(half * factor, farthest / 2.0 ** (MOST_LEVELS - 1))
         yield None
-    yield _chosen(grid, positions[kept], normals[kept], cells[kept], numbers)
+    yield _chosen(grid, positions[kept], normals[kept], light_sets[kept], cells[kept], numbers)
 
 
 def _reach(surface: Surface, focus: Float64Array) -> float:
@@ -190,6 +199,7 @@ def _chosen(
     grid: CellGrid,
     positions: Float64Array,
     normals: Float64Array,
+    light_sets: NDArray[np.int64],
     cells: NDArray[np.int64],
     numbers: NDArray[np.int64],
 ) -> Patches:
@@ -202,4 +212,5 @@ def _chosen(
     table = np.full(grid.count, -1, np.int32)
     table[numbers] = np.arange(len(numbers))
     table = spread_to_neighbors(table, grid.levels)
-    return Patches(grid, table, positions[picks].astype(np.float32), normals[picks].astype(np.float32))
+    places, facing = (part[picks].astype(np.float32) for part in (positions, normals))
+    return Patches(grid, table, places, facing, light_sets[picks].astype(np.int32))

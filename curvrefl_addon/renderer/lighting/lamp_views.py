@@ -76,7 +76,13 @@ def _plan(
             for face, view in enumerate(found):
                 faces.append(-1 if view is None else len(planned.views))
                 if view is not None:
-                    planned.views.append(replace(view, turn=(number, len(places))))
+                    planned.views.append(replace(view, turn=(number, len(places)), blocked_by=light.blocked_by))
                     planned.layers.append(layers.setdefault((row, number % kept, face), len(layers)))
             planned.places[-1].append((place, tuple(faces)))
     return planned
+
+
+def shadow_features(places: Sequence[Sequence[tuple[Float64Array, tuple[int, ...]]]]) -> set[str]:
+    """Defines of `lamps.glsl`: which kinds of maps there are, by `LampViews.places`."""
+    shadows = {len(layers) for planned in places for _, layers in planned if max(layers, default=-1) >= 0}
+    return {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}

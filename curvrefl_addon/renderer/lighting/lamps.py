@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, LightArrays
+from ...scene.arrays import EVERY_SET, Float64Array, LightArrays, SceneArrays, WorldArrays
 from ...scene.camera.sampling import is_progressive, progressive_points
+from ..surfaces.light_sets import LINKED, SHADOWS_LINKED, links_of
 
 LAMP_RECORDS = 13
 """vec4 records per lamp"""
@@ -48,6 +50,41 @@ def is_soft(light: LightArrays) -> bool:
 def has_spread(light: LightArrays) -> bool:
     """Whether the lamp shines into a cone from each of its points."""
     return light.kind == "AREA" and light.spread < np.pi - 1e-4
+
+
+def strongest(lights: Sequence[LightArrays]) -> tuple[list[LightArrays], tuple[str, ...]]:
+    """As many lamps as shaders know, and a sentence where there are more."""
+    shining = [light for light in lights if any(light.color)]
+    if len(shining) <= MAX_LAMPS:
+        return shining, ()
+    shining.sort(key=lambda light: -sum(map(abs, light.color)))
+    return shining[:MAX_LAMPS], (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
+
+
+def lamp_features(lights: Sequence[LightArrays], world: WorldArrays, scene: SceneArrays) -> set[str]:
+    """Defines of `lamps.glsl` but for those of shadow maps: what lamps there are, and what they and the world light."""
+    found = {f"LIGHTING_{light.kind}" for light in lights}
+    parts = [(light.lights_diffuse, light.lights_glossy) for light in lights]
+    parts.append((world.visible_diffuse, world.visible_glossy and world.visible_camera))
+    flagged = {
+        "LIGHTING_SPREAD": any(has_spread(light) for light in lights),
+        "LIGHTING_BALLS": any(light.is_ball for light in lights),
+        "LIGHTING_PARTS": not all(map(all, parts)),
+    }
+    return found | {name for name, is_so in flagged.items() if is_so} | links_of(scene)
+
+
+def knows_links(features: frozenset[str]) -> bool:
+    """Whether there are `link_records`."""
+    return not features.isdisjoint({LINKED, SHADOWS_LINKED})
+
+
+def link_records(lights: Sequence[LightArrays]) -> Float64Array:
+    """(MAX_LAMPS, 4): of each lamp bits of the light sets that it lights, and of the shadow sets in its light's way."""
+    records = np.zeros((MAX_LAMPS, 4))
+    for record, light in zip(records, lights, strict=False):
+        record[:2] = light.lights_on, light.blocked_by
+    return records
 
 
 def lamp_points(light: LightArrays, count: int, seed: int) -> Float64Array:
@@ -96,7 +133,9 @@ def lamp_records(light: LightArrays, place: Float64Array, spacing: float) -> Flo
     records[3, :3] = -back
     records[4, :3], records[5, :3] = x, y
     records[5, 3] = float(light.visible_glossy)
-    records[11, 1:] = float(light.lights_diffuse), float(light.lights_glossy), float(light.visible_camera)
+    # (As in Cycles the camera sees no sun that has shadow linking.)
+    is_seen = light.visible_camera and (kind != SUN or light.blocked_by == EVERY_SET)
+    records[11, 1:] = float(light.lights_diffuse), float(light.lights_glossy), float(is_seen)
     if kind == SUN:
         half = 0.5 * light.angle
         # the whole sun gives `color` to a plane that faces its middle

@@ -50,6 +50,29 @@ def oddly_seen(scene: SceneArrays) -> tuple[str, ...]:
     return (f"The world's light is shadowed by {listed(odd)} {what}",)
 
 
+def seen_in_spite_of_links(scene: SceneArrays) -> tuple[str, ...]:
+    """What an environment, which does not know the mirror that looks it up, shows of light linking: one sentence."""
+    sets = {scene.light_set_of(item) for item in scene.instances if item.object_id in scene.reflectors}
+
+    def is_unlinked(bits: int) -> bool:
+        return not all(bits >> number & 1 for number in sets)
+
+    found = [
+        light.name
+        for light in scene.lights
+        if is_unlinked(light.lights_on) and light.visible_glossy and (light.kind == "AREA" or light.radius > 0.0)
+    ]
+    found += [
+        item.object_name
+        for item in scene.instances
+        if item.visible_glossy and any(is_unlinked(scene.materials[index].shines_on) for index in item.materials)
+    ]
+    if not found:
+        return ()
+    verb = "shines" if len(set(found)) == 1 else "shine"
+    return (f"In mirrors {listed(found)} {verb} whatever the light linking: choose Automatic or Exact to follow it.",)
+
+
 def is_lit_indirectly(scene: SceneArrays) -> bool:
     """Whether the file's own renders follow light on from surfaces that scatter it."""
     used = {index for instance in scene.instances for index in instance.materials}

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, LightArrays, SceneArrays
+from ...scene.arrays import Float64Array, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
 from ..cells.lookup import CELLS, At, SurfaceLight
@@ -25,8 +25,20 @@ from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
 from .coarse_shadows import LAMPS, WORLD, are_too_coarse
 from .ggx import GGX_DEFINES, ggx_table
-from .lamp_views import LAMP_MAP_RESOLUTIONS, PICKED, picking_turn, picks_lamp, plan_lamps
-from .lamps import LAMP_DEFINES, LAMP_RECORDS, LOOK_RECORD, MAX_LAMPS, has_spread, is_soft, lamp_points, lamp_records
+from .lamp_views import LAMP_MAP_RESOLUTIONS, PICKED, picking_turn, picks_lamp, plan_lamps, shadow_features
+from .lamps import (
+    LAMP_DEFINES,
+    LAMP_RECORDS,
+    LOOK_RECORD,
+    MAX_LAMPS,
+    is_soft,
+    knows_links,
+    lamp_features,
+    lamp_points,
+    lamp_records,
+    link_records,
+    strongest,
+)
 from .left_out import left_out, oddly_seen
 from .programs.casters import CasterBake
 from .programs.lamps import LOOK_DEFINES, LampLooks, look_samplers
@@ -71,6 +83,7 @@ LARGEST_RECORD = 1e30
 
 def lighting_piece(features: Features = FEATURES) -> Piece:
     """What `lighting.glsl` needs; with the `features` of a scene, what it has beyond them is left out."""
+    linked = MAX_LAMPS if knows_links(features) else 0
     return Piece(
         samplers={
             **named("DEPTH_2D_ARRAY", "lighting_lamp_depth", "lighting_world_depth"),
@@ -81,9 +94,10 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **({**CELLS.samplers, "patch_light": "FLOAT_2D"} if INDIRECT in features else {}),
         },
         constants=CELLS.constants if INDIRECT in features else {},
-        blocks={"lighting_data": Block("vec4", length=DATA_RECORDS)},
+        blocks={"lighting_data": Block("vec4", length=DATA_RECORDS + linked)},
         defines={
             **flags(*sorted(features)),
+            **({"LINK_RECORDS": DATA_RECORDS} if linked else {}),
             "HEADER_RECORDS": HEADER_RECORDS,
             "DIRECTION_RECORDS": DIRECTION_RECORDS,
             **LAMP_DEFINES,
@@ -179,17 +193,8 @@ class Lighting:
         return all(cube_holds(self._lamp_maps, place, layers, *balls) for place, layers in cubes)
 
     def _found_features(self) -> Features:
-        places = (layers for planned in self._lamp_places for _, layers in planned)
-        shadows = {len(layers) for layers in places if max(layers, default=-1) >= 0}
-        found = {f"LIGHTING_{light.kind}" for light in self._lights}
-        found |= {name for faces, name in ((1, "LIGHTING_MAPS"), (6, "LIGHTING_CUBES")) if faces in shadows}
-        world = self._world
-        found |= {"LIGHTING_SPREAD" for light in self._lights if has_spread(light)}
-        found |= {"LIGHTING_BALLS" for light in self._lights if light.is_ball}
-        found |= {"LIGHTING_PARTS" for light in self._lights if not (light.lights_diffuse and light.lights_glossy)}
-        if not (world.visible_camera and world.visible_diffuse and world.visible_glossy):
-            found.add("LIGHTING_PARTS")
-        flagged = {"LIGHTING_IMAGE": world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
+        found = lamp_features(self._lights, self._world, self._scene) | shadow_features(self._lamp_places)
+        flagged = {"LIGHTING_IMAGE": self._world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
         flagged |= {ALPHA: bool(self._alpha.materials), PICKED: picks_lamp(self._lights, self.sub_frames)}
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._surfaces is not None:
@@ -252,19 +257,12 @@ class Lighting:
         oddly_seen = self._oddly_seen if self._world_is_lit else ()
         return (*self._lamp_warnings, *self._left_out, *self._alpha.warnings, *oddly_seen)
 
-    def _chosen_lights(self, lights: tuple[LightArrays, ...]) -> list[LightArrays]:
-        shining = [light for light in lights if any(light.color)]
-        if len(shining) > MAX_LAMPS:
-            self._lamp_warnings += (f"Only the {MAX_LAMPS} strongest of {len(shining)} lamps are used.",)
-            shining.sort(key=lambda light: -sum(map(abs, light.color)))
-        return shining[:MAX_LAMPS]
-
     def _plan_lamps(self) -> None:
         """Choose the points on every lamp, their shadow views and one resolution for all."""
         self._lamp_warnings = self._standing_apart
         lights = self._looks.follow(self._scene.lights, self._baked.suns, self._baked.looks)
-        self._lights = self._chosen_lights(lights + self._image_suns)
-        self._lamp_warnings += self._looks.warnings
+        self._lights, left_out = strongest(lights + self._image_suns)
+        self._lamp_warnings += left_out + self._looks.warnings
         kept = LAMP_SAMPLES_OF_MANY if self._many else LAMP_SAMPLES
         samples = self.sub_frames if is_progressive(self.sub_frames) else min(self.sub_frames, kept)
         points = [self._alpha.repeated(lamp_points(lamp, samples, k), samples) for k, lamp in enumerate(self._lights)]
@@ -310,7 +308,7 @@ class Lighting:
         self._world_maps.plan(views)
 
     def _records(self, index: int) -> tuple[list[int], list[int], Float64Array]:
-        """Views of lamps and world that the sub-frame needs, and its uniform block (DATA_RECORDS, 4)."""
+        """Views of lamps and world that the sub-frame needs, and its uniform block."""
         records = np.zeros((DATA_RECORDS, 4))
         lamp_layers: list[int] = []
         for row, (light, planned) in enumerate(zip(self._lights, self._lamp_places, strict=True)):
@@ -343,4 +341,6 @@ class Lighting:
         world = self._world
         records[2:5, :3] = world.rotation
         records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
+        if knows_links(self.features):
+            records = np.concatenate([records, link_records(self._lights)])
         return lamp_layers, world_layers, records

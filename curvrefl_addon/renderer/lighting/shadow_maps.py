@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float64Array
+from ...scene.arrays import EVERY_SET, Float64Array
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
 from ..device.shaders import Piece, build_shader, flags, set_matrix
@@ -40,7 +40,7 @@ class ShadowCasters:
         self._geometry = geometry
         self._extent = extent
         self._alpha = alpha
-        self._idle: dict[frozenset[int], dict[int, Pieces]] = {}
+        self._idle: dict[tuple[frozenset[int], int], dict[int, Pieces]] = {}
         self._revision = geometry.revision
 
     def draw(self, view: ShadowView, bias: tuple[float, float, float]) -> None:
@@ -72,24 +72,34 @@ class ShadowCasters:
 
     def _in_view(self, view: ShadowView) -> Iterator[tuple[Chunk, Pieces]]:
         """Chunks, and what of them casts on nothing."""
-        idle_planes = view.idle_planes
+        key = (view.idle_planes, view.blocked_by)
         if self._revision != self._geometry.revision:
             self._revision = self._geometry.revision
             self._idle.clear()
-        if idle_planes not in self._idle:
-            self._idle[idle_planes] = self._idle_in_chunks(idle_planes)
-        idle = self._idle[idle_planes]
+        if key not in self._idle:
+            self._idle[key] = self._idle_in_chunks(*key)
+        idle = self._idle[key]
         for chunk in self._geometry.chunks:
             if self._geometry.may_be_in(chunk, view.world_to_clip):
                 yield chunk, idle.get(id(chunk), frozenset())
 
-    def _idle_in_chunks(self, planes: frozenset[int]) -> dict[int, Pieces]:
+    def _idle_in_chunks(self, planes: frozenset[int], blocked_by: int) -> dict[int, Pieces]:
         """By a chunk's id, pairs (instance in the chunk, piece)."""
         found: dict[int, set[tuple[int, int]]] = {}
-        for index, piece in self._extent.pieces_in_planes(planes):
+        spared = [] if blocked_by == EVERY_SET else self._spared_pieces(blocked_by)
+        for index, piece in [*self._extent.pieces_in_planes(planes), *spared]:
             chunk, local = self._geometry.place_of(int(index))
             found.setdefault(id(chunk), set()).add((local, int(piece)))
         return {key: frozenset(pairs) for key, pairs in found.items()}
+
+    def _spared_pieces(self, blocked_by: int) -> list[tuple[int, int]]:
+        """(instance, piece) of all that casts no shadow in a light which these shadow sets block."""
+        return [
+            (index, int(piece))
+            for index, item in enumerate(self._geometry.placed)
+            if not blocked_by >> item.instance.shadow_set & 1
+            for piece in np.unique(item.pieces)
+        ]
 
 
 class ShadowMaps:

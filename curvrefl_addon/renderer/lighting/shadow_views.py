@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene.arrays import Float64Array
+from ...scene.arrays import EVERY_SET, Float64Array
 from ..geometry.mesh_pieces import OUTLINE_SLACK, MeshPieces, outline
 
 HULL_PLANES = 16
@@ -49,6 +49,8 @@ class ShadowView:
     """Planes of `SceneExtent.hull` whose triangles cast on nothing"""
     turn: tuple[int, int] = (0, 1)
     """Which of how many maps of one lamp, for what each holds by chance (see `shadow_alpha`)"""
+    blocked_by: int = EVERY_SET
+    """Bits of the shadow sets of what is drawn into it"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -85,6 +85,7 @@ def all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
         instance.visible_shadow,
         instance.visible_transmission,
         instance.holdout,
+        instance.shadow_set,
     )
 
 

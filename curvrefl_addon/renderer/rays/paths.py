@@ -81,7 +81,7 @@ class PathBuffer(SurfaceBuffer):
             return
         self._find_mirrors(mirrors, window, chosen)
         keeps_way = goes_on or with_counts or path is not None
-        shader = _exact_shader(path is not None, self._hits is not None, keeps_way, with_counts)
+        shader = _exact_shader(path is not None, self._hits is not None, keeps_way, with_counts, materials.links)
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
@@ -164,7 +164,7 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
 
 
 @gpu_cache
-def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool) -> Any:
+def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool, links: frozenset[str]) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
     hits = Piece(outputs={"hit_out": "VEC4"}, defines=flags("WITH_HITS"))
     kept = Piece(outputs=named("VEC4", "direction_out", "throughput_out"), defines=flags("KEEPS_WAY"))
@@ -176,7 +176,7 @@ def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: 
         Piece(
             samplers=named("FLOAT_2D", "mirror_position", "mirror_normal", "mirror_color"),
             constants={"enclosing": "VEC3"},
-            defines=flags("WITH_COUNTS") if with_counts else {},
+            defines=flags(*(("WITH_COUNTS",) if with_counts else ()), *sorted(links)),
             fragment="rays/exact.frag.glsl",
         ),
         way if on_path else VIEW,

@@ -11,6 +11,7 @@ import numpy as np
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays
 from ..device.record_regions import UNIT
 from ..geometry.mesh_facts import MeshFactsCache
+from ..surfaces.light_sets import SHADOW_SET_SHIFT
 from .mesh_rays import MeshRays
 from .ray_records import InstanceFlag, seen_by
 
@@ -37,6 +38,7 @@ def fill_records(
     matrices = np.array([instance.matrix for instance in instances])
     records[:, :3] = np.linalg.inv(matrices)[:, :3]
     flags = np.array([seen_by(item, not clear.isdisjoint(item.materials)) for item in instances])
+    flags += np.array([item.shadow_set for item in instances]) << SHADOW_SET_SHIFT
     flags[np.linalg.det(matrices[:, :3, :3]) < 0.0] += InstanceFlag.IS_MIRRORED
     records[:, 3, 0] = [item.object_id for item in instances]
     records[:, 3, 1] = mirrors

@@ -19,6 +19,7 @@ from ..geometry.scene_geometry import SceneGeometry
 from ..programs.buffers import Buffers, buffers_for, varies_bits
 from ..programs.image_pages import DEFAULT_CAP
 from ..programs.programs import Programs, Surroundings, program_piece
+from .light_sets import links_of, set_of_kind, sets_of_varies
 from .surface_buffer import SEEN_THROUGH
 
 RECORDS = 11
@@ -54,6 +55,8 @@ class Materials:
     def follow(self, scene: SceneArrays) -> None:
         """Take over the materials of another state of the scene; images that were there are not uploaded again."""
         self._materials = scene.materials
+        self.links = links_of(scene)
+        """Defines of shaders in which rays find what shines, or shadows of that"""
         if self._programs is not None:
             self._programs.follow(scene)
         elif any(item.program is not None for item in scene.materials):
@@ -72,8 +75,9 @@ class Materials:
             first = 0 if self._programs is None else self._programs.firsts[index]
             number = -1 if self._programs is None else self._programs.number_of(index)
             varies = 0 if shape is None else varies_bits(buffers_for(shape.channels))
+            varies |= sets_of_varies(material, self.links)
             record[0] = (material.metallic, material.roughness, material.ior, material.specular_level)
-            record[1] = (*material.emission, float(kind_of(material)))
+            record[1] = (*material.emission, float(kind_of(material) | set_of_kind(material)))
             record[2] = (*material.base_color, float(number))
             record[3] = (material.coat_weight, material.coat_roughness, material.coat_ior, material.transmission)
             record[4] = (*material.coat_tint, material.film_thickness)

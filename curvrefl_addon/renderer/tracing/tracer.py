@@ -116,7 +116,7 @@ class PathTracer:
             return
         classes, vertices = self._targets.of(seen.width, seen.height)
         around = Surroundings(
-            self.features,
+            self.features | self._materials.links,
             self._materials,
             rays,
             self._lighting.ggx,

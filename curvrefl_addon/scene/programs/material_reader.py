@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from ..arrays import MaterialArrays
+from ..arrays import EVERY_SET, MaterialArrays
 from ..finite import usable_material
 from ..materials.color_spaces import luminance_weights
 from ..materials.node_links import Source, output_source
@@ -27,6 +27,9 @@ from .shaders.volumes import read_absorption
 
 EMPTY_SLOT = MaterialArrays("default", base_color=(0.8, 0.8, 0.8), roughness=1.0, specular_level=0.0)
 """What Cycles draws without a material: a diffuse gray"""
+
+type Copy = tuple[int, int, int, int]
+"""Of the material at an index: the light set of its objects, bits of those that it shines on, and of shadow sets"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +64,10 @@ class MaterialReader:
         self._images = images
         self._handlers = handlers
         self._read: dict[int, ReadMaterial] = {}
-        self._places: dict[int | MaterialArrays, int] = {}
+        self._places: dict[int | MaterialArrays | Copy, int] = {}
+        self._copies: dict[Copy, tuple[MaterialArrays, int]] = {}
+        """What each was made of, and its place"""
+        self._used_copies: set[Copy] = set()
 
     def read(self, material: bpy.types.Material | None) -> ReadMaterial:
         """The material's place in the list; None, an empty slot, is at index 0."""
@@ -76,6 +82,26 @@ class MaterialReader:
     def plain(self, arrays: MaterialArrays) -> ReadMaterial:
         """Place of a material without a program that is not the scene's."""
         return ReadMaterial(self._place(arrays, arrays))
+
+    def linked(self, index: int, light_set: int, shines_on: int, blocked_by: int) -> int:
+        """Place of the material at `index` as objects of a light set have it; the others are as `MaterialArrays`'."""
+        base = self.materials[index]
+        if not base.may_be("emission"):
+            shines_on = blocked_by = EVERY_SET
+        if light_set == 0 and shines_on == blocked_by == EVERY_SET:
+            return index
+        copy = (index, light_set, shines_on, blocked_by)
+        self._used_copies.add(copy)
+        if copy not in self._copies or self._copies[copy][0] is not base:
+            place = self._place(copy, replace(base, light_set=light_set, shines_on=shines_on, blocked_by=blocked_by))
+            self._copies[copy] = (base, place)
+        return self._copies[copy][1]
+
+    def drop_unused_copies(self) -> None:
+        """What `linked` has not asked for since the last call is empty."""
+        for copy in self._copies.keys() - self._used_copies:
+            self.materials[self._copies.pop(copy)[1]] = EMPTY_SLOT
+        self._used_copies = set()
 
     def forget(self, materials: set[int]) -> None:
         """These materials (session_uid) changed."""
@@ -167,7 +193,7 @@ class MaterialReader:
             return arrays
         return replace(arrays, absorption=absorption)
 
-    def _place(self, key: int | MaterialArrays, arrays: MaterialArrays) -> int:
+    def _place(self, key: int | MaterialArrays | Copy, arrays: MaterialArrays) -> int:
         if key in self._places:
             self.materials[self._places[key]] = arrays
         else:

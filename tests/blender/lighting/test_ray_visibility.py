@@ -176,14 +176,6 @@ def test_a_cube_map_is_drawn_by_a_mirror_and_not_by_the_camera() -> None:
     assert pictures[True, False][mirror].mean() < 0.3 * pictures[True, True][mirror].mean()
 
 
-def receiver() -> None:
-    area().light_linking.receiver_collection = bpy.data.collections.new("some")
-
-
-def blocker() -> None:
-    area().light_linking.blocker_collection = bpy.data.collections.new("some")
-
-
 def few_bounces() -> None:
     area().data.cycles.max_bounces = 0
 
@@ -196,8 +188,6 @@ def odd_objects() -> None:
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (receiver, 'Lamp "area" lights all objects: its light linking is left out.'),
-        (blocker, 'Lamp "area" is shadowed by all objects: its shadow linking is left out.'),
         (few_bounces, 'Lamp "area" lights all that mirrors show: its limit of 0 bounces is left out.'),
         (
             odd_objects,

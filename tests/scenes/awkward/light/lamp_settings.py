@@ -138,7 +138,7 @@ def lamp_light_path(folder: Path) -> None:
     tree.links.new(path.outputs["Is Glossy Ray"], emission.inputs["Strength"])
 
 
-@awkward("light linking: a lamp that lights one thing alone", words=("link",))
+@awkward("light linking: a lamp that lights one thing alone")
 def light_linking(folder: Path) -> None:
     lamp = lit("POINT", shadow_soft_size=0.05)
     add_lamp("SUN", (-2.0, -2.0, 3.0), 0.5)
@@ -147,7 +147,7 @@ def light_linking(folder: Path) -> None:
     lamp.light_linking.receiver_collection = receivers
 
 
-@awkward("light linking: a lamp that leaves one thing out", words=("link",))
+@awkward("light linking: a lamp that leaves one thing out")
 def light_linking_excludes(folder: Path) -> None:
     lamp = lit("POINT", shadow_soft_size=0.05)
     receivers = bpy.data.collections.new("Receivers")
@@ -156,7 +156,7 @@ def light_linking_excludes(folder: Path) -> None:
     receivers.collection_objects[0].light_linking.link_state = "EXCLUDE"
 
 
-@awkward("shadow linking: one thing casts no shadow of this lamp", words=("link",))
+@awkward("shadow linking: one thing casts no shadow of this lamp")
 def shadow_linking(folder: Path) -> None:
     lamp = lit("POINT", (3.0, -1.2, 2.2), shadow_soft_size=0.05)
     blockers = bpy.data.collections.new("Blockers")
