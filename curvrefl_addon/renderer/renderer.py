@@ -271,7 +271,7 @@ class Renderer:
                 self._diagnostics = DiagnosticPass(diagnostic.colors)
             add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic)
             return
-        self._appearance.lighting.prepare(index)
+        self._appearance.lighting.prepare(index, sub_frame.sky_is_gathered)
         film = self.settings.film_transparent
         if not groups:
             seen, shadows = sub_frame.targets.seen, sub_frame.shadows

@@ -214,8 +214,9 @@ class Lighting:
         lamps, world = (are_too_coarse(one.views, one.resolution, limit, view, *self._balls) for one, limit in pairs)
         return lamps, world
 
-    def prepare(self, sub_frame: int) -> None:
-        """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing.
+    def prepare(self, sub_frame: int, sky_is_gathered: bool = False) -> None:
+        """Choose the samples of this sub-frame (counted modulo `sub_frames`); draws depth maps still missing. Where
+        `sky_is_gathered` the world's are not drawn again for what else is there by chance: nearly nothing asks them.
 
         Not inside a frame buffer's `bind()` block whose viewport matters: that is restored, but costs time.
         """
@@ -230,6 +231,7 @@ class Lighting:
         # (Another sub-frame may have drawn over them.)
         self._lamp_maps.draw(lamp_views, self._casters)
         visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
+        visit = 0 if sky_is_gathered else visit
         self._world_maps.draw(world_views, self._casters, (visit, self._world_visits))
 
     def bind(self, shader: Any) -> None:

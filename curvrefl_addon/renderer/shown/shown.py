@@ -76,6 +76,11 @@ class SubFrame:
     gathers: Gathering | None = None
     """See `ShadePass.add`"""
 
+    @property
+    def sky_is_gathered(self) -> bool:
+        """Rays find the world, in place of its directions' shadows."""
+        return self.gathers is not None and self.gathers.has_sky
+
 
 @dataclass(frozen=True, slots=True)
 class Light:
