@@ -100,6 +100,17 @@ float lamp_shadow(int base, vec3 position)
 vec3 followed_lobes(vec3 to_viewer, vec3 to_light, float density);
 #endif
 
+#ifdef LIGHTING_CLAMPED
+// What is left of the light from here on its way to the eye, where it has bounced there; else 0.
+vec3 clamped_way = vec3(0.0);
+
+// As Cycles clamps what a lamp's sample brings after bounces.
+vec3 clamped(vec3 radiance)
+{
+  return radiance * min(1.0, lighting_data[7].x / max(mean_of(abs(radiance * clamped_way)), 1e-9));
+}
+#endif
+
 #ifdef PICKS_LAMP
 // In 0 .. 1; each pixel has a golden section's steps of its own, which go evenly over all lamps with the sub-frames.
 float lamp_random()
@@ -269,6 +280,9 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
         scattered = vec3(0.0);
       }
 #endif
+#ifdef LIGHTING_CLAMPED
+      scattered = clamped(scattered);
+#endif
       sum += scattered;
     }
 #ifdef LIT_FROM_BEHIND
@@ -281,7 +295,11 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
 #ifdef LIGHTING_SHADOWS_LINKED
     lamp_blockers = picked_blockers;
 #endif
-    sum += picked_light * (weights / picked_weight) * lit_by_ray(picked, picked_way, picked_range);
+    picked_light *= weights / picked_weight;
+#ifdef LIGHTING_CLAMPED
+    picked_light = clamped(picked_light);
+#endif
+    sum += picked_light * lit_by_ray(picked, picked_way, picked_range);
   }
 #endif
 #endif

@@ -7,8 +7,9 @@
 //   0: number of lamps, number of world directions, 1 for a world image, turn of the picked lamp (lamps.glsl);
 //   1: world color, brightest that is no sun; 2..4: rows of the rotation from world to image directions; 5: weight of
 //   each direction where there is no image; 6: with LIGHTING_PARTS, whether the camera, diffuse and glossy parts of
-//   surfaces see the world. Without lamps or directions the first record is dark: the loops over them run at least
-//   once, as a software renderer runs the body of a `for` once more than it needs.
+//   surfaces see the world; 7: with LIGHTING_CLAMPED, the most that a lamp's sample brings after bounces (the mean of
+//   its channels). Without lamps or directions the first record is dark: the loops over them run at least once, as a
+//   software renderer runs the body of a `for` once more than it needs.
 
 // With LIGHTING_LINKED or LIGHTING_SHADOWS_LINKED there is a record of each lamp from LINK_RECORDS on: bits of the
 // light sets that it lights, and of the shadow sets in the way of its light.

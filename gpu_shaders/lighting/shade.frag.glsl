@@ -80,6 +80,9 @@ void main()
   // What is shown stands where it is, not where this pixel's own ray would have met it.
   direction = normalize(position.xyz - origin);
   Surface shown = surface_of(pixel, position, normal, base.rgb);
+#ifdef LIGHTING_CLAMPED
+  clamped_way = tint;
+#endif
 #ifdef LIGHTING_LINKED
   shown = shining_on(shown, lamps_met_from);
 #endif

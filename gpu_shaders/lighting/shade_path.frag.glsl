@@ -14,6 +14,10 @@ void main()
   vec3 direction = texelFetch(path_direction, pixel, 0).xyz;
   float range = distance(position.xyz, origin.xyz);
   vec3 radiance = vec3(0.0);
+  vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
+#ifdef LIGHTING_CLAMPED
+  clamped_way = throughput;
+#endif
 #ifdef LIGHTING_LINKED
   lamps_met_from = set_on_way(position, texelFetch(reflected_normal, pixel, 0));
 #endif
@@ -41,7 +45,6 @@ void main()
 #endif
   }
   radiance += lamps_seen(origin.xyz, direction, range, false).rgb;
-  vec3 throughput = texelFetch(path_throughput, pixel, 0).rgb;
   // (The picture's alpha has come with the first mirror.)
   color = vec4(throughput * radiance * weight, 0.0);
 }

@@ -33,6 +33,9 @@ void main()
   vec3 origin = texelFetch(before_position, pixel, 0).xyz;
   vec3 direction = way_direction(way);
   float density = way.z;
+#ifdef LIGHTING_CLAMPED
+  clamped_way = state.reflected + state.transmitted > 0 ? throughput.rgb : vec3(0.0);
+#endif
 #else
   vec3 throughput = vec3(1.0);
   bool by_camera = true;

@@ -196,6 +196,7 @@ class Lighting:
         found = lamp_features(self._lights, self._world, self._scene) | shadow_features(self._lamp_places)
         flagged = {"LIGHTING_IMAGE": self._world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
         flagged |= {ALPHA: bool(self._alpha.materials), PICKED: picks_lamp(self._lights, self.sub_frames)}
+        flagged["LIGHTING_CLAMPED"] = bool(self._lights) and self._scene.indirect_clamp > 0.0
         found |= {name for name, is_so in flagged.items() if is_so}
         if self._surfaces is not None:
             found.add(INDIRECT)
@@ -343,6 +344,7 @@ class Lighting:
         world = self._world
         records[2:5, :3] = world.rotation
         records[6, :3] = world.visible_camera, world.visible_diffuse, world.visible_glossy
+        records[7, 0] = self._scene.indirect_clamp
         if knows_links(self.features):
             records = np.concatenate([records, link_records(self._lights)])
         return lamp_layers, world_layers, records
