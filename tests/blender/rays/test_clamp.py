@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What lamps light is clamped where mirrors show it, as Cycles clamps light that has bounced; seen directly it is not."""
+"""What lamps light is clamped where mirrors show it, as Cycles clamps light that has bounced, and not seen directly."""
 
 from __future__ import annotations
 
