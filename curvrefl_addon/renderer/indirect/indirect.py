@@ -223,10 +223,10 @@ class IndirectLight:
         is_solid[shown] = self._solid(shown)
         yield None
         focus, half = self._focus(shown)
-        surfaces = [
-            Surface(item.mesh, item.instance, bool(is_solid[index]), self._scene.light_set_of(item.instance))
-            for index, item in ((index, placed[index]) for index in shown)
-        ]
+        surfaces = []
+        for index in shown:
+            mesh, instance = placed[index].mesh, placed[index].instance
+            surfaces.append(Surface(mesh, instance, bool(is_solid[index]), self._scene.light_set_of(instance)))
         patches = None
         for step in place_patches(surfaces, focus, half):
             patches = step

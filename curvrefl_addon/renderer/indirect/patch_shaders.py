@@ -87,6 +87,15 @@ def rays_shader(with_hits: bool, to_emitters: bool, links: frozenset[str]) -> An
     )
 
 
+def sent_on_piece(features: Features) -> Piece:
+    """What `gather/sent_on.glsl` needs about what the rays of a `PatchPicture` have met, beside materials."""
+    return Piece(
+        samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way", "lighting_ggx"),
+        constants={"has_caustics": "FLOAT"},
+        defines={**GGX_DEFINES, **flags(*sorted(features & SURFACE_FEATURES))},
+    )
+
+
 @gpu_cache
 def links_shader(buffers: Buffers, features: Features) -> Any:
     return build_shader(
@@ -95,13 +104,8 @@ def links_shader(buffers: Buffers, features: Features) -> Any:
         TABLE,
         reads(buffers),
         CELLS,
-        Piece(
-            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way", "lighting_ggx"),
-            constants={"has_caustics": "FLOAT"},
-            outputs={"link_out": "VEC4"},
-            defines={**GGX_DEFINES, **_BATCH, **flags(*sorted(features & SURFACE_FEATURES))},
-            fragment="patches/links.frag.glsl",
-        ),
+        sent_on_piece(features),
+        Piece(outputs={"link_out": "VEC4"}, defines=_BATCH, fragment="patches/links.frag.glsl"),
     )
 
 

@@ -231,8 +231,8 @@ class Lighting:
         self._alpha.prepare()
         # (Another sub-frame may have drawn over them.)
         self._lamp_maps.draw(lamp_views, self._casters)
-        visit = index * self._directions_at_once // len(self._world_light.draws) % self._world_visits
-        visit = 0 if sky_is_gathered else visit
+        begun = index * self._directions_at_once // len(self._world_light.draws)
+        visit = 0 if sky_is_gathered else begun % self._world_visits
         self._world_maps.draw(world_views, self._casters, (visit, self._world_visits))
 
     def bind(self, shader: Any) -> None:

@@ -71,7 +71,7 @@ class Judged:
     @property
     def share_off(self) -> float:
         """Share of blocks of 4 by 4 pixels that the screen shows otherwise."""
-        return float((np.abs(_blocks(self.ours) - _blocks(self.cycles)).max(axis=-1) > OFF).mean())
+        return float((np.abs(blocks(self.ours) - blocks(self.cycles)).max(axis=-1) > OFF).mean())
 
 
 def judge_room(
@@ -97,13 +97,13 @@ def judge_room(
 
 
 def our_room(
-    mirrors: tuple[str, ...] = ("mirror",), method: str = "exact", shadow_rays: bool = False
+    mirrors: tuple[str, ...] = ("mirror",), method: str = "exact", shadow_rays: bool = False, samples: int = 16
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Picture and warnings of the open scene as a render shows it."""
     scene: Any = bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()
     arrays = extract_scene(depsgraph, scene, [scene.objects[name] for name in mirrors])
-    renderer = Renderer(arrays, Settings(method=method, samples=16, shadow_rays=shadow_rays))
+    renderer = Renderer(arrays, Settings(method=method, samples=samples, shadow_rays=shadow_rays))
     size = (scene.render.resolution_x, scene.render.resolution_y)
     frame = renderer.render(view_of_camera(scene, scene.camera, *size, depsgraph))
     picture = frame.color()[..., :3]
@@ -111,7 +111,7 @@ def our_room(
     return picture, frame.warnings
 
 
-def _blocks(picture: np.ndarray) -> np.ndarray:
+def blocks(picture: np.ndarray) -> np.ndarray:
     """Means of 4 by 4 pixels, sRGB, up to 1."""
     linear = np.clip(picture, 0.0, None)
     shown = np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055).clip(0.0, 1.0)

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.demo.shapes import plane
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from indirect.places import MIRROR, add_box, add_mirror, by_cycles, gray, matte, read, start, world_of
-from lighting.room import add_lamp
+from lighting.room import add_lamp, blocks
 
 SIZE = (128, 96)
 OFF = 0.03
@@ -83,12 +83,12 @@ class Judged:
     @property
     def share_off(self) -> float:
         """Share of blocks of 4 by 4 pixels that the screen shows otherwise."""
-        return float((np.abs(_blocks(self.ours) - _blocks(self.cycles)).max(axis=-1) > OFF).mean())
+        return float((np.abs(blocks(self.ours) - blocks(self.cycles)).max(axis=-1) > OFF).mean())
 
     @property
     def share_off_unlinked(self) -> float:
         """The same of a picture that knows no links."""
-        return float((np.abs(_blocks(self.unlinked) - _blocks(self.cycles)).max(axis=-1) > OFF).mean())
+        return float((np.abs(blocks(self.unlinked) - blocks(self.cycles)).max(axis=-1) > OFF).mean())
 
     @property
     def mean_off(self) -> float:
@@ -123,11 +123,3 @@ def _ours(settings: Settings, mirrors: Sequence[str]) -> tuple[np.ndarray, tuple
     features = renderer._appearance.lighting.features
     renderer.free()
     return picture, frame.warnings, features
-
-
-def _blocks(picture: np.ndarray) -> np.ndarray:
-    """Means of 4 by 4 pixels, sRGB, up to 1."""
-    linear = np.clip(picture, 0.0, None)
-    shown = np.where(linear < 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055).clip(0.0, 1.0)
-    height, width = picture.shape[:2]
-    return shown.reshape(height // 4, 4, width // 4, 4, 3).mean(axis=(1, 3))

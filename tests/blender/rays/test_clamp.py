@@ -9,12 +9,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.renderer import Renderer
-from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.report.images import load_exr
-from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
-from extraction import extracted
-from lighting.room import HEIGHT, WIDTH, add_lamp, build_room
+from lighting.room import HEIGHT, WIDTH, add_lamp, build_room, our_room
 
 pytestmark = pytest.mark.usefixtures("gpu")
 MOST = 10.0
@@ -32,11 +28,8 @@ def bright_room(roughness: float = 0.0) -> None:
 
 def ours(clamp: float, samples: int = 1) -> np.ndarray:
     """(HEIGHT, WIDTH, 3) as the file says, but for this clamp."""
-    scene = bpy.context.scene
-    scene.cycles.sample_clamp_indirect = clamp
-    renderer = Renderer(extracted(bpy.data.objects["mirror"]), Settings(method="auto", samples=samples))
-    frame = renderer.render(view_of_camera(scene, scene.camera, WIDTH, HEIGHT))
-    return frame.color()[..., :3].astype(float)
+    bpy.context.scene.cycles.sample_clamp_indirect = clamp
+    return our_room(method="auto", samples=samples)[0].astype(float)
 
 
 def cycles(path: Path, samples: int) -> np.ndarray:

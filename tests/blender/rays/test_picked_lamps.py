@@ -4,15 +4,10 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.lighting import lighting
-from curvrefl.curvrefl_addon.renderer.renderer import Renderer
-from curvrefl.curvrefl_addon.renderer.settings import Settings
-from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera
-from extraction import extracted
-from lighting.room import HEIGHT, WIDTH, add_lamp, build_room
+from lighting.room import add_lamp, build_room, our_room
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
@@ -34,9 +29,7 @@ def picture(samples: int, picks: bool, monkeypatch: pytest.MonkeyPatch) -> np.nd
         change.setattr(lighting.Lighting, "too_coarse", lambda *_: (True, False))
         if not picks:
             change.setattr(lighting, "picks_lamp", lambda *_: False)
-        scene = bpy.context.scene
-        renderer = Renderer(extracted(bpy.data.objects["mirror"]), Settings(method="exact", samples=samples))
-        return renderer.render(view_of_camera(scene, scene.camera, WIDTH, HEIGHT)).color()[..., :3].astype(float)
+        return our_room(samples=samples)[0].astype(float)
 
 
 def test_one_lamp_stands_for_all(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,6 @@ places after each frame: what changes there is the cache's own.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -32,15 +31,13 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.demo.data_blocks import principled  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
 from curvrefl.curvrefl_addon.report.display import display_transform  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
-from curvrefl.curvrefl_addon.scene.opened.blend_file import open_blend  # noqa: E402
-from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_moments  # noqa: E402
+from light.given_file import GivenFile, file_parser  # noqa: E402
 from light.scene_rays import SceneRays  # noqa: E402
 from mathutils import Matrix  # noqa: E402
 from mathutils.kdtree import KDTree  # noqa: E402
@@ -74,20 +71,13 @@ class Shown(NamedTuple):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("file", type=Path)
-    parser.add_argument("--reflector", required=True)
-    parser.add_argument("--size", default="640x480")
+    parser = file_parser(__doc__)
     parser.add_argument("--step", type=float, default=0.1, help="degrees")
     parser.add_argument("--frames", type=int, default=12)
     arguments = parser.parse_args()
-    require_gpu()
-    open_blend(arguments.file)
-    context: Any = bpy.context
-    width, height = (int(side) for side in arguments.size.split("x"))
-    names = arguments.reflector.split(",")
-    make_plain(names)
-    still, _, _ = read_render_moments(context.scene, context.view_layer, names, width, height, 16, None)
+    given = GivenFile(arguments)
+    make_plain(given.names)
+    still = given.read()
     settings = Settings(method="exact", samples=16)
     lit = Renderer(still.scene, settings)
     bare = Renderer(replace(still.scene, diffuse_bounces=0), settings)

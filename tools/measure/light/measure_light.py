@@ -11,7 +11,6 @@ end, the mean over those that are lit.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -20,43 +19,33 @@ from time import perf_counter
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(ROOT / "tools")]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools" / "measure")]
 
 import bootstrap  # noqa: E402
-import bpy  # noqa: E402
+import bpy  # noqa: E402, F401 (before its module `gpu`)
 import numpy as np  # noqa: E402
 
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.renderer.appearance import LIGHT_SECONDS  # noqa: E402
-from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
-from curvrefl.curvrefl_addon.scene.opened.blend_file import open_blend  # noqa: E402
-from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_moments  # noqa: E402
+from light.given_file import GivenFile, file_parser  # noqa: E402
 
 REPEATS = 9
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("file", type=Path)
-    parser.add_argument("--reflector", required=True)
-    parser.add_argument("--size", default="640x480")
-    arguments = parser.parse_args()
-    require_gpu()
-    open_blend(arguments.file)
-    context: Any = bpy.context
-    width, height = (int(side) for side in arguments.size.split("x"))
-    names = arguments.reflector.split(",")
-    still, _, _ = read_render_moments(context.scene, context.view_layer, names, width, height, 16, None)
+    arguments = file_parser(__doc__).parse_args()
+    given = GivenFile(arguments)
+    still = given.read()
     triangles = sum(len(still.scene.meshes[item.mesh].triangles) for item in still.scene.instances)
     print(f"{arguments.file.name}: {triangles:,} triangles")
     renderer = Renderer(still.scene, Settings(method="exact", samples=16), is_gradual=True)
-    canvas = Canvas.of_size(width, height)
+    canvas = Canvas.of_size(given.width, given.height)
     frame(renderer, still.view, canvas)
     while renderer.is_loading:
         # (To its end, so that all shaders are compiled: they are counted elsewhere, as materials are.)

@@ -27,10 +27,9 @@ from curvrefl.curvrefl_addon.renderer.indirect.patch_shaders import (
     RAYS_AT_ONCE,
     emitter_links_shader,
     light_shader,
+    sent_on_piece,
 )
 from curvrefl.curvrefl_addon.renderer.indirect.points import POINTS
-from curvrefl.curvrefl_addon.renderer.lighting.ggx import GGX_DEFINES
-from curvrefl.curvrefl_addon.renderer.paths.surface_features import SURFACE_FEATURES
 from curvrefl.curvrefl_addon.renderer.programs.buffers import Buffers, reads
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.surfaces.materials import TABLE
@@ -219,11 +218,9 @@ def _hits_shader(buffers: Buffers, features: Any) -> Any:
         FULL_SCREEN,
         TABLE,
         reads(buffers),
+        sent_on_piece(features),
         Piece(
-            samplers=named("FLOAT_2D", *SURFACE_SAMPLERS, "path_way", "lighting_ggx"),
-            constants={"has_caustics": "FLOAT"},
             outputs=named("VEC4", "albedo_out", "side_out", "shone_out"),
-            defines={**GGX_DEFINES, **flags(*sorted(features & SURFACE_FEATURES))},
             fragment=SHADERS / "what_hits_send.frag.glsl",
         ),
     )
