@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES_FOLDER = ROOT / "docs" / "images"
-sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "gui")]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "gui"), str(ROOT / "tests" / "blender")]
 
 import bootstrap  # noqa: E402
 
@@ -102,8 +102,7 @@ def _demo(folder: Path) -> None:
 def _window(folder: Path) -> None:
     """Pictures of the window, by the session of the tests."""
     import build_extension
-    from curvrefl.curvrefl_addon.demo.scene import build_demo
-    from window import run_session
+    from window import run_interface_session
     from window_blender import NoWindowBlenderError, find_or_make
 
     try:
@@ -111,11 +110,7 @@ def _window(folder: Path) -> None:
     except NoWindowBlenderError as error:
         raise InputError(f"There is no Blender that opens a window: {str(error).rstrip('.')}.") from error
     (folder / "zip").mkdir()
-    archive = build_extension.build(folder / "zip")
-    build_demo(folder / "demo.blend")
-    session = ROOT / "tests" / "gui" / "interface_session.py"
-    flags = ("--enable-event-simulate",)
-    found = run_session(blender, session, folder, archive, folder / "demo.blend", folder, flags=flags)
+    found = run_interface_session(blender, folder, build_extension.build(folder / "zip"))
     if found.seen["error"]:
         raise RuntimeError(found.seen["error"])
 

@@ -7,22 +7,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from window import Session, run_session
+from window import Session, run_interface_session
 from window_blender import WindowBlender
-
-SCRIPT = Path(__file__).resolve().parent / "interface_session.py"
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> Session:
-    from curvrefl.curvrefl_addon.demo.scene import build_demo
-    from small_scene import saved
-
-    folder = tmp_path_factory.mktemp("interface")
-    build_demo(folder / "demo.blend")
-    small = saved(folder, lambda ball: ball.data.uv_layers.remove(ball.data.uv_layers[0]))
-    flags = ("--enable-event-simulate",)
-    return run_session(window_blender, SCRIPT, folder, archive, folder / "demo.blend", small, folder, flags=flags)
+    return run_interface_session(window_blender, tmp_path_factory.mktemp("interface"), archive)
 
 
 def test_no_panel_menu_or_handler_raises(session: Session) -> None:

@@ -72,6 +72,17 @@ def run_session(
     return Session(folder, json.loads(found.read_text(encoding="utf-8")), printed)
 
 
+def run_interface_session(blender: WindowBlender, folder: Path, archive: Path) -> Session:
+    """The panels over the demo, clicks and a comparison, in `folder`; `archive`: the extension, packed."""
+    from curvrefl.curvrefl_addon.demo.scene import build_demo
+    from small_scene import saved
+
+    script, demo = Path(__file__).resolve().parent / "interface_session.py", folder / "demo.blend"
+    build_demo(demo)
+    small = saved(folder, lambda ball: ball.data.uv_layers.remove(ball.data.uv_layers[0]))
+    return run_session(blender, script, folder, archive, demo, small, folder, flags=("--enable-event-simulate",))
+
+
 def _wait(process: subprocess.Popen[bytes], found: Path, seconds: float) -> None:
     """Until the process ends, or `found` has not changed for so many seconds."""
     written, changed = 0, time.monotonic()
