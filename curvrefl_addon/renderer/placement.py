@@ -118,7 +118,7 @@ def wanted_origin(view: View, origin: Float64Array, geometry: SceneGeometry, mir
     if not geometry.placed:
         return origin
     if seen := [mirror.index for mirror in mirrors if min(mirror.window(view)[2:]) > 0]:
-        corners = geometry.box_corners(seen).reshape(-1, 8, 3)
+        corners = geometry.box_corners(seen)
         low, high = corners.min(axis=1), corners.max(axis=1)
     else:
         centers, radii = geometry.chunk_balls(geometry.chunks)
@@ -155,7 +155,7 @@ def with_depths_that_fit(view: View, scene: SceneArrays, geometry: SceneGeometry
     near, far = view.clip_range
     if not geometry.placed or (not view.is_orthographic and far <= DEEPEST * near):
         return view
-    corners = geometry.box_corners(range(len(geometry.placed))).reshape(-1, 8, 3)
+    corners = geometry.box_corners(range(len(geometry.placed)))
     low, high = corners.min(axis=1), corners.max(axis=1)
     lamps = [light for light in scene.lights if light.kind != "SUN"]
     if lamps:

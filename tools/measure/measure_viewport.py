@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from statistics import median
 from time import perf_counter, thread_time
@@ -38,6 +38,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E40
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
+from curvrefl.curvrefl_addon.viewport.region import LOADING_SECONDS  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
 
@@ -72,12 +73,21 @@ class Session:
             assert scene is not None
             arrays = self.reader.read(depsgraph, scene, [bpy.data.objects["Mirror"]], changes)
             if self.renderer is None:
-                self.renderer = Renderer(arrays, settings)
+                self.renderer = Renderer(arrays, settings, is_gradual=True)
             else:
                 self.renderer.update(arrays)
         assert self.renderer is not None
+        self.renderer.load_some(LOADING_SECONDS)
         self.reflection = self.renderer.reflect(orbit(angle), last=self.reflection)
         self.renderer.add_sub_frame(self.canvas, self.reflection, 0, 1.0, mirrors_only=True)
+
+    def rest(self, angle: float, settings: Settings) -> None:
+        """Redraw until nothing is left to do: what the first redraws of a session do is not what an orbit does."""
+        self.redraw(angle, settings)
+        assert self.renderer is not None
+        while self.renderer.is_loading or self.renderer.can_improve:
+            self.renderer.improve()
+            self.redraw(angle, settings)
 
 
 def orbit(angle: float) -> View:
@@ -161,17 +171,12 @@ class NoFrameBuffer:
 
 @contextmanager
 def without_gpu_work() -> Iterator[None]:
-    """Chunks made here are not drawn, nothing is dispatched."""
-    from curvrefl.curvrefl_addon.renderer.geometry import chunk
-    from curvrefl.curvrefl_addon.renderer.shading import shade
-    from curvrefl.curvrefl_addon.renderer.surfaces import pixel_classes
-
-    with (
-        patch.object(chunk, "indexed_batch", lambda _: NoBatch()),
-        patch.object(shade, "full_screen_triangle", NoBatch),
-        patch.object(pixel_classes, "full_screen_triangle", NoBatch),
-        patch.object(gpu.compute, "dispatch", lambda *_: None),
-    ):
+    """Batches made here are not drawn, nothing is dispatched."""
+    with ExitStack() as stack:
+        for name, made in (("indexed_batch", lambda _: NoBatch()), ("full_screen_triangle", NoBatch)):
+            for module in [module for module in sys.modules.values() if hasattr(module, name)]:
+                stack.enter_context(patch.object(module, name, made))
+        stack.enter_context(patch.object(gpu.compute, "dispatch", lambda *_: None))
         yield
 
 
@@ -221,13 +226,14 @@ def main() -> None:
         start = perf_counter()
         session.redraw(0.0, settings)
         print(f"{name:20} {'first picture':20} {1e3 * (perf_counter() - start):9.0f}")
+        session.rest(0.0, settings)
         walls = [measured(session, repeats, act, settings) for act in (turn, move)]
         session.end()
         with without_gpu_work():
             session = Session()
-            session.redraw(0.0, settings)
+            session.rest(0.0, settings)
             for label, act, wall in zip(("orbit", "move one object"), (turn, move), walls, strict=True):
-                session.redraw(0.0, settings)
+                session.rest(0.0, settings)
                 before = session.reader.reads
                 with patch.object(gpu.types, "GPUFrameBuffer", NoFrameBuffer):
                     # (of this thread alone: what else runs on the machine does not count)

@@ -28,12 +28,10 @@ class Sight:
     """Index of the mirror's instance"""
 
 
-def corners_of_boxes(boxes: Sequence[tuple[tuple[Float32Array, Float32Array], Float64Array]]) -> Float64Array:
-    """(8 n, 3) corners of n boxes (lowest and highest corner, matrix), world space."""
-    ends = np.array([box for box, _ in boxes], np.float64)
-    matrices = np.array([matrix for _, matrix in boxes])
-    corners = np.stack([ends[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
-    return (np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]).reshape(-1, 3)
+def corners_of_boxes(boxes: Float64Array, matrices: Float64Array) -> Float64Array:
+    """(n, 8, 3) corners of boxes (n, 2, 3), lowest and highest corner, where matrices (n, 4, 4) put them."""
+    corners = np.stack([boxes[:, CORNERS[:, axis], axis] for axis in range(3)], axis=-1)
+    return np.einsum("nij,nkj->nki", matrices[:, :3, :3], corners) + matrices[:, None, :3, 3]
 
 
 def box_around(points: Float64Array) -> Float64Array:

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import compress
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +20,11 @@ from numpy.typing import NDArray
 from ...scene.arrays import Float64Array, Int32Array, SceneArrays
 from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
+from .instance_bounds import InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
     Sight,
     box_around,
-    corners_of_boxes,
     differs_in_place_only,
     matched,
     relative_positions,
@@ -56,6 +58,7 @@ class SceneGeometry:
     def __init__(self) -> None:
         self.chunks: list[Chunk] = []
         self.facts = MeshFactsCache()
+        self._bounds = InstanceBounds(self.facts)
         self.placed: list[Placed] = []
         """As the scene's instances"""
         self.counters = {"chunks built": 0, "instances placed": 0, "meshes split": 0}
@@ -111,6 +114,7 @@ class SceneGeometry:
         placed = [item for item in known if item is not None]
         if not difference.structure and not dirty:
             self.placed = placed
+            self._bounds.follow(placed, difference.moved)
             self._unchecked.update(difference.moved)
             self._move(difference.moved)
             return difference
@@ -124,6 +128,7 @@ class SceneGeometry:
         gone = set(range(len(self.placed))) - {before for before in old if before is not None}
         stale = {id(found[0]) for index in gone if (found := self._where[index]) is not None}
         self.placed, self._where = placed, where
+        self._bounds.follow(placed)
         self._rows.clear()
         self._unchecked = set(range(len(placed)))
         self._move(difference.moved)
@@ -176,18 +181,20 @@ class SceneGeometry:
         side = self.facts.of(item.drawn).solid_side * np.sign(np.linalg.det(item.instance.matrix[:3, :3]))
         return ("NONE", "BACK", "FRONT")[int(side)]
 
-    def may_be_in(self, chunk: Chunk, world_to_clip: Float64Array) -> bool:
-        """False where a chunk is outside of the view volume of a matrix (4, 4) for sure."""
-        clip = self._box(chunk) @ world_to_clip.T
-        beyond, before = clip[:, :3] > clip[:, 3:], clip[:, :3] < -clip[:, 3:]
-        return not (beyond.all(axis=0).any() or before.all(axis=0).any())
+    def may_be_in(self, chunks: Sequence[Chunk], world_to_clip: Float64Array) -> list[bool]:
+        """False for chunks that are outside of the view volume of a matrix (4, 4) for sure."""
+        if not chunks:
+            return []
+        clip = np.array([self._box(chunk) for chunk in chunks]) @ world_to_clip.T
+        outside = (clip[..., :3] > clip[..., 3:]).all(axis=1) | (clip[..., :3] < -clip[..., 3:]).all(axis=1)
+        found: list[bool] = (~outside.any(axis=1)).tolist()
+        return found
 
     def _box(self, chunk: Chunk) -> Float64Array:
         """(8, 4) homogeneous corners of a box around a chunk, world space."""
         box = self._boxes.get(id(chunk))
         if box is None:
-            boxes = [(self.facts.of(item.mesh).box, item.instance.matrix) for item in chunk.placed]
-            box = self._boxes[id(chunk)] = box_around(corners_of_boxes(boxes))
+            box = self._boxes[id(chunk)] = box_around(self.box_corners(self.rows_of(chunk)).reshape(-1, 3))
         return box
 
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
@@ -204,7 +211,8 @@ class SceneGeometry:
                 keep = np.array([item.instance.visible_camera for item in chunk.placed])
                 if batches := chunk.batches(keep, holdouts=True):
                     self._seen.append((chunk, batches))
-        return [pair for pair in self._seen if self.may_be_in(pair[0], view.world_to_volume)]
+        may_be = self.may_be_in([chunk for chunk, _ in self._seen], view.world_to_volume)
+        return list(compress(self._seen, may_be))
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
@@ -229,14 +237,7 @@ class SceneGeometry:
 
     def balls(self, indices: NDArray[np.int64] | None = None) -> tuple[Float64Array, Float64Array]:
         """Centers (n, 3) and radii (n,) of balls around instances, world space."""
-        chosen = range(len(self.placed)) if indices is None else indices
-        if len(chosen) == 0:
-            return np.zeros((0, 3)), np.zeros(0)
-        boxes = np.array([self.facts.of(self.placed[index].mesh).box for index in chosen], np.float64)
-        matrices = np.array([self.placed[index].instance.matrix for index in chosen])
-        middle = boxes.mean(axis=1)
-        centers = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3]
-        return centers, np.linalg.norm(0.5 * (boxes[:, 1] - boxes[:, 0]), axis=1) * stretches_of(matrices)
+        return self._bounds.balls(indices)
 
     def longest_edge(self, chunk: Chunk) -> float:
         """Of the triangles drawn for a chunk, world space, or a little more; meters."""
@@ -244,27 +245,26 @@ class SceneGeometry:
         lengths = np.array([self.facts.of(item.drawn).longest_edge for item in chunk.placed])
         return float((lengths * stretches_of(matrices)).max())
 
-    def box_corners(self, indices: Sequence[int]) -> Float64Array:
-        """(8 n, 3) corners of the boxes around instances, world space."""
-        items = [self.placed[index] for index in indices]
-        return corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in items])
+    def box_corners(self, indices: NDArray[Any] | Sequence[int]) -> Float64Array:
+        """(n, 8, 3) corners of the boxes around instances, world space."""
+        return self._bounds.corners(indices)
 
     def _move(self, moved: Iterable[int]) -> None:
-        changed: dict[int, tuple[Chunk, dict[int, Placed]]] = {}
+        changed: dict[int, tuple[Chunk, dict[int, int]]] = {}
         for index in moved:
             found = self._where[index]
             assert found is not None
-            changed.setdefault(id(found[0]), (found[0], {}))[1][found[1]] = self.placed[index]
+            changed.setdefault(id(found[0]), (found[0], {}))[1][found[1]] = index
             self.counters["instances placed"] += 1
-        for chunk, items in changed.values():
-            chunk.move(items)
-            self._grow_box(chunk, list(items.values()))
+        for chunk, rows in changed.values():
+            chunk.move({local: self.placed[index] for local, index in rows.items()})
+            self._grow_box(chunk, list(rows.values()))
 
-    def _grow_box(self, chunk: Chunk, moved: Sequence[Placed]) -> None:
+    def _grow_box(self, chunk: Chunk, moved: Sequence[int]) -> None:
         """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
         box = self._boxes.get(id(chunk))
         if box is not None:
-            corners = corners_of_boxes([(self.facts.of(item.mesh).box, item.instance.matrix) for item in moved])
+            corners = self.box_corners(moved).reshape(-1, 3)
             self._boxes[id(chunk)] = box_around(np.concatenate([box[:, :3], corners]))
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:

@@ -58,6 +58,8 @@ class IndirectLight:
         self._needs_patches = self._needs_light = True
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""
+        self._has_just_changed = False
+        """Nothing was looked for since the scene changed"""
         self._openness, self._share = 0.0, 1.0
         self.prepare_ms = 0.0
         """Of the last time that all was found at once"""
@@ -78,7 +80,7 @@ class IndirectLight:
             # (It may be worth its time now.)
             self._needs_patches |= self.irradiance is None
         if self._needs_light:
-            self._work = None
+            self._work, self._has_just_changed = None, True
 
     def restart(self) -> None:
         """Find light anew, by other means than before."""
@@ -119,9 +121,16 @@ class IndirectLight:
         return is_changed
 
     def advance(self, means: Means, seconds: float) -> bool:
-        """Find light for about so long, a step at least; returns whether that of pictures has changed."""
+        """Find light for about so long, a step at least; returns whether that of pictures has changed.
+
+        The first time after a change what is known is lit anew, and no more: while a thing is dragged, what else would
+        be found is of no use by the next redraw.
+        """
         is_changed = False
-        end = perf_counter() + seconds
+        is_dragged, self._has_just_changed = self._has_just_changed, False
+        if is_dragged and self.irradiance is None:
+            return False
+        end = perf_counter() + (0.0 if is_dragged else seconds)
         while not self.is_settled:
             is_changed |= self._step(means, whole=False)
             if perf_counter() >= end:
@@ -236,7 +245,7 @@ class IndirectLight:
     def _solid(self, shown: list[int]) -> NDArray[np.bool_]:
         """Which are closed and hold no other thing's middle."""
         placed = [self._geometry.placed[index] for index in shown]
-        boxes = self._geometry.box_corners(shown).reshape(len(shown), 8, 3)
+        boxes = self._geometry.box_corners(shown)
         low, high = boxes.min(axis=1), boxes.max(axis=1)
         middles = 0.5 * (low + high)
         found = np.zeros(len(shown), bool)

@@ -176,7 +176,7 @@ class Lighting:
 
     def _holds(self, moved: list[int]) -> bool:
         """Whether the maps' views serve for the scene with these instances where they are now."""
-        corners = self._geometry.box_corners(moved)
+        corners = self._geometry.box_corners(moved).reshape(-1, 3)
         if not self._extent.spares(moved, corners):
             return False
         pairs = zip(self._lights, self._lamp_places, strict=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import compress
 from typing import Any
 
 import numpy as np
@@ -79,9 +80,9 @@ class ShadowCasters:
         if key not in self._idle:
             self._idle[key] = self._idle_in_chunks(*key)
         idle = self._idle[key]
-        for chunk in self._geometry.chunks:
-            if self._geometry.may_be_in(chunk, view.world_to_clip):
-                yield chunk, idle.get(id(chunk), frozenset())
+        chunks = self._geometry.chunks
+        for chunk in compress(chunks, self._geometry.may_be_in(chunks, view.world_to_clip)):
+            yield chunk, idle.get(id(chunk), frozenset())
 
     def _idle_in_chunks(self, planes: frozenset[int], blocked_by: int) -> dict[int, Pieces]:
         """By a chunk's id, pairs (instance in the chunk, piece)."""

@@ -262,3 +262,28 @@ def test_light_found_by_and_by_is_the_same_in_the_end(scene: tuple[SceneArrays, 
             assert steps < 1000
         assert np.array_equal(by_renderer(renderer, view).picture, rendered(state, view, 4).picture)
     renderer.free()
+
+
+def test_while_a_thing_is_dragged_what_is_known_is_lit_anew_and_no_more(
+    scene: tuple[SceneArrays, View],
+) -> None:
+    arrays, view = scene
+    renderer = Renderer(arrays, Settings(samples=SAMPLES), is_gradual=True)
+    renderer.reflect(view)
+    while renderer.is_loading:
+        renderer.load_some(1.0)
+    light = renderer._appearance.indirect
+    patches = light.irradiance
+    assert patches is not None
+    for _ in range(3):
+        arrays = moved(arrays, "ball", 0.1, 0.0, 0.0)
+        renderer.update(arrays)
+        renderer.reflect(view)
+        # (Time for all of it, of which none is taken.)
+        renderer.load_some(60.0)
+        assert light.irradiance is patches
+        assert not light.is_settled
+    while renderer.is_loading:
+        renderer.load_some(60.0)
+    assert light.irradiance is not patches
+    renderer.free()

@@ -240,3 +240,23 @@ def test_what_no_mirror_sees_is_not_split() -> None:
     geometry.update(scene, {0: 1})
     geometry.refine([Sight((0.0, 0.0, 0.1), 0.1, 0)])
     assert geometry.counters["meshes split"] == 0
+
+
+def test_bounds_of_what_moved_are_those_of_geometry_made_anew() -> None:
+    meshes = [soup(20, 1), soup(30, 2, size=3.0)]
+    scene = a_scene(meshes, 12)
+    geometry = SceneGeometry()
+    geometry.update(scene, {0: 1})
+    before = [geometry.balls(), geometry.box_corners(range(12))]
+    kept = [before[0][0].copy(), before[0][1].copy(), before[1].copy()]
+    scene = move(move(scene))
+    geometry.update(scene, {0: 1})
+    fresh = SceneGeometry()
+    fresh.update(scene, {0: 1})
+    for known, found in zip(geometry.balls(), fresh.balls(), strict=True):
+        np.testing.assert_array_equal(known, found)
+    np.testing.assert_array_equal(geometry.box_corners(range(12)), fresh.box_corners(range(12)))
+    # Arrays that were given out stay as they were.
+    for held, copy in zip((*before[0], before[1]), kept, strict=True):
+        np.testing.assert_array_equal(held, copy)
+    assert not np.array_equal(geometry.balls()[0], kept[0])
