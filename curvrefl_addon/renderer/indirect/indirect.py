@@ -58,8 +58,6 @@ class IndirectLight:
         self._needs_patches = self._needs_light = True
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""
-        self._has_just_changed = False
-        """Nothing was looked for since the scene changed"""
         self._openness, self._share = 0.0, 1.0
         self.prepare_ms = 0.0
         """Of the last time that all was found at once"""
@@ -80,7 +78,7 @@ class IndirectLight:
             # (It may be worth its time now.)
             self._needs_patches |= self.irradiance is None
         if self._needs_light:
-            self._work, self._has_just_changed = None, True
+            self._work = None
 
     def restart(self) -> None:
         """Find light anew, by other means than before."""
@@ -127,10 +125,7 @@ class IndirectLight:
         be found is of no use by the next redraw.
         """
         is_changed = False
-        is_dragged, self._has_just_changed = self._has_just_changed, False
-        if is_dragged and self.irradiance is None:
-            return False
-        end = perf_counter() + (0.0 if is_dragged else seconds)
+        end = perf_counter() + (seconds if self._work is not None else 0.0)
         while not self.is_settled:
             is_changed |= self._step(means, whole=False)
             if perf_counter() >= end:
@@ -158,9 +153,8 @@ class IndirectLight:
 
     def _step(self, means: Means, whole: bool) -> bool:
         if self._work is None:
-            anew = self._needs_patches
-            self._needs_patches = self._needs_light = False
-            self._work = self._steps(means, anew, whole)
+            self._needs_light = False
+            self._work = self._steps(means, self._needs_patches, whole)
         try:
             return next(self._work)
         except StopIteration:
@@ -171,11 +165,12 @@ class IndirectLight:
         """All that there is to do; not `whole`: with light that is not yet right in between."""
         lights = max(min(LIGHTS, means.lighting.sub_frames), means.lighting.with_all_directions)
         bounces = self._scene.diffuse_bounces
-        if self.irradiance is not None and not whole:
+        if not whole:
             # What is known of the surfaces before serves until there is more.
-            self.irradiance.light(means.lighting, 1)
-            self.irradiance.sweep(bounces)
-            yield True
+            if self.irradiance is not None:
+                self.irradiance.light(means.lighting, 1)
+                self.irradiance.sweep(bounces)
+            yield self.irradiance is not None
         if anew:
             table = emitter_table(self._scene)
             self.emitters = None if table is None else Emitters(table)
@@ -185,6 +180,8 @@ class IndirectLight:
                     found = step
                     yield False
             if found is None:
+                # (Patches are asked for until they are there: a lamp that changes first begins with them again.)
+                self._needs_patches = False
                 was, self.irradiance, self._share = self.irradiance, None, 1.0
                 yield was is not None
                 return
@@ -209,7 +206,7 @@ class IndirectLight:
                     irradiance.sweep(bounces)
                     self.irradiance = irradiance
                     yield True
-            self.irradiance = irradiance
+            self.irradiance, self._needs_patches = irradiance, False
         if self.irradiance is None:
             return
         for _ in self.irradiance.light_some(means.lighting, lights):

@@ -279,11 +279,33 @@ def test_while_a_thing_is_dragged_what_is_known_is_lit_anew_and_no_more(
         arrays = moved(arrays, "ball", 0.1, 0.0, 0.0)
         renderer.update(arrays)
         renderer.reflect(view)
+        revision = renderer.revision
         # (Time for all of it, of which none is taken.)
         renderer.load_some(60.0)
+        assert renderer.revision > revision, "lit anew"
         assert light.irradiance is patches
         assert not light.is_settled
     while renderer.is_loading:
         renderer.load_some(60.0)
     assert light.irradiance is not patches
+    renderer.free()
+
+
+def test_a_lamp_that_changes_before_all_is_found_loses_nothing_that_moved(scene: tuple[SceneArrays, View]) -> None:
+    arrays, view = scene
+    renderer = Renderer(arrays, Settings(method="auto", samples=4), is_gradual=True)
+    renderer.reflect(view)
+    while renderer.is_loading:
+        renderer.load_some(1.0)
+    arrays = moved(arrays, "ball", 0.8, 0.0, 0.0)
+    renderer.update(arrays)
+    for _ in range(3):
+        renderer.load_some(0.0)
+    assert renderer.is_loading
+    lamps = tuple(replace(light, color=(1.0, 40.0, 90.0)) for light in arrays.lights)
+    arrays = replace(arrays, lights=lamps)
+    renderer.update(arrays)
+    while renderer.is_loading:
+        renderer.load_some(0.0)
+    assert np.array_equal(by_renderer(renderer, view).picture, rendered(arrays, view, 4).picture)
     renderer.free()
