@@ -227,6 +227,9 @@ def main() -> None:
         session.redraw(0.0, settings)
         print(f"{name:20} {'first picture':20} {1e3 * (perf_counter() - start):9.0f}")
         session.rest(0.0, settings)
+        assert session.renderer is not None
+        light = session.renderer.bounced_light
+        print(f"{name:20} {'at rest':20} {1e3 * (perf_counter() - start):9.0f}             light: {light}")
         walls = [measured(session, repeats, act, settings) for act in (turn, move)]
         session.end()
         with without_gpu_work():

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,12 +36,12 @@ class InstanceBounds:
             self._stale.update(changed)
 
     def balls(self, indices: NDArray[np.int64] | None = None) -> tuple[Float64Array, Float64Array]:
-        """Centers (n, 3) and radii (n,) of balls around instances, world space."""
+        """Centers (n, 3) and radii (n,) of balls around instances, world space. Not to be written to."""
         self._find()
         chosen = slice(None) if indices is None else indices
         return self._centers[chosen], self._radii[chosen]
 
-    def corners(self, indices: NDArray[np.int64] | Sequence[int]) -> Float64Array:
+    def corners(self, indices: NDArray[Any] | Sequence[int]) -> Float64Array:
         """(n, 8, 3) corners of the boxes around instances, world space."""
         self._find()
         return self._corners[np.asarray(indices, np.int64)]

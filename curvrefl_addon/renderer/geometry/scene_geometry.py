@@ -181,14 +181,11 @@ class SceneGeometry:
         side = self.facts.of(item.drawn).solid_side * np.sign(np.linalg.det(item.instance.matrix[:3, :3]))
         return ("NONE", "BACK", "FRONT")[int(side)]
 
-    def may_be_in(self, chunks: Sequence[Chunk], world_to_clip: Float64Array) -> list[bool]:
-        """False for chunks that are outside of the view volume of a matrix (4, 4) for sure."""
-        if not chunks:
-            return []
-        clip = np.array([self._box(chunk) for chunk in chunks]) @ world_to_clip.T
+    def may_be_in(self, chunks: Sequence[Chunk], world_to_clip: Float64Array) -> NDArray[np.bool_]:
+        """(chunks,) False for chunks that are outside of the view volume of a matrix (4, 4) for sure."""
+        clip = self._boxes_of(chunks) @ world_to_clip.T
         outside = (clip[..., :3] > clip[..., 3:]).all(axis=1) | (clip[..., :3] < -clip[..., 3:]).all(axis=1)
-        found: list[bool] = (~outside.any(axis=1)).tolist()
-        return found
+        return np.asarray(~outside.any(axis=1))
 
     def _box(self, chunk: Chunk) -> Float64Array:
         """(8, 4) homogeneous corners of a box around a chunk, world space."""
@@ -197,9 +194,13 @@ class SceneGeometry:
             box = self._boxes[id(chunk)] = box_around(self.box_corners(self.rows_of(chunk)).reshape(-1, 3))
         return box
 
+    def _boxes_of(self, chunks: Sequence[Chunk]) -> Float64Array:
+        """(n, 8, 4) the same of several."""
+        return np.array([self._box(chunk) for chunk in chunks]).reshape(-1, 8, 4)
+
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
         """Centers (n, 3) and radii (n,) of balls around chunks, world space."""
-        boxes = np.array([self._box(chunk)[:, :3] for chunk in chunks]).reshape(-1, 8, 3)
+        boxes = self._boxes_of(chunks)[..., :3]
         low, high = boxes.min(axis=1), boxes.max(axis=1)
         return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
@@ -211,8 +212,7 @@ class SceneGeometry:
                 keep = np.array([item.instance.visible_camera for item in chunk.placed])
                 if batches := chunk.batches(keep, holdouts=True):
                     self._seen.append((chunk, batches))
-        may_be = self.may_be_in([chunk for chunk, _ in self._seen], view.world_to_volume)
-        return list(compress(self._seen, may_be))
+        return list(compress(self._seen, self.may_be_in([chunk for chunk, _ in self._seen], view.world_to_volume)))
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
