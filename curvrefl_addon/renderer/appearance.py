@@ -9,7 +9,8 @@ from typing import Any
 
 from ..optics.catalog import Method
 from ..scene.arrays import SceneArrays
-from .geometry.scene_geometry import Difference, SceneGeometry
+from .geometry.placed_instances import Difference
+from .geometry.scene_geometry import SceneGeometry
 from .indirect.indirect import IndirectLight, Means
 from .lighting.left_out import seen_in_spite_of_links
 from .lighting.lighting import Lighting

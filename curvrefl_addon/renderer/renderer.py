@@ -22,7 +22,8 @@ from .diagnostic_light import add_diagnostic
 from .environments.cube import EnvironmentCube
 from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
-from .geometry.scene_geometry import Difference, SceneGeometry
+from .geometry.placed_instances import Difference
+from .geometry.scene_geometry import SceneGeometry
 from .mirrors.mirror import Mirror, mirrors_of
 from .noise import Convergence
 from .placement import Placement, wanted_origin, with_depths_that_fit
@@ -104,8 +105,7 @@ class Renderer:
             self._follow(self._placement.placed(self._given), anew=True)
 
     def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
-        difference = self._follow_scene(scene, anew)
-        self._appearance.follow(scene, difference, self._numbers)
+        self._appearance.follow(scene, self._follow_scene(scene, anew), self._numbers)
         if self._rays is not None:
             self._rays.follow(scene, self._numbers)
 

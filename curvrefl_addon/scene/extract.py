@@ -320,7 +320,7 @@ class SceneReader:
             for key, item in self._shown.items()
             if item.instance is not None and (item.is_visible or key[0] in chosen)
         ]
-        warnings = [warning for item in self._shown.values() for warning in item.warnings]
+        warnings = [warning for item in self._shown.values() if item.warnings for warning in item.warnings]
         of_images = self._images.remarks + self._program_images.remarks
         arrays = SceneArrays(
             meshes=tuple(self._meshes.meshes),

@@ -295,8 +295,11 @@ def require_reflectors(
     shown: Mapping[tuple[int, int, int], ShownInstance], chosen: Mapping[int, str], id_of: Callable[[int], int]
 ) -> None:
     """Raises InputError where a reflector cannot be one. `chosen`: names by session_uid."""
+    found: dict[int, list[ShownInstance]] = {uid: [] for uid in chosen}
+    for key in [key for key in shown if key[0] in found]:
+        found[key[0]].append(shown[key])
     for uid, name in chosen.items():
-        items = [item for key, item in shown.items() if key[0] == uid]
+        items = found[uid]
         for item in items:
             if item.error:
                 raise InputError(item.error, id_of(uid))

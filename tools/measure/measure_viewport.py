@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from statistics import median
 from time import perf_counter, thread_time
@@ -156,27 +156,33 @@ class NoBatch:
         """Nothing."""
 
 
-class NoFrameBuffer:
+class FrameBuffer:
     """In place of a GPUFrameBuffer: a software renderer clears with the processor."""
 
-    def __init__(self, **_slots: Any) -> None:
-        pass
+    made = gpu.types.GPUFrameBuffer
+    clears = True
+    """(What is found once, as a mirror's map, must be of a clear one.)"""
 
-    def bind(self) -> AbstractContextManager[None]:
-        return nullcontext()
+    def __init__(self, **slots: Any) -> None:
+        self._made = self.made(**slots)
 
-    def clear(self, **_values: Any) -> None:
-        """Nothing."""
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._made, name)
+
+    def clear(self, **values: Any) -> None:
+        if self.clears:
+            self._made.clear(**values)
 
 
 @contextmanager
 def without_gpu_work() -> Iterator[None]:
-    """Batches made here are not drawn, nothing is dispatched."""
+    """Batches made here are not drawn, and nothing is dispatched."""
     with ExitStack() as stack:
         for name, made in (("indexed_batch", lambda _: NoBatch()), ("full_screen_triangle", NoBatch)):
             for module in [module for module in sys.modules.values() if hasattr(module, name)]:
                 stack.enter_context(patch.object(module, name, made))
         stack.enter_context(patch.object(gpu.compute, "dispatch", lambda *_: None))
+        stack.enter_context(patch.object(gpu.types, "GPUFrameBuffer", FrameBuffer))
         yield
 
 
@@ -238,7 +244,7 @@ def main() -> None:
             for label, act, wall in zip(("orbit", "move one object"), (turn, move), walls, strict=True):
                 session.rest(0.0, settings)
                 before = session.reader.reads
-                with patch.object(gpu.types, "GPUFrameBuffer", NoFrameBuffer):
+                with patch.object(FrameBuffer, "clears", False):
                     # (of this thread alone: what else runs on the machine does not count)
                     python = measured(session, repeats, act, settings, thread_time)
                 read = {key: (value - before[key]) / repeats for key, value in session.reader.reads.items()}

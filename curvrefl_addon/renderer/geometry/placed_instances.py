@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import compress
+from operator import is_not
 
 import numpy as np
 
@@ -15,6 +17,18 @@ from .chunk import Placed
 
 CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 """(8, 3) which end of a box each of its corners has"""
+
+NO_BOXES: tuple[tuple[int, ...], Float64Array] = ((), np.zeros((0, 8, 4)))
+
+
+@dataclass(slots=True)
+class Difference:
+    """What an update changed."""
+
+    moved: list[int] = field(default_factory=list)
+    """Indices of instances whose matrices changed, unless `structure`"""
+    structure: bool = False
+    """Instances came, went or changed in more than their matrices"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +93,30 @@ def instance_keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:
         counts[instance.object_id] = number + 1
         keys.append((instance.object_id, number))
     return keys
+
+
+def others(before: Sequence[InstanceArrays], after: Sequence[InstanceArrays]) -> list[int]:
+    """Indices of instances that are other objects than `before`, as many."""
+    return list(compress(range(len(after)), map(is_not, before, after)))
+
+
+type Numbered = tuple[SceneArrays, dict[int, int]]
+"""A scene, and its mirrors' numbers by their instances"""
+
+
+def moved_alone(placed: Sequence[Placed], before: Numbered, after: Numbered) -> list[int] | None:
+    """Indices of instances that have other matrices, where nothing else differs from what was `placed` before."""
+    (old, old_numbers), (new, numbers) = before, after
+    if old.meshes is not new.meshes or len(old.instances) != len(new.instances) or old_numbers != numbers:
+        return None
+    found = others(old.instances, new.instances)
+    for index in found:
+        known, instance = placed[index], new.instances[index]
+        if (known.instance.object_id, known.instance.mesh) != (instance.object_id, instance.mesh):
+            return None
+        if not differs_in_place_only(known, instance, known.mirror):
+            return None
+    return found
 
 
 def matched(placed: Sequence[Placed], instances: Sequence[InstanceArrays]) -> list[int | None]:

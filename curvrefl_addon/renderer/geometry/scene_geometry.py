@@ -10,7 +10,7 @@ the scenery of a mirror is a list of whole chunks.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import compress
 from typing import Any
 
@@ -23,10 +23,13 @@ from .chunk import Batches, Chunk, Placed
 from .instance_bounds import InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
+    NO_BOXES,
+    Difference,
     Sight,
     box_around,
     differs_in_place_only,
     matched,
+    moved_alone,
     relative_positions,
     require_room,
     stretches_of,
@@ -40,16 +43,6 @@ SLACK = 0.8
 """What has to be split again while it moves is split so much finer, so that it need not be at every move"""
 TOO_FINE = 3.9
 """Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
-
-
-@dataclass(slots=True)
-class Difference:
-    """What an update changed."""
-
-    moved: list[int] = field(default_factory=list)
-    """Indices of instances whose matrices changed, unless `structure`"""
-    structure: bool = False
-    """Instances came, went or changed in more than their matrices"""
 
 
 class SceneGeometry:
@@ -66,6 +59,8 @@ class SceneGeometry:
         """Another one when chunks are not the same any more"""
         self._boxes: dict[int, Float64Array] = {}
         """By a chunk's id, (8, 4) homogeneous corners of a box around it, world space"""
+        self._joined_boxes = NO_BOXES
+        """Ids of the chunks asked for last, and their boxes"""
         self._sceneries: dict[int, list[tuple[Chunk, Batches]]] = {}
         """By the mirror's instance; of this revision, as the next"""
         self._seen: list[tuple[Chunk, Batches]] | None = None
@@ -76,48 +71,43 @@ class SceneGeometry:
         """Per instance the angle it is split with, endless where it is not"""
         self._sights: tuple[Sight, ...] = ()
         self._unchecked: set[int] = set()
+        self._followed: tuple[SceneArrays, dict[int, int]] | None = None
+        """The scene and its mirrors of the last update"""
 
     def update(self, scene: SceneArrays, mirrors: Mapping[int, int], anew: bool = False) -> Difference:
         """Follow the scene; `mirrors` numbers reflectors (1, 2, ...) by the index of their instance.
 
         `anew`: in other chunks than before, so that those of an earlier picture stay where they are.
         """
+        before, self._followed = self._followed, (scene, dict(mirrors))
+        if before and not anew and (moved := moved_alone(self.placed, before, self._followed)) is not None:
+            placed = self.placed.copy()
+            for index in moved:
+                placed[index] = replace(placed[index], instance=scene.instances[index])
+            return self._follow_moved(placed, Difference(moved))
         old = matched(self.placed, scene.instances)
         known = [None if before is None else self.placed[before] for before in old]
         difference = Difference(structure=old != list(range(len(self.placed))))
         numbers = [0] * len(old)
         for index, number in mirrors.items():
             numbers[index] = number
-        meshes = scene.meshes
-        changed = [
-            index
-            for index, (item, instance, number) in enumerate(zip(known, scene.instances, numbers, strict=True))
-            if anew
-            or item is None
-            or item.instance is not instance
-            or item.mirror != number
-            or item.mesh is not meshes[instance.mesh]
-        ]
         dirty: list[int] = []
-        for index in changed:
-            item, instance, number = known[index], scene.instances[index], numbers[index]
-            mesh = meshes[instance.mesh]
-            if not anew and item is not None and item.mesh is mesh and differs_in_place_only(item, instance, number):
-                known[index] = replace(item, instance=instance, mirror=number)
-                difference.moved.append(index)
+        for index, (item, instance, number) in enumerate(zip(known, scene.instances, numbers, strict=True)):
+            mesh = scene.meshes[instance.mesh]
+            same = item if item is not None and item.mesh is mesh else None
+            if same is not None and not anew and differs_in_place_only(same, instance, number):
+                if same.instance is not instance or same.mirror != number:
+                    known[index] = replace(same, instance=instance, mirror=number)
+                    difference.moved.append(index)
                 continue
             dirty.append(index)
-            if item is not None and item.mesh is mesh:
-                known[index] = Placed(instance, mesh, item.drawn, item.pieces, number)
+            if same is not None:
+                known[index] = Placed(instance, mesh, same.drawn, same.pieces, number)
             else:
                 known[index] = Placed(instance, mesh, mesh, self.facts.of(mesh).pieces.triangle_piece, number)
         placed = [item for item in known if item is not None]
         if not difference.structure and not dirty:
-            self.placed = placed
-            self._bounds.follow(placed, difference.moved)
-            self._unchecked.update(difference.moved)
-            self._move(difference.moved)
-            return difference
+            return self._follow_moved(placed, difference)
         require_room(scene)
         difference.structure = True
         where = [None if before is None else self._where[before] for before in old]
@@ -158,12 +148,11 @@ class SceneGeometry:
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
         """All that a mirror, the instance `own`, may show."""
         if own not in self._sceneries:
-            itself = self._where[own]
-            assert itself is not None
+            itself, _ = self.place_of(own)
             self._sceneries[own] = [
                 (chunk, chunk.batches(np.ones(len(chunk.placed), bool)))
                 for chunk in self.chunks
-                if chunk is not itself[0] and chunk.placed[0].instance.visible_glossy
+                if chunk is not itself and chunk.placed[0].instance.visible_glossy
             ]
         return self._sceneries[own]
 
@@ -196,7 +185,10 @@ class SceneGeometry:
 
     def _boxes_of(self, chunks: Sequence[Chunk]) -> Float64Array:
         """(n, 8, 4) the same of several."""
-        return np.array([self._box(chunk) for chunk in chunks]).reshape(-1, 8, 4)
+        key = tuple(map(id, chunks))
+        if self._joined_boxes[0] != key:
+            self._joined_boxes = key, np.array([self._box(chunk) for chunk in chunks]).reshape(-1, 8, 4)
+        return self._joined_boxes[1]
 
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
         """Centers (n, 3) and radii (n,) of balls around chunks, world space."""
@@ -216,9 +208,9 @@ class SceneGeometry:
 
     def of_instance(self, index: int) -> tuple[Chunk, Batches]:
         """A reflector's own chunk."""
-        found = self._where[index]
-        assert found is not None and len(found[0].placed) == 1, "a reflector is a chunk of its own"
-        return found[0], found[0].batches(np.ones(1, bool))
+        chunk, _ = self.place_of(index)
+        assert len(chunk.placed) == 1, "a reflector is a chunk of its own"
+        return chunk, chunk.batches(np.ones(1, bool))
 
     def place_of(self, index: int) -> tuple[Chunk, int]:
         """Chunk of an instance and its index there."""
@@ -249,23 +241,30 @@ class SceneGeometry:
         """(n, 8, 3) corners of the boxes around instances, world space."""
         return self._bounds.corners(indices)
 
+    def _follow_moved(self, placed: list[Placed], difference: Difference) -> Difference:
+        """Know the same instances, some at other places."""
+        self.placed = placed
+        self._bounds.follow(placed, difference.moved)
+        self._unchecked.update(difference.moved)
+        self._move(difference.moved)
+        return difference
+
     def _move(self, moved: Iterable[int]) -> None:
         changed: dict[int, tuple[Chunk, dict[int, int]]] = {}
         for index in moved:
-            found = self._where[index]
-            assert found is not None
-            changed.setdefault(id(found[0]), (found[0], {}))[1][found[1]] = index
+            chunk, local = self.place_of(index)
+            changed.setdefault(id(chunk), (chunk, {}))[1][local] = index
             self.counters["instances placed"] += 1
         for chunk, rows in changed.values():
-            chunk.move({local: self.placed[index] for local, index in rows.items()})
+            chunk.move({row: self.placed[index] for row, index in rows.items()})
             self._grow_box(chunk, list(rows.values()))
 
     def _grow_box(self, chunk: Chunk, moved: Sequence[int]) -> None:
         """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
         box = self._boxes.get(id(chunk))
         if box is not None:
-            corners = self.box_corners(moved).reshape(-1, 3)
-            self._boxes[id(chunk)] = box_around(np.concatenate([box[:, :3], corners]))
+            self._boxes[id(chunk)] = box_around(np.concatenate([box[:, :3], *self.box_corners(moved)]))
+            self._joined_boxes = NO_BOXES
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
@@ -275,6 +274,7 @@ class SceneGeometry:
             return
         self.revision += 1
         self._boxes.clear()
+        self._joined_boxes = NO_BOXES
         self._rows.clear()
         self._sceneries.clear()
         self._seen = None

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.arrays import Float64Array, SceneArrays
-from ..geometry.scene_geometry import Difference, SceneGeometry
+from ..geometry.placed_instances import Difference
+from ..geometry.scene_geometry import SceneGeometry
 from ..lighting.left_out import is_lit_indirectly
 from ..lighting.lighting import Lighting
 from ..rays.ray_scene import RayScene

@@ -31,35 +31,42 @@ SEEN = 0.25
 """Of the picture's height, across an object's ball: what is smaller shadows too little of the picture"""
 
 
-def are_too_coarse(
-    views: Sequence[ShadowView],
-    resolution: int,
-    limit: Coarseness,
-    view: View,
-    centers: Float64Array,
-    radii: Float64Array,
-) -> bool:
-    """Whether the texels of these maps are too large for any of the objects, in balls (n, 3), (n,), before the eye."""
-    if not views:
-        return False
-    points = np.column_stack([centers, np.ones(len(centers))])
-    depth = points @ view.world_to_clip[3]
+@dataclass(frozen=True, slots=True)
+class ThingsAhead:
+    """Objects that are large in a view, before the eye."""
+
+    points: Float64Array
+    """(n, 4) homogeneous middles, world space"""
+    pixels: Float64Array
+    """(n,) meters that a pixel is wide at their nearest"""
+    radii: Float64Array
+    """(n,) in meters"""
+
+
+def things_ahead(view: View, centers: Float64Array, radii: Float64Array) -> ThingsAhead:
+    """Of objects in balls (n, 3), (n,)."""
+    clip = centers @ view.world_to_clip[:, :3].T + view.world_to_clip[:, 3]
     if view.is_orthographic:
         pixel = np.full(len(centers), 1.0 / view.focal_pixels)
-        before = np.ones(len(centers), bool)
+        large = 2.0 * radii > SEEN * view.height * pixel
     else:
         away = np.linalg.norm(centers - view.eye[:3], axis=1) - radii
-        # (What the eye is in the ball of, a floor, shows the shadows of other things.)
-        before = (depth > 0.0) & (away > 0.0)
         pixel = np.maximum(away, 0.0) / view.focal_pixels
-    clip = points @ view.world_to_clip.T
-    reach = radii[:, None] * np.linalg.norm(view.world_to_clip[:2, :3], axis=1)
-    before &= (np.abs(clip[:, :2]) - reach <= np.abs(clip[:, 3:])).all(axis=1)
-    before &= 2.0 * radii > SEEN * view.height * pixel
-    if not before.any():
+        large = 2.0 * radii > SEEN * view.height * pixel
+        # (What the eye is in the ball of, a floor, shows the shadows of other things.)
+        large &= (clip[:, 3] > 0.0) & (away > 0.0)
+    chosen = np.flatnonzero(large)
+    reach = radii[chosen, None] * np.linalg.norm(view.world_to_clip[:2, :3], axis=1)
+    chosen = chosen[(np.abs(clip[chosen, :2]) - reach <= np.abs(clip[chosen, 3:])).all(axis=1)]
+    return ThingsAhead(np.column_stack([centers[chosen], np.ones(len(chosen))]), pixel[chosen], radii[chosen])
+
+
+def are_too_coarse(views: Sequence[ShadowView], resolution: int, limit: Coarseness, ahead: ThingsAhead) -> bool:
+    """Whether the texels of these maps are too large for any of the things ahead."""
+    if not views or len(ahead.points) == 0:
         return False
-    points, least = points[before], np.maximum(limit.pixels * pixel, limit.share * radii)[before]
-    return bool((_largest_texels(views, resolution, points) > least).any())
+    least = np.maximum(limit.pixels * ahead.pixels, limit.share * ahead.radii)
+    return bool((_largest_texels(views, resolution, ahead.points) > least).any())
 
 
 def _largest_texels(views: Sequence[ShadowView], resolution: int, points: Float64Array) -> Float64Array:

@@ -20,10 +20,11 @@ from ...scene.camera.view import View
 from ..cells.lookup import CELLS, At, SurfaceLight
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
-from ..geometry.scene_geometry import Difference, SceneGeometry
+from ..geometry.placed_instances import Difference
+from ..geometry.scene_geometry import SceneGeometry
 from ..paths.surface_features import surface_features
 from ..surfaces.materials import Materials
-from .coarse_shadows import LAMPS, WORLD, are_too_coarse
+from .coarse_shadows import LAMPS, WORLD, are_too_coarse, things_ahead
 from .ggx import GGX_DEFINES, ggx_table
 from .lamp_views import LAMP_MAP_RESOLUTIONS, PICKED, picking_turn, picks_lamp, plan_lamps, shadow_features
 from .lamps import (
@@ -126,7 +127,6 @@ class Lighting:
         self._bound: Any = None
         self._surfaces: SurfaceLight | None = None
         self._looks = LampLooks()
-        self._balls: tuple[Float64Array, Float64Array] | None = None
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
         self._scene = scene
@@ -142,7 +142,7 @@ class Lighting:
 
     def follow(self, scene: SceneArrays, difference: Difference) -> None:
         """Light another state of the scene, whose geometry the `difference` has changed."""
-        before, self._scene, self._balls = self._scene, scene, None
+        before, self._scene = self._scene, scene
         if scene.instances is not before.instances:
             self._oddly_seen = oddly_seen(scene)
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
@@ -209,10 +209,9 @@ class Lighting:
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
         """Whether the shadow maps of lamps and of the world are too coarse for a view."""
-        if self._balls is None:
-            self._balls = self._geometry.balls()
         pairs = ((self._lamp_maps, LAMPS), (self._world_maps, WORLD))
-        lamps, world = (are_too_coarse(one.views, one.resolution, limit, view, *self._balls) for one, limit in pairs)
+        ahead = things_ahead(view, *self._geometry.balls())
+        lamps, world = (are_too_coarse(one.views, one.resolution, limit, ahead) for one, limit in pairs)
         return lamps, world
 
     def prepare(self, sub_frame: int, sky_is_gathered: bool = False) -> None:

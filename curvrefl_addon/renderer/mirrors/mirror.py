@@ -225,9 +225,10 @@ def mirrors_of(
     for old in before:
         known.setdefault(old.object_id, []).append(old)
     mirrors: list[Mirror] = []
-    for index, instance in enumerate(scene.instances):
-        if instance.object_id not in scene.reflectors:
-            continue
+    reflectors = set(scene.reflectors)
+    chosen = [index for index, instance in enumerate(scene.instances) if instance.object_id in reflectors]
+    for index in chosen:
+        instance = scene.instances[index]
         number = len(mirrors) + 1
         same = known.get(instance.object_id)
         mirror = same.pop(0) if same else None

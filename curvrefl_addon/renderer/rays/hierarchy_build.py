@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.arrays import Float32Array
-from .hierarchy import Boxes, Hierarchy, IntArray, fit, half_area, taken
+from .hierarchy import Boxes, Hierarchy, IntArray, fit, fit_rows, half_area, taken
 
 BINS = 8
 LEAF = 4
@@ -227,7 +227,7 @@ class _Growth:
         is_leaf = link < 0
         link, count = np.where(is_leaf, self._joined(self._start), link), np.where(is_leaf, count, 0)
         levels = tuple(self._levels)
-        fitted = fit(link, count, levels, *taken(low, high, self.order))
+        fitted = fit(fit_rows(link, count, levels), *taken(low, high, self.order))
         return Hierarchy(self.order, link, count, levels, *fitted)
 
     @staticmethod

@@ -81,12 +81,19 @@ def node_records(hierarchy: Hierarchy, leaf_link: NDArray[np.int64], leaf_count:
         records[0, 0, 0, :3], records[0, 0, 1, :3] = hierarchy.low[0], hierarchy.high[0]
         records[0, 1, :, :3] = OUT_OF_THE_WAY
         return records.reshape(-1, 4)
-    children = hierarchy.link[is_inner][:, None] + np.arange(2)
+    children = hierarchy.children
     records = np.empty((len(children), 2, 2, 4), np.float32)
-    records[:, :, 0, :3], records[:, :, 1, :3] = hierarchy.low[children], hierarchy.high[children]
     records[:, :, 0, 3] = np.where(is_inner, number, leaf_link)[children]
     records[:, :, 1, 3] = np.where(is_inner, 0, leaf_count)[children]
-    return records.reshape(-1, 4)
+    joined = records.reshape(-1, 4)
+    put_boxes(joined, hierarchy)
+    return joined
+
+
+def put_boxes(records: Float32Array, hierarchy: Hierarchy) -> None:
+    """Write the boxes of a tree into its `node_records`; its root is no leaf."""
+    boxes = records.reshape(-1, 2, 2, 4)
+    boxes[:, :, 0, :3], boxes[:, :, 1, :3] = hierarchy.low[hierarchy.children], hierarchy.high[hierarchy.children]
 
 
 def triangle_records(mesh: MeshArrays, order: NDArray[np.int64]) -> Float32Array:

@@ -23,6 +23,7 @@ from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
+from ..geometry.placed_instances import others
 from ..paths.features import lets_straight_on
 from .hierarchy import Boxes, Hierarchy
 from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
@@ -45,6 +46,7 @@ from .ray_records import (
     attribute_records,
     corner_records,
     node_records,
+    put_boxes,
     triangle_records,
 )
 
@@ -81,12 +83,8 @@ class RayScene:
 
     def __init__(self, facts: MeshFactsCache) -> None:
         self.regions = RecordRegions()
-        self.counters = {
-            "hierarchies built": 0,
-            "hierarchies fitted": 0,
-            "hierarchies improved": 0,
-            "top levels built": 0,
-        }
+        counted = ("hierarchies built", "hierarchies fitted", "hierarchies improved", "top levels built")
+        self.counters = dict.fromkeys(counted, 0)
         self.build_ms = 0.0
         """Of the last time that meshes came"""
         self._facts = facts
@@ -112,6 +110,8 @@ class RayScene:
         self._materials = np.empty((0, 4), np.float32)
         self._deepest = 0
         self._top: Hierarchy | None = None
+        self._top_nodes = np.empty((0, 4), np.float32)
+        """Its records"""
         self._top_cost = 0.0
         self._top_region = (0, 0)
         self._top_places = (0, 0, 0, 0)
@@ -160,17 +160,14 @@ class RayScene:
         if self._followed is None:
             return None
         before, numbers_before = self._followed
-        if len(scene.instances) != len(before.instances) or len(scene.meshes) != len(before.meshes):
+        if len(scene.instances) != len(before.instances) or numbers != numbers_before:
             return None
-        if numbers != numbers_before or any(
-            old is not new for old, new in zip(before.meshes, scene.meshes, strict=True)
-        ):
+        if list(map(id, scene.meshes)) != list(map(id, before.meshes)):
             return None
-        pairs = zip(before.instances, scene.instances, strict=True)
-        differ = [(index, old, new) for index, (old, new) in enumerate(pairs) if old is not new]
-        if any(all_but_place(old) != all_but_place(new) for _, old, new in differ):
+        found = others(before.instances, scene.instances)
+        if any(all_but_place(before.instances[index]) != all_but_place(scene.instances[index]) for index in found):
             return None
-        return [index for index, _, _ in differ if index in self._place_of]
+        return [index for index in found if index in self._place_of]
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -327,16 +324,19 @@ class RayScene:
     def _store_top(self, is_same: bool) -> None:
         """The tree over the instances, and all that belongs to the top level, to the GPU."""
         top = self._top.fitted(self._low, self._high) if is_same and self._top is not None else None
-        if top is None or top.cost() > WORSE * self._top_cost:
+        if top is not None and len(top.children) and top.cost() <= WORSE * self._top_cost:
+            put_boxes(self._top_nodes, top)
+        else:
             top = build(self._low, self._high, leaf=1)
             self._top_cost = top.cost()
             self.counters["top levels built"] += 1
+            leaves = top.order[np.where(top.count > 0, top.link, 0)]
+            self._top_nodes = node_records(top, leaves, np.full(len(top.count), -1))
         self._top = top
         if top.depth + self._deepest > STACK:
             raise InputError("The scene's objects are nested too deeply for ray walks: choose another method.")
-        nodes = node_records(top, top.order[np.where(top.count > 0, top.link, 0)], np.full(len(top.count), -1))
         instances = self._records.reshape(-1, 4)
-        joined = np.concatenate([nodes, instances, self._materials])
+        joined = np.concatenate([self._top_nodes, instances, self._materials])
         start, size = self._top_region
         if size < len(joined) or size == 0:
             if size:
@@ -345,4 +345,5 @@ class RayScene:
             self._top_region = (start, len(joined))
         else:
             self.regions.replace(start, joined)
-        self._top_places = (start, start + len(nodes), start + len(nodes) + len(instances), 0)
+        start_of_instances = start + len(self._top_nodes)
+        self._top_places = (start, start_of_instances, start_of_instances + len(instances), 0)

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from curvrefl.curvrefl_addon.renderer.lighting.coarse_shadows import Coarseness, are_too_coarse
+from curvrefl.curvrefl_addon.renderer.lighting.coarse_shadows import Coarseness, are_too_coarse, things_ahead
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import ShadowView
 from curvrefl.curvrefl_addon.scene.camera.view import View
 
@@ -32,7 +32,7 @@ def sun(texel: float) -> ShadowView:
 def is_coarse(
     shadow: ShadowView, centers: np.ndarray = AHEAD, radii: np.ndarray = RADIUS, view: View | None = None
 ) -> bool:
-    return are_too_coarse([shadow], RESOLUTION, LIMIT, view or eye(), centers, radii)
+    return are_too_coarse([shadow], RESOLUTION, LIMIT, things_ahead(view or eye(), centers, radii))
 
 
 def test_both_limits_have_to_be_passed() -> None:
@@ -50,7 +50,7 @@ def test_only_what_is_before_the_eye_counts() -> None:
     # It would have to be 25 pixels across.
     assert is_coarse(sun(5.0), centers=np.array([[0.0, 0.0, -8.0]]))
     assert not is_coarse(sun(5.0), centers=np.array([[0.0, 0.0, -10.0]]))
-    assert not are_too_coarse([], RESOLUTION, LIMIT, eye(), AHEAD, RADIUS)
+    assert not are_too_coarse([], RESOLUTION, LIMIT, things_ahead(eye(), AHEAD, RADIUS))
 
 
 def test_texels_of_a_lamp_grow_with_the_distance_from_it() -> None:
