@@ -33,6 +33,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.environments",),
     ("renderer.shown",),
     ("renderer",),
+    ("renderer.measured",),
     ("report", "demo"),
     ("study",),
     ("viewport",),

@@ -34,6 +34,20 @@ def drawing_state(
 
 
 @contextmanager
+def kept_state() -> Iterator[None]:
+    """Have the state that Blender's handlers may have set as it was, also after an error: blending, depth, viewport."""
+    blend, depth_test = gpu.state.blend_get(), gpu.state.depth_test_get()
+    depth_write, window = gpu.state.depth_mask_get(), gpu.state.viewport_get()
+    try:
+        yield
+    finally:
+        gpu.state.blend_set(blend)
+        gpu.state.depth_test_set(depth_test)
+        gpu.state.depth_mask_set(depth_write)
+        gpu.state.viewport_set(*window)
+
+
+@contextmanager
 def scissored(window: tuple[int, int, int, int] | None) -> Iterator[None]:
     """Draw only inside the window (x, y, width, height) of the frame buffer that is bound now, or all of it.
 
