@@ -5,9 +5,9 @@
 
     .venv/bin/python tools/make_scenes.py OUTDIR [NAME ..]
 
-Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `lamps` (point
-lamp, spot and sun in the dark), `million` (a million
-vertices) and `hidden` (one small file per hidden-surface case) are written when asked for.
+Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `torus` and `bowl` (mirrors
+that show themselves), `lamps` (point lamp, spot and sun in the dark), `million` (a million vertices) and `hidden` (one
+small file per hidden-surface case) are written when asked for.
 """
 
 from __future__ import annotations

@@ -120,6 +120,35 @@ def dense() -> bpy.types.Object:
     return reflector
 
 
+def mirror_torus() -> bpy.types.Object:
+    """A torus, which shows itself, tilted in the mirror sphere's place. 640 x 480."""
+    ring, tube, around = 0.68, 0.3, (192, 96)
+    a, b = np.meshgrid(*(np.arange(count) * (2.0 * np.pi / count) for count in around), indexing="ij")
+    normals = np.stack([np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)], -1).reshape(-1, 3)
+    centers = ring * np.stack([np.cos(a), np.sin(a), np.zeros_like(a)], -1).reshape(-1, 3)
+    index = np.arange(a.size).reshape(a.shape)
+    after = np.roll(index, -1, 0)
+    quads = np.stack([index, after, np.roll(after, -1, 1), np.roll(index, -1, 1)], -1).reshape(-1, 4)
+    return _seeing_itself(Shape(centers + tube * normals, tuple(map(tuple, quads.tolist()))), normals, 0.9)
+
+
+def mirror_bowl() -> bpy.types.Object:
+    """A half ball, which shows itself, open and tilted to the eye in the mirror sphere's place. 640 x 480."""
+    directions, quads = cube_sphere_directions(CELLS)
+    lower = tuple(quad for quad in quads if directions[list(quad), 2].max() < 0.1)
+    return _seeing_itself(Shape(directions, lower), directions, 0.6)
+
+
+def _seeing_itself(shape: Shape, normals: Float64Array, tilt: float) -> bpy.types.Object:
+    start_empty_scene()
+    reflector = add_object(MIRROR, shape, mirror("Mirror"), smooth=True, normals=normals, rotation=(tilt, 0.0, 0.0))
+    add_surroundings(sphere_radius)
+    set_world_color(SKY)
+    add_sun((-0.5, -0.6, 0.9), 3.0)
+    add_camera((0.0, -5.6, 1.5), (0.0, 0.0, 0.0), lens=58.0)
+    return reflector
+
+
 def lamps() -> bpy.types.Object:
     """The mirror sphere's scene in the dark, lit by a weak sun, a point lamp and a spot. 640 x 480."""
     start_empty_scene()
@@ -281,6 +310,8 @@ SCENES: dict[str, Callable[[], bpy.types.Object]] = {
     "ellipsoid": mirror_ellipsoid,
     "bumpy": bumpy,
     "dense": dense,
+    "torus": mirror_torus,
+    "bowl": mirror_bowl,
     "lamps": lamps,
     "million": million,
 }

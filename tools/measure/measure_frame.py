@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a picture's time goes into, pass by pass, beside Cycles with one sample in the same run.
 
-    python tools/measure/measure_frame.py SCENES/sphere.blend .. [--reflector Mirror] [--method secant_star]
-        [--samples 1,2] [--repeats 15] [--cycles 5] [--dump DIR]
+    python tools/measure/measure_frame.py SCENES/sphere.blend SCENES/dungeon.blend:Suzanne:full ..
+        [--method exact,auto] [--samples 1] [--repeats 9] [--dump DIR]
 
-*Frame* is a whole picture as `Renderer.render` makes it: forward pass, mirrors, shading. The passes are those of
-another render, in which each waits for the GPU (one pixel is read), so that they do not overlap: their sum is more than
-the frame. All numbers are medians, milliseconds. *First* times are of a renderer's first picture, with shaders
-compiled. Cycles' time is that of its whole render call, as for the peers of `compare`. *Processor* is the time of all
-threads of one frame, the least of the repeats: of a software renderer that is its work, whatever else the machine is
-doing. `--dump` saves the pictures, to compare what two versions draw (`--against DIR` prints the difference to an
-earlier dump).
+A file may name its mirrors (else `Mirror`, or `Kettle`) and its light, `direct` (else) or `full`, as for the verb
+`compare`. *Frame* is a whole picture as `Renderer.render` makes it: forward pass, mirrors, shading. Frames of all
+methods and Cycles' take turns, so that what else the machine does counts against all, and the *ratio* is the median of
+the turns' own. The passes are those of other pictures, in which each waits for the GPU (one pixel is read), so that
+they do not overlap: their sum is more than the frame. All numbers are medians, milliseconds. *First* times are of a
+renderer's first picture, with shaders compiled. Cycles' time is that of its whole render call, as for the peers of
+`compare`. *Processor* is the time of all threads of one frame, the least of the repeats: of a software renderer that is
+its work, whatever else the machine is doing. `--dump` saves the pictures, to compare what two versions draw
+(`--against DIR` prints the difference to an earlier dump).
 """
 
 from __future__ import annotations
@@ -20,6 +22,8 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from statistics import median
 from time import perf_counter, process_time
@@ -38,6 +42,7 @@ import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer import seen as frame_module  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.indirect.gather import GatherPicture  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.lighting.lighting import Lighting  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
@@ -50,11 +55,13 @@ from curvrefl.curvrefl_addon.renderer.tracing import tracer as tracer_module  # 
 from curvrefl.curvrefl_addon.renderer.tracing.path_light import PathLight  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.back_faces import BackFaces  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.mirror_solver import MirrorSolver  # noqa: E402
-from curvrefl.curvrefl_addon.report.cycles_reference import render_peer  # noqa: E402
+from curvrefl.curvrefl_addon.report.cycles_reference import LIGHTS, render_still, use_cycles, use_still_output  # noqa: E402
+from curvrefl.curvrefl_addon.report.direct_light import in_direct_light, mirrors_met  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
-from curvrefl.curvrefl_addon.scene.extract import extract_scene  # noqa: E402
-from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, find_reflectors, open_blend, view_of_camera  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.blend_file import open_blend  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.temporary_settings import temporary_settings  # noqa: E402
 
 WIDTH, HEIGHT = 640, 480
 
@@ -104,11 +111,15 @@ def _of_second(_self: Any, buffer: Any, *_arguments: Any, **_named: Any) -> Any:
     return buffer.frame_buffer
 
 
-def _of_met(_around: Any, _vertices: Any, _scalars: Any, classes: Any, met: Any, *_arguments: Any) -> Any:
-    return met.targets(classes)["all"]
+def _of_met(_around: Any, _vertices: Any, classes: Any, met: Any, *_arguments: Any) -> Any:
+    return met.target(classes)
 
 
 def _of_canvas(_self: Any, canvas: Any, *_arguments: Any, **_named: Any) -> Any:
+    return canvas.frame_buffer
+
+
+def _of_third(_self: Any, _by: Any, canvas: Any, *_arguments: Any, **_named: Any) -> Any:
     return canvas.frame_buffer
 
 
@@ -143,18 +154,12 @@ def taken_apart(watch: Stopwatch) -> Iterator[None]:
         (ShadePass, "_add_front", "front", ShadePass._add_front, _of_second),
         (tracer_module, "follow", "step", tracer_module.follow, _of_met),
         (PathLight, "add", "light", PathLight.add, _of_canvas),
+        (GatherPicture, "add", "gather", GatherPicture.add, _of_third),
     ]
     with ExitStack() as stack:
         for owner, attribute, name, act, target_of in passes:
             stack.enter_context(patch.object(owner, attribute, watch.timed(name, act, target_of)))
         yield
-
-
-def extracted(reflectors: list[bpy.types.Object]) -> SceneArrays:
-    """The open scene, read anew."""
-    scene = bpy.context.scene
-    assert scene is not None
-    return extract_scene(bpy.context.evaluated_depsgraph_get(), scene, reflectors)
 
 
 def passes_of(renderer: Renderer, view: View, repeats: int) -> dict[str, float]:
@@ -168,53 +173,110 @@ def passes_of(renderer: Renderer, view: View, repeats: int) -> dict[str, float]:
     return {name: median(run.get(name, 0.0) for run in runs) for name in runs[0]}
 
 
-def measure(path: Path, reflector: str, arguments: argparse.Namespace) -> None:
-    """Print the lines of one scene."""
-    open_blend(path)
+@dataclass(frozen=True)
+class Measured:
+    """One method at one number of sub-frames."""
+
+    method: str
+    samples: int
+    renderer: Renderer
+    first: str
+    """What its first picture took"""
+    frames: list[float] = field(default_factory=list)
+    processor: list[float] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        return f"{self.method}, {self.samples} sub-frame{'s' if self.samples > 1 else ''}"
+
+    def take_turn(self, view: View) -> None:
+        before = process_time()
+        self.frames.append(self.renderer.render(view).times_ms["frame"])
+        self.processor.append(1e3 * (process_time() - before))
+
+
+def started(arrays: SceneArrays, view: View, settings: Settings) -> Measured:
+    """With everything compiled and loaded."""
+    warm = Renderer(arrays, settings)
+    warm.render(view)
+    warm.free()
+    start = perf_counter()
+    renderer = Renderer(arrays, settings)
+    made = 1e3 * (perf_counter() - start)
+    watch = Stopwatch()
+    with taken_apart(watch):
+        first = renderer.render(view).times_ms["frame"]
+    renderer.settle()
+    bake = sum(shape.bake_ms for mirror in renderer.mirrors for shape in mirror.baked)
+    text = f"made {made:.0f} (bake {bake:.0f}), frame {first:.0f}, shadows {watch.times.get('shadows', 0.0):.0f}"
+    return Measured(settings.method, settings.samples, renderer, text)
+
+
+def measure(path: Path, mirrors: list[str], light: str, arguments: argparse.Namespace) -> None:
+    """Print the lines of the open file."""
     scene, view_layer = bpy.context.scene, bpy.context.view_layer
     assert scene is not None and view_layer is not None
-    reflectors = find_reflectors(scene, [reflector])
-    view = view_of_camera(scene, find_camera(scene), WIDTH, HEIGHT)
     times = []
     for _ in range(3):
         start = perf_counter()
-        arrays = extracted(reflectors)
+        arrays, view = read_render_scene(scene, view_layer, mirrors, WIDTH, HEIGHT)
         times.append(1e3 * (perf_counter() - start))
+    if light == "direct":
+        arrays = in_direct_light(arrays)
     triangles = sum(len(arrays.meshes[instance.mesh].triangles) for instance in arrays.instances)
-    cycles = render_peer(scene, view_layer, "cycles1", WIDTH, HEIGHT, "direct", arguments.cycles, 60.0)
+    settings = [
+        Settings(method=method, samples=int(samples))
+        for method in arguments.method.split(",")
+        for samples in arguments.samples.split(",")
+    ]
+    all_measured = [started(arrays, view, one) for one in settings]
+    cycles: list[float] = []
+
+    def cycles_turn() -> None:
+        cycles.append(1e3 * render_still(scene, view_layer).seconds)
+
+    with temporary_settings() as changes:
+        use_still_output(changes, scene, WIDTH, HEIGHT)
+        use_cycles(changes, scene, view_layer, 1, light, mirrors_met(arrays, settings[0].bounces))
+        render_still(scene, view_layer)
+        turns: list[Callable[[], None]] = [*(partial(one.take_turn, view) for one in all_measured), cycles_turn]
+        for number in range(arguments.repeats):
+            # (What comes after Cycles is slower than what does not.)
+            first = number % len(turns)
+            for turn in turns[first:] + turns[:first]:
+                turn()
     print(
-        f"{path.stem}: {triangles} triangles; extract {median(times):.1f}; Cycles 1 sample {cycles.timing.median:.0f} "
-        f"({cycles.timing.low:.0f} to {cycles.timing.high:.0f})"
+        f"{path.stem}, {', '.join(mirrors)}, {light} light: {triangles} triangles; extract {median(times):.1f}; "
+        f"Cycles 1 sample {quartiles(cycles, 0)}"
     )
-    for samples in [int(number) for number in arguments.samples.split(",")]:
-        settings = Settings(method=arguments.method, samples=samples)
-        warm = Renderer(arrays, settings)
-        warm.render(view)
-        warm.free()
-        start = perf_counter()
-        renderer = Renderer(arrays, settings)
-        made = 1e3 * (perf_counter() - start)
-        watch = Stopwatch()
-        with taken_apart(watch):
-            first = renderer.render(view).times_ms["frame"]
-        renderer.settle()
-        frames, processor = [], []
-        for _ in range(arguments.repeats):
-            before = process_time()
-            frames.append(renderer.render(view).times_ms["frame"])
-            processor.append(1e3 * (process_time() - before))
+    for measured in all_measured:
+        renderer = measured.renderer
         passes = passes_of(renderer, view, arguments.repeats)
-        frame = median(frames)
+        ratios = [peer / frame for peer, frame in zip(cycles, measured.frames, strict=True)]
         print(
-            f"  {samples} sub-frames: frame {frame:.1f} ({np.percentile(frames, 25):.1f} to "
-            f"{np.percentile(frames, 75):.1f}), processor {min(processor):.0f}, "
-            f"{cycles.timing.median / frame:.1f} times faster than Cycles 1 sample"
+            f"  {measured.name}: frame {quartiles(measured.frames, 1)}, processor {min(measured.processor):.0f}; "
+            f"ratio {quartiles(ratios, 2)} to Cycles 1 sample"
         )
         print("    " + ", ".join(f"{name} {time:.1f}" for name, time in passes.items()))
-        bake = sum(shape.bake_ms for mirror in renderer.mirrors for shape in mirror.baked)
-        print(f"    first: made {made:.0f} (bake {bake:.0f}), frame {first:.0f}, shadows {watch.times['shadows']:.0f}")
-        compare(renderer, view, f"{path.stem}_{samples}.npz", arguments.dump, arguments.against)
+        print(f"    first: {measured.first}", flush=True)
+        name = f"{path.stem}_{measured.method}_{measured.samples}.npz"
+        compare(renderer, view, name, arguments.dump, arguments.against)
         renderer.free()
+
+
+def quartiles(values: list[float], digits: int) -> str:
+    """The median, and the quartiles."""
+    low, middle, high = np.percentile(values, (25, 50, 75))
+    return f"{middle:.{digits}f} ({low:.{digits}f} to {high:.{digits}f})"
+
+
+def given(text: str) -> tuple[Path, list[str], str]:
+    """An argument FILE[:MIRROR[,MIRROR..][:LIGHT]]; without mirrors, those that the tests' scenes and the demo have."""
+    path, _, rest = text.partition(":")
+    names, _, light = rest.partition(":")
+    if light and light not in LIGHTS:
+        raise argparse.ArgumentTypeError(f"'{light}' is no light: choose from {', '.join(LIGHTS)}")
+    return Path(path), names.split(",") if names else [], light or "direct"
 
 
 def compare(renderer: Renderer, view: View, name: str, dump: Path | None, against: Path | None) -> None:
@@ -236,20 +298,18 @@ def compare(renderer: Renderer, view: View, name: str, dump: Path | None, agains
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("files", nargs="+", type=Path)
-    parser.add_argument("--reflector", default="", help="default: Mirror, or Kettle where there is no Mirror")
-    parser.add_argument("--method", default="secant_star")
-    parser.add_argument("--samples", default="1,2")
-    parser.add_argument("--repeats", type=int, default=15)
-    parser.add_argument("--cycles", type=int, default=5)
+    parser.add_argument("files", nargs="+", type=given, metavar="FILE[:MIRRORS[:LIGHT]]")
+    parser.add_argument("--method", default="exact", help="several take turns (%(default)s)")
+    parser.add_argument("--samples", default="1", help="sub-frames; several take turns (%(default)s)")
+    parser.add_argument("--repeats", type=int, default=9)
     parser.add_argument("--dump", type=Path)
     parser.add_argument("--against", type=Path)
     arguments = parser.parse_args()
     require_gpu()
-    for path in arguments.files:
+    for path, names, light in arguments.files:
         open_blend(path)
-        reflector = arguments.reflector or next(name for name in ("Mirror", "Kettle") if name in bpy.data.objects)
-        measure(path, reflector, arguments)
+        usual = [name for name in ("Mirror", "Kettle") if name in bpy.data.objects]
+        measure(path, names or usual[:1], light, arguments)
 
 
 if __name__ == "__main__":
