@@ -4,8 +4,8 @@
 // shows. A variant for each class, as many drivers run all branches of a pixel group. One of SHADES_BACKGROUND,
 // SHADES_SURFACE, SHADES_MIRROR, SHADES_MIRROR_OF_SURFACE, SHADES_MIRROR_OF_MIRROR and ENVIRONMENT is defined. With
 // MIRRORS_END surfaces that mirrors show have their own light alone. With SEEN_BY_MIRROR what sees all this is no
-// camera but a mirror.
-#if (defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)) && !defined(SKY_GATHERED)
+// camera but a mirror. With NO_QUADS each pixel looks up all directions of the sky.
+#if (defined(SHADES_SURFACE) || defined(SHADES_MIRROR_OF_SURFACE)) && !defined(SKY_GATHERED) && !defined(NO_QUADS)
 #define QUADS
 #endif
 #include "lighting/quad.glsl"

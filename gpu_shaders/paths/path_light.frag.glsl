@@ -3,7 +3,7 @@
 // Light that a path finds, times what is left of it on the way. One define says at which pixels: LIGHTS_MISSES (it met
 // nothing), LIGHTS_STOPS (a surface where it ends), LIGHTS_GOES_ON (a surface from which it goes on: what that shows
 // besides). With ON_PATH what a step has met (step.frag.glsl), else what the eye sees.
-#if defined(LIGHTS_STOPS) && defined(LIGHTING_WORLD) && !defined(SKY_GATHERED)
+#if defined(LIGHTS_STOPS) && defined(LIGHTING_WORLD) && !defined(SKY_GATHERED) && !defined(NO_QUADS)
 #define QUADS
 #endif
 #include "common/hash.glsl"

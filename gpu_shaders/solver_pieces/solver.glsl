@@ -6,7 +6,6 @@
 // Needs the uniform block `solver` (renderer/vertices/solve.py) and the sampler `positions`.
 #include "common/status.glsl"
 #include "common/invocation.glsl"
-#include "common/records.glsl"
 #include "common/vectors.glsl"
 
 // How the search for a reflection point ended; world space.

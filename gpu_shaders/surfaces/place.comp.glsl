@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vertices and corners of placed meshes into world space, a range of each; records as in renderer/geometry/chunk.py.
+// By fragments one pass has the vertices, and another (PLACES_CORNERS) the corners.
 #include "common/invocation.glsl"
-#include "common/records.glsl"
 
-void place_vertex(int index)
+vec4 placed_vertex(int index)
 {
   vec4 source = fetch_record(source_positions, index);
   int instance = INSTANCE_RECORDS * int(source.w + 0.5);
@@ -12,31 +12,56 @@ void place_vertex(int index)
   vec3 world = vec3(dot(fetch_record(instances, instance), point),
                     dot(fetch_record(instances, instance + 1), point),
                     dot(fetch_record(instances, instance + 2), point));
-  imageStore(positions, texel_of_record(index), vec4(world, fetch_record(instances, instance + 6).x));
+  return vec4(world, fetch_record(instances, instance + 6).x);
 }
 
-void place_corner(int index)
+// Both records of a corner.
+void place_corner(int index, out vec4 first, out vec4 second)
 {
-  vec4 first = fetch_record(source_corners, 2 * index);
-  vec4 second = fetch_record(source_corners, 2 * index + 1);
+  first = fetch_record(source_corners, 2 * index);
+  second = fetch_record(source_corners, 2 * index + 1);
   int instance = INSTANCE_RECORDS * int(fetch_record(source_positions, int(first.w + 0.5)).w + 0.5);
   vec3 normal = vec3(dot(fetch_record(instances, instance + 3).xyz, first.xyz),
                      dot(fetch_record(instances, instance + 4).xyz, first.xyz),
                      dot(fetch_record(instances, instance + 5).xyz, first.xyz));
   // As long as it was: normals between two others of a split mesh are shorter and must stay so
   // (renderer/geometry/split.py).
-  normal *= length(first.xyz) / max(length(normal), 1e-30);
-  imageStore(corners, texel_of_record(2 * index), vec4(normal, first.w));
-  imageStore(corners, texel_of_record(2 * index + 1), vec4(second.xyz, fetch_record(instances, instance + 6).y));
+  first.xyz = normal * (length(first.xyz) / max(length(normal), 1e-30));
+  second.w = fetch_record(instances, instance + 6).y;
+}
+
+bool is_in(int index, ivec2 first_and_count)
+{
+  return index >= first_and_count.x && index < first_and_count.x + first_and_count.y;
 }
 
 void main()
 {
-  int index = invocation();
-  if (index < range.y) {
-    place_vertex(range.x + index);
+#ifdef BY_FRAGMENTS
+  int record = invocation();
+#ifdef PLACES_CORNERS
+  if (!is_in(record >> 1, range.zw)) {
+    discard;
   }
-  if (index < range.w) {
-    place_corner(range.z + index);
+  vec4 first, second;
+  place_corner(record >> 1, first, second);
+  corners = (record & 1) == 0 ? first : second;
+#else
+  if (!is_in(record, range.xy)) {
+    discard;
   }
+  positions = placed_vertex(record);
+#endif
+#else
+  int vertex = record_from(range.x), corner = record_from(range.z);
+  if (is_in(vertex, range.xy)) {
+    WRITE_RECORD(positions, vertex, placed_vertex(vertex));
+  }
+  if (is_in(corner, range.zw)) {
+    vec4 first, second;
+    place_corner(corner, first, second);
+    WRITE_RECORD(corners, 2 * corner, first);
+    WRITE_RECORD(corners, 2 * corner + 1, second);
+  }
+#endif
 }

@@ -12,13 +12,14 @@ from ...errors import InputError
 from ...scene.arrays import Float32Array
 from .context import gpu_cache, most_texels
 from .records import TEXTURE_WIDTH, empty_record_texture, padded_count, record_texture
-from .shaders import Image, Piece, build_shader, dispatch
+from .shaders import Image, Piece
+from .ways.features import Features, features
+from .ways.record_pass import RecordPass, build_record_pass
 
 UNIT = 16
 """Regions begin at multiples of so many records: a float holds the quotient exactly"""
 SPARE = 1.25
 """Room for more when the texture has to grow"""
-_GROUP = 64
 
 
 class RecordRegions:
@@ -113,23 +114,23 @@ def _rounded(count: int) -> int:
 
 
 def _copy(source: Any, first: int, target: Any, start: int, count: int) -> None:
-    shader = _copy_shader()
+    copying = _copy_pass(features())
+    shader = copying.shader
     shader.bind()
     shader.uniform_int("range", (first, start, count, 0))
     shader.uniform_sampler("source", source)
-    shader.image("target", target)
-    dispatch(shader, count, _GROUP)
+    copying.run({"target": target}, count, start)
 
 
 @gpu_cache
-def _copy_shader() -> Any:
-    return build_shader(
+def _copy_pass(device: Features) -> RecordPass:
+    return build_record_pass(
         "copy records",
+        device,
         Piece(
             constants={"range": "IVEC4"},
             samplers={"source": "FLOAT_2D"},
             images={"target": Image()},
-            group=_GROUP,
             compute="common/copy_records.comp.glsl",
         ),
     )

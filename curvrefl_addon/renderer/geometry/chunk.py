@@ -22,7 +22,9 @@ from ...scene.arrays import InstanceArrays, Int32Array, MeshArrays
 from ..device.batches import indexed_batch
 from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
-from ..device.shaders import Image, Piece, build_shader, dispatch, named
+from ..device.shaders import Image, Piece, flags, named
+from ..device.ways.features import Features, features
+from ..device.ways.record_pass import RecordPass, build_record_pass
 from .chunk_attributes import CornerAttributes
 from .mesh_pieces import is_count
 
@@ -30,7 +32,6 @@ HOLDOUT = -1
 """Material index of what cuts a hole into the picture"""
 INSTANCE_RECORDS = 8
 """Per instance: rows of the matrix, of the normals' matrix, (object_id, mirror number, 0, 0), 0"""
-GROUP = 64
 CHUNK = Piece(samplers=named("FLOAT_2D", "positions", "corners"))
 """What `geometry.glsl` needs of a chunk"""
 MOST_RANGES = 8
@@ -226,16 +227,21 @@ class Chunk:
     def _place(self, ranges: Sequence[tuple[int, int, int, int]], sources: Any = None, positions: Any = None) -> None:
         """Run the compute pass over (first position, positions, first corner, corners)."""
         table = record_texture(self._table.reshape(-1, 4))
-        shader = _place_shader()
-        shader.bind()
-        shader.uniform_sampler("source_positions", sources or self._source_positions)
-        shader.uniform_sampler("source_corners", self._source_corners)
-        shader.uniform_sampler("instances", table)
-        shader.image("positions", positions or self.positions)
-        shader.image("corners", self.corners)
-        for numbers in ranges:
-            shader.uniform_int("range", numbers)
-            dispatch(shader, max(numbers[1], numbers[3]), GROUP)
+        device = features()
+        for what in ("both",) if device.compute else ("positions", "corners"):
+            placing = _place_pass(device, what)
+            shader = placing.shader
+            shader.bind()
+            shader.uniform_sampler("source_positions", sources or self._source_positions)
+            shader.uniform_sampler("source_corners", self._source_corners)
+            shader.uniform_sampler("instances", table)
+            images = {"positions": positions or self.positions, "corners": self.corners}
+            for numbers in ranges:
+                shader.uniform_int("range", numbers)
+                first, count = (numbers[0], max(numbers[1], numbers[3]))
+                if what == "corners":
+                    first, count = 2 * numbers[2], 2 * numbers[3]
+                placing.run(images, count, first)
 
 
 def _starts(counts: list[int]) -> NDArray[np.int64]:
@@ -272,15 +278,17 @@ def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
 
 
 @gpu_cache
-def _place_shader() -> Any:
-    return build_shader(
-        "place",
+def _place_pass(device: Features, what: str) -> RecordPass:
+    """`what`: "positions" or "corners", or "both" by compute."""
+    images = ("positions", "corners") if what == "both" else (what,)
+    return build_record_pass(
+        f"place {what}",
+        device,
         Piece(
             constants={"range": "IVEC4"},
             samplers=named("FLOAT_2D", "source_positions", "source_corners", "instances"),
-            images={"positions": Image(), "corners": Image()},
-            defines={"INSTANCE_RECORDS": INSTANCE_RECORDS},
-            group=GROUP,
+            images=dict.fromkeys(images, Image()),
+            defines={"INSTANCE_RECORDS": INSTANCE_RECORDS, **flags(*(["PLACES_CORNERS"] if what == "corners" else []))},
             compute="surfaces/place.comp.glsl",
         ),
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..device.shaders import Piece
+from ..device.ways.features import features as device_features
 from ..indirect.gather import NO_FEATURES
 from ..lighting.lighting import Features, Lighting, lighting_piece
 from ..rays.ray_scene import RAYS, RayScene
@@ -17,6 +18,8 @@ RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
+NO_QUADS = "NO_QUADS"
+"""Beside the features of lighting: each pixel looks up all directions of the sky, as the device has no `quads`"""
 LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})
 _SHADOWS = frozenset({"LIGHTING_MAPS", "LIGHTING_CUBES"})
 
@@ -42,6 +45,8 @@ def features_for(
     """Of the lighting, for what mirrors show, or for what the eye sees itself; `ends`: no more mirrors follow;
     `gathered`: of what is left to rays (`Gathering.features`)."""
     features = lighting.features | gathered
+    if not device_features().quads:
+        features |= {NO_QUADS}
     if ends:
         # (What has its own light alone is in no shadow.)
         return features | {MIRRORS_END}

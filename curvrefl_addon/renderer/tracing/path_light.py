@@ -17,7 +17,7 @@ from ..indirect.gather_shaders import shared_piece
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import ALPHA, ROUGH
 from ..programs.buffers import Buffers
-from ..shading.features import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, lighting_pieces, rays_of
+from ..shading.features import FILM_TRANSPARENT, LAMPS, NO_QUADS, RayShadows, features_for, lighting_pieces, rays_of
 from ..surfaces.canvas import Canvas
 from ..surfaces.pixel_classes import CLASS
 from ..surfaces.surface_buffer import SurfaceBuffer
@@ -59,7 +59,7 @@ class PathLight:
         surfaces where paths stop share.
         """
         is_shared = shared is not None and kind is PathClass.STOPS
-        shader, rays = self._shader(kind, before is not None, is_shared)
+        shader, rays, features = self._shader(kind, before is not None, is_shared)
         target = canvas.with_depth(classes)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"), target.bind(), scissored(self.around.window):
             set_viewport(0, 0, vertices.width, vertices.height)
@@ -73,7 +73,7 @@ class PathLight:
             if before is not None:
                 assert isinstance(vertices, PathVertices)
                 shader.uniform_sampler("before_position", before.position)
-                if _shares_in_quads(kind, self.lighting.features | features_of(self.gathers)):
+                if _shares_in_quads(kind, features):
                     shader.uniform_sampler("classes_before", classes_before)
                     shader.uniform_int("turn", sub_frame)
                 shader.uniform_sampler("path_way", vertices.way)
@@ -97,8 +97,8 @@ class PathLight:
         """Lamps may be met before surfaces."""
         return bool(self.lighting.features & LAMPS - {"LIGHTING_SUN"})
 
-    def _shader(self, kind: PathClass, on_path: bool, is_shared: bool) -> tuple[Any, Any]:
-        """And the rays that it needs bound, if any."""
+    def _shader(self, kind: PathClass, on_path: bool, is_shared: bool) -> tuple[Any, Any, Features]:
+        """And the rays that it needs bound, if any, and the features of the lighting that it is for."""
         features = self.lighting.features
         needs_shadows = kind is PathClass.STOPS
         names: set[str] = set()
@@ -119,7 +119,7 @@ class PathLight:
             names.add(FILM_TRANSPARENT)
         buffers = self.around.materials.buffers
         shader = _light_shader(kind, self.around.features, buffers, features, on_path, frozenset(names), is_shared)
-        return shader, rays_of(features, self.shadows)
+        return shader, rays_of(features, self.shadows), features
 
 
 _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "INT"})
@@ -127,7 +127,8 @@ _OF_QUADS = Piece(samplers={"classes_before": "DEPTH_2D"}, constants={"turn": "I
 
 def _shares_in_quads(kind: PathClass, lighting_features: Features) -> bool:
     """Whether pixels share the sky's shadows: where there are any, of surfaces that are lit as a whole."""
-    return kind is PathClass.STOPS and "LIGHTING_WORLD" in lighting_features and SKY_GATHERED not in lighting_features
+    is_lit = "LIGHTING_WORLD" in lighting_features and SKY_GATHERED not in lighting_features
+    return kind is PathClass.STOPS and is_lit and NO_QUADS not in lighting_features
 
 
 @gpu_cache

@@ -12,11 +12,13 @@ import numpy as np
 from ...scene.arrays import Float32Array
 from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, record_texture
-from ..device.shaders import Piece, dispatch, named, uniform_block
+from ..device.shaders import Piece, named, uniform_block
+from ..device.ways.features import Features, features
+from ..device.ways.record_pass import RecordPass
 from ..geometry.chunk import Chunk
 from .bounding_grid import BoundingGrid, bounding_grid
 from .solution import VertexSolution
-from .solve import GROUP, build_solver, plain_block
+from .solve import build_solver, plain_block
 
 _SAMPLERS = ("cells", "corner_numbers", "grid_points", "grid_virtual", "positions")
 
@@ -49,7 +51,8 @@ class ChunkGrid:
         solution = VertexSolution(empty_record_texture(self._count), empty_record_texture(self._count), self._count)
         # Bound by reference only: it has to outlive the dispatch.
         uniforms = uniform_block(plain_block(self._count))
-        shader = _interpolation_shader()
+        interpolation = _interpolation_pass(features())
+        shader = interpolation.shader
         shader.bind()
         shader.uniform_block("solver", uniforms)
         textures = (
@@ -61,12 +64,10 @@ class ChunkGrid:
         )
         for name, texture in zip(_SAMPLERS, textures, strict=True):
             shader.uniform_sampler(name, texture)
-        shader.image("reflection_points", solution.reflection_points)
-        shader.image("virtual_positions", solution.virtual_positions)
-        dispatch(shader, self._count, GROUP)
+        interpolation.run(solution.images, self._count)
         return solution
 
 
 @gpu_cache
-def _interpolation_shader() -> Any:
-    return build_solver("bisector_grid", "bisector grid", Piece(samplers=named("FLOAT_2D", *_SAMPLERS)))
+def _interpolation_pass(device: Features) -> RecordPass:
+    return build_solver("bisector_grid", "bisector grid", device, Piece(samplers=named("FLOAT_2D", *_SAMPLERS)))

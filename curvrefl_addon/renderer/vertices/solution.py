@@ -32,6 +32,11 @@ class VertexSolution:
     inputs: bytes = b""
     """All that it was solved from beside positions and maps"""
 
+    @property
+    def images(self) -> dict[str, Any]:
+        """By the names that solvers have for them."""
+        return {"reflection_points": self.reflection_points, "virtual_positions": self.virtual_positions}
+
     def read(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """P (n, 3), status (n,), iterations (n,), virtual positions with |PV| (n, 4); waits for the GPU."""
         points = read_records(self.reflection_points, self.count)

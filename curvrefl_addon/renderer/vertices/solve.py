@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The vertex solve: a compute shader finds the reflection point of every position of a geometry.
+"""The vertex solve: a shader finds the reflection point of every position of a geometry, by compute where it can.
 
 A method is one function, `solve` of its shader file `gpu_shaders/solvers/<method>.comp.glsl`, between what all share:
 `solver.glsl` before it and `solver_main.glsl` after it. What of the reflector it reads is named in the catalog and
@@ -10,7 +10,7 @@ bound from here.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -25,11 +25,12 @@ from ...scene.camera.view import View
 from ..device.context import gpu_cache
 from ..device.cubes import cube_texture
 from ..device.records import empty_index_texture, empty_record_texture, record_texture
-from ..device.shaders import Block, Image, Piece, build_shader, dispatch, flags, named, uniform_block
+from ..device.shaders import Block, Image, Piece, flags, named, uniform_block
 from ..device.uniform_struct import glsl_struct
+from ..device.ways.features import Features, features
+from ..device.ways.record_pass import MARKS, RecordPass, build_record_pass, marks_for
 from .solution import VertexSolution
 
-GROUP = 64
 MOST_STRAGGLERS_AT_ONCE = 1 << 14
 """Invocations of a clean-up pass, which share whatever the first pass has left"""
 SAMPLERS: dict[str, tuple[tuple[str, str], ...]] = {
@@ -154,13 +155,13 @@ class PreparedSolve:
         block["is_same_view"] = previous is not None and previous.inputs == inputs
         self.solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count, inputs)
         """There once it has run"""
-        self._method, self._entry = method, entry_of(method)
-        self._images = {
-            "reflection_points": self.solution.reflection_points,
-            "virtual_positions": self.solution.virtual_positions,
-        }
-        if self._entry.stragglers:
+        self._method, self._entry, self._device = method, entry_of(method), features()
+        self._images = self.solution.images
+        self._marks = None
+        if self._entry.stragglers and self._device.lists:
             self._images |= {"stragglers": empty_index_texture(count), "straggler_count": empty_index_texture(1)}
+        elif self._entry.stragglers and not self._device.compute:
+            self._marks = marks_for(self.solution.reflection_points)
         self._textures = {
             **reflector.textures,
             "positions": positions,
@@ -172,20 +173,31 @@ class PreparedSolve:
 
     def run(self) -> None:
         """Have the GPU do it; returns before it has."""
-        stragglers, count = self._entry.stragglers, self.solution.count
-        if stragglers:
+        self.run_first()
+        if name := self._entry.stragglers:
+            # A list is shared by as many invocations as there are.
+            count = self.solution.count
+            self._run(name, min(count, MOST_STRAGGLERS_AT_ONCE) if self._device.lists else count)
+
+    def run_first(self) -> None:
+        """The first of the two passes of a method that has two, else all."""
+        if "straggler_count" in self._images:
             self._images["straggler_count"].clear(format="UINT", value=(0,))
-        for name, most in ((self._method, count), (stragglers, min(count, MOST_STRAGGLERS_AT_ONCE))):
-            if not name:
-                continue
-            shader = _solver_shader(name, self._method, self._entry)
-            shader.bind()
-            shader.uniform_block("solver", self._uniforms)
-            for sampler in ("positions", *(sampler for _, sampler in _samplers(self._entry))):
-                shader.uniform_sampler(sampler, self._textures[sampler])
-            for image, texture in self._images.items():
-                shader.image(image, texture)
-            dispatch(shader, most, GROUP)
+        self._run(self._method, self.solution.count)
+
+    @property
+    def listed(self) -> tuple[Any, Any] | None:
+        """Textures of the list that the first pass makes and of its length, if it makes one."""
+        return (self._images["stragglers"], self._images["straggler_count"]) if "stragglers" in self._images else None
+
+    def _run(self, name: str, count: int) -> None:
+        solver = _solver_pass(name, self._method, self._entry, self._device)
+        shader = solver.shader
+        shader.bind()
+        shader.uniform_block("solver", self._uniforms)
+        for sampler in ("positions", *(sampler for _, sampler in _samplers(self._entry))):
+            shader.uniform_sampler(sampler, self._textures[sampler])
+        solver.run(self._images, count, marks=self._marks)
 
 
 def solve_region(
@@ -203,16 +215,15 @@ def solve_region(
     solution = VertexSolution(empty_record_texture(count), empty_record_texture(count), count)
     # Bound by reference only: it has to outlive the dispatch.
     uniforms = uniform_block(block)
-    shader = _region_shader()
+    solver = _region_pass(features())
+    shader = solver.shader
     shader.bind()
     shader.uniform_block("solver", uniforms)
     shader.uniform_sampler("positions", positions)
     shader.uniform_sampler("radial", reflector.textures["radial"])
     shader.uniform_sampler("region_masks", regions.masks)
     shader.uniform_sampler("region_seeds", regions.seeds)
-    shader.image("reflection_points", solution.reflection_points)
-    shader.image("virtual_positions", solution.virtual_positions)
-    dispatch(shader, count, GROUP)
+    solver.run(solution.images, count)
     return solution
 
 
@@ -281,7 +292,11 @@ _SOLVE = Piece(
     images={"reflection_points": Image(), "virtual_positions": Image()},
     blocks={"solver": Block("Solver", glsl_struct("Solver", _BLOCK))},
     defines={"LARGEST_COORDINATE": LARGEST_COORDINATE},
-    group=GROUP,
+)
+_SEEKING = replace(
+    _SOLVE,
+    images={**_SOLVE.images, "reflection_points": Image(is_read=True)},
+    defines={**_SOLVE.defines, **flags("SEEKS_STRAGGLERS")},
 )
 _POSITIONS = Piece(samplers={"positions": "FLOAT_2D"})
 _MAIN = Piece(compute="solver_pieces/solver_main.glsl")
@@ -293,23 +308,28 @@ _STRAGGLERS = Piece(
 )
 
 
-def build_solver(name: str, label: str, *pieces: Piece) -> Any:
-    """The shader around `solve` of `gpu_shaders/solvers/<name>.comp.glsl`, which needs these pieces."""
-    return build_shader(label, _SOLVE, *pieces, Piece(compute=f"solvers/{name}.comp.glsl"), _MAIN)
+def build_solver(name: str, label: str, device: Features, *pieces: Piece, around: Piece = _SOLVE) -> RecordPass:
+    """The pass around `solve` of `gpu_shaders/solvers/<name>.comp.glsl`, which needs these pieces."""
+    return build_record_pass(label, device, around, *pieces, Piece(compute=f"solvers/{name}.comp.glsl"), _MAIN)
 
 
 @gpu_cache
-def _solver_shader(name: str, method: str, entry: Method) -> Any:
-    """`gpu_shaders/solvers/<name>.comp.glsl` with what `method`, with this entry, gives its shaders."""
+def _solver_pass(name: str, method: str, entry: Method, device: Features) -> RecordPass:
+    """Of `gpu_shaders/solvers/<name>.comp.glsl`, with what `method`, with this entry, gives its shaders."""
     pieces = [_POSITIONS, Piece(samplers={sampler: kind for kind, sampler in _samplers(entry)})]
+    around, is_first = _SOLVE, name == method
     if entry.refracts:
         pieces.append(Piece(defines=flags("REFRACTS")))
-    if entry.stragglers:
-        pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if name == method else "SETTLES_STRAGGLERS"))]
-    return build_solver(name, f"{name} of {method}", *pieces)
+    if entry.stragglers and device.lists:
+        pieces += [_STRAGGLERS, Piece(defines=flags("LISTS_STRAGGLERS" if is_first else "TAKES_STRAGGLERS"))]
+    elif entry.stragglers and is_first and not device.compute:
+        pieces.append(MARKS)
+    elif not is_first and device.compute:
+        around = _SEEKING
+    return build_solver(name, f"{name} of {method}", device, *pieces, around=around)
 
 
 @gpu_cache
-def _region_shader() -> Any:
+def _region_pass(device: Features) -> RecordPass:
     maps = Piece(samplers={**named("FLOAT_CUBE", "radial", "region_masks"), "region_seeds": "FLOAT_2D"})
-    return build_solver("newton_region", "newton region", _POSITIONS, maps)
+    return build_solver("newton_region", "newton region", device, _POSITIONS, maps)

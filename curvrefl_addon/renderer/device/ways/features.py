@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of the device is used. It is asked when a pass is made or chosen; a device that has all of it pays nothing.
+
+What a driver says it has is one thing, whether its results are right another: `renderer/proofs` finds that out, and
+what has failed goes by the next way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
+
+
+@dataclass(frozen=True, slots=True)
+class Features:
+    """What passes may use; part of the key of each shader that depends on it."""
+
+    compute: bool = True
+    """Compute shaders write records; else each record is a fragment of a pass over the texture that holds it"""
+    atomics: bool = True
+    """A first pass lists what it leaves to a second one by image atomics; else the second looks at all records"""
+    quads: bool = True
+    """Derivatives tell the pixels of a quad apart, which share what they look up; else each looks up all"""
+
+    @property
+    def lists(self) -> bool:
+        """Whether a pass can make a list: an image that several invocations add to."""
+        return self.compute and self.atomics
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Names of what is not used."""
+        return tuple(field.name for field in fields(self) if not getattr(self, field.name))
+
+
+_used = Features()
+
+
+def features() -> Features:
+    """What passes use now."""
+    return _used
+
+
+def use_features(found: Features) -> None:
+    """From now on. What has been drawn or solved before is not done again."""
+    global _used
+    _used = found
+
+
+@contextmanager
+def only_features(found: Features) -> Iterator[None]:
+    """Use these meanwhile."""
+    before = features()
+    use_features(found)
+    try:
+        yield
+    finally:
+        use_features(before)
