@@ -17,6 +17,7 @@ from curvrefl.curvrefl_addon.renderer.rays.hierarchy_build import (
     build_all,
     build_all_quickly,
     build_quickly,
+    quick_steps,
 )
 
 BUILDS = {"best": build, "quick": build_quickly}
@@ -149,3 +150,22 @@ def test_trees_that_grow_side_by_side_are_those_that_grow_alone(
         assert together.levels == alone.levels
         for name in ("order", "link", "count", "low", "high"):
             np.testing.assert_array_equal(getattr(together, name), getattr(alone, name), err_msg=name)
+
+
+def test_a_quick_build_in_steps_is_the_build_at_once() -> None:
+    """Its steps are many, so that none takes long, and in each only a share of all there is to do is done."""
+    low, high = cloud(20_000)
+    steps = quick_steps([(low, high)])
+    count = 0
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            (stepped,) = end.value
+            break
+        count += 1
+    whole = build_quickly(low, high)
+    assert count > 15
+    check(stepped, low, high)
+    for name in ("order", "link", "count", "low", "high"):
+        np.testing.assert_array_equal(getattr(stepped, name), getattr(whole, name))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the viewport costs in Python, apart from the GPU: first picture, orbit, moving one of many, a large scene.
 
-    python tools/measure/measure_viewport.py [--repeats 20] [--scene NAME]
+    python tools/measure/redraws/measure_viewport.py [--repeats 20] [--scene NAME]
 
 The parts of `viewport.py` run without a window: reader, renderer, one sub-frame. *Wall* is a whole redraw. *Python* is
 the same redraw with draws, dispatches and clearing left out: on a software renderer these do the GPU's work themselves
@@ -21,11 +21,11 @@ from time import perf_counter, thread_time
 from typing import Any
 from unittest.mock import patch
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+TOOLS = Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(TOOLS), str(TOOLS / "measure")]
 
-import bootstrap
-import bpy
+import bootstrap  # noqa: E402
+import bpy  # noqa: E402
 
 bootstrap.load_package()
 
