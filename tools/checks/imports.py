@@ -33,6 +33,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.environments",),
     ("renderer.shown",),
     ("renderer",),
+    ("renderer.proofs",),
     ("renderer.measured",),
     ("report", "demo"),
     ("study",),

@@ -131,9 +131,10 @@ def prepare_solve(
     count: int,
     tolerance: float = 0.05,
     previous: VertexSolution | None = None,
+    steps: int = 0,
 ) -> PreparedSolve:
     """As `solve_vertices`, but nothing has been run yet."""
-    block = _vertices_block(method, view, reflector, count, tolerance=tolerance)
+    block = _vertices_block(method, view, reflector, count, steps, tolerance)
     return PreparedSolve(method, reflector, block, positions, count, previous)
 
 

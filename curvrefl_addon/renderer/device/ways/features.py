@@ -10,7 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
+
+FEATURES = ("compute", "atomics", "quads")
+"""Names of the fields of `Features` that say what a device has"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +26,17 @@ class Features:
     """A first pass lists what it leaves to a second one by image atomics; else the second looks at all records"""
     quads: bool = True
     """Derivatives tell the pixels of a quad apart, which share what they look up; else each looks up all"""
+    distrusted: frozenset[str] = field(default=frozenset(), compare=False)
+    """Methods that no way gets right: `auto` takes none of them"""
+
+    def without(self, *names: str) -> Features:
+        """The same with less."""
+        return Features(
+            compute=self.compute and "compute" not in names,
+            atomics=self.atomics and "atomics" not in names,
+            quads=self.quads and "quads" not in names,
+            distrusted=self.distrusted,
+        )
 
     @property
     def lists(self) -> bool:
@@ -32,7 +46,7 @@ class Features:
     @property
     def missing(self) -> tuple[str, ...]:
         """Names of what is not used."""
-        return tuple(field.name for field in fields(self) if not getattr(self, field.name))
+        return tuple(name for name in FEATURES if not getattr(self, name))
 
 
 _used = Features()

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fixed surfaces, meshes and views that proofs are about. Nothing is random: every device gets the same."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...optics.surfaces.cube_map import texel_directions
+from ...optics.surfaces.radial_surfaces import RadialSurface, unit
+from ...scene.arrays import Float32Array, Float64Array, MeshArrays
+from ...scene.camera.view import View
+
+EYE = np.array([2.3, -2.9, 1.8])
+ANGLE = np.radians(40.0)
+NEAR, FAR = 0.05, 100.0
+
+
+def view_of_origin(eye: Float64Array, width: int, height: int) -> View:
+    """From an eye (3,) to the origin, z up."""
+    forward = unit(-eye)
+    right = unit(np.cross(forward, [0.0, 0.0, 1.0]))
+    to_view = np.eye(4)
+    to_view[:3, :3] = right, np.cross(right, forward), -forward
+    to_view[:3, 3] = -to_view[:3, :3] @ eye
+    to_clip = np.zeros((4, 4))
+    to_clip[0, 0] = 1.0 / np.tan(0.5 * ANGLE)
+    to_clip[1, 1] = to_clip[0, 0] * width / height
+    to_clip[2, 2:] = -(FAR + NEAR) / (FAR - NEAR), -2.0 * FAR * NEAR / (FAR - NEAR)
+    to_clip[3, 2] = -1.0
+    return View(to_view, to_clip, width, height)
+
+
+def lines_of_sight(view: View) -> Float64Array:
+    """(h, w, 3) unit directions from the eye through the pixels' centers."""
+    y, x = np.mgrid[0 : view.height, 0 : view.width]
+    clip = [(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.ones(x.shape), np.ones(x.shape)]
+    far = np.stack(clip, axis=-1) @ np.linalg.inv(view.world_to_clip).T
+    return unit(far[..., :3] / far[..., 3:] - view.eye[:3])
+
+
+def radial_map(surface: RadialSurface, resolution: int) -> Float32Array:
+    """(6, n, n, 4) radius and gradient at the texels of a cube map."""
+    radius, gradient = surface.radius(texel_directions(resolution).reshape(-1, 3))
+    return np.column_stack([radius, gradient]).reshape(6, resolution, resolution, 4).astype(np.float32)
+
+
+def directions(count: int) -> Float64Array:
+    """(n, 3) unit vectors that fill the sphere evenly, on a spiral of golden angles."""
+    z = 1.0 - (2.0 * np.arange(count) + 1.0) / count
+    turn = np.arange(count) * np.pi * (3.0 - np.sqrt(5.0))
+    sine = np.sqrt(1.0 - z * z)
+    return np.column_stack([sine * np.cos(turn), sine * np.sin(turn), z])
+
+
+def vertices_around(surface: RadialSurface, count: int, farthest: float = 10.0) -> Float64Array:
+    """(n, 3) outside of a surface, from a hundredth of a radius to `farthest` away; as single precision holds them."""
+    u = directions(count)
+    away = 0.01 * (100.0 * farthest) ** ((np.arange(count) * 0.6180339887) % 1.0)
+    return as_stored(u * (surface.radius(u)[0] + away)[:, None])
+
+
+def as_stored(values: Float64Array) -> Float64Array:
+    """With no more digits than textures hold."""
+    return values.astype(np.float32).astype(np.float64)
+
+
+def records_of(points: Float64Array) -> Float32Array:
+    """(n, 4) of positions (n, 3)."""
+    return np.column_stack([points, np.ones(len(points))]).astype(np.float32)
+
+
+def ball(rings: int) -> MeshArrays:
+    """The unit ball as longitudes and latitudes, smooth."""
+    segments = 2 * rings
+    theta = np.linspace(0.0, np.pi, rings + 1)[:, None]
+    phi = np.arange(segments) * (2.0 * np.pi / segments)
+    ring = np.ones(segments)
+    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta) * ring], axis=-1)
+    a = (np.arange(rings)[:, None] * segments + np.arange(segments)).ravel()
+    b = (np.arange(rings)[:, None] * segments + (np.arange(segments) + 1) % segments).ravel()
+    lower, upper = np.column_stack([a, a + segments, b + segments]), np.column_stack([a, b + segments, b])
+    return _mesh(points.reshape(-1, 3), points.reshape(-1, 3), np.concatenate([lower[:-segments], upper[segments:]]))
+
+
+def square(half: float, height: float) -> MeshArrays:
+    """A square across z, seen from above."""
+    corners = np.array([[-half, -half, height], [half, -half, height], [half, half, height], [-half, half, height]])
+    return _mesh(corners, np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def _mesh(positions: Float64Array, normals: Float64Array, triangles: np.ndarray) -> MeshArrays:
+    return MeshArrays(
+        "of a proof",
+        positions.astype(np.float32),
+        np.arange(len(positions), dtype=np.int32),
+        normals.astype(np.float32),
+        None,
+        triangles.astype(np.int32),
+        np.zeros(len(triangles), np.int32),
+    )

@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rays through the hierarchies, against rays in numpy."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...optics.surfaces.mesh_rays import MeshRays
+from ...optics.surfaces.radial_surfaces import unit
+from ...scene.arrays import Float64Array, InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
+from ..device.batches import full_screen_triangle
+from ..device.context import gpu_cache
+from ..device.frame_buffers import frame_buffer
+from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
+from ..device.state import drawing_state, set_viewport
+from ..device.textures import empty_texture, read_texture, texture_2d
+from ..geometry.mesh_facts import MeshFactsCache
+from ..rays.ray_scene import RAYS, RayScene
+from ..surfaces.materials import TABLE, Materials
+from .cases import as_stored, ball, directions, square
+from .proof import Found, Work
+
+SIDE = 24
+"""Rays are a square of so many"""
+MOST_OFF = 1e-4
+"""Of a hit, in parts of the scene's size, and of its normal in radians"""
+OUTLIERS = 0.01
+"""Share of the rays that may do anything: along edges rounding decides"""
+
+
+def prove_walk() -> Work:
+    """Three placed meshes, seen by rays from a sphere around them to its inside."""
+    scene = things()
+    rays = RayScene(MeshFactsCache())
+    rays.follow(scene, {})
+    yield
+    origins = as_stored(5.0 * directions(SIDE * SIDE))
+    ways = as_stored(unit(2.2 * np.roll(directions(SIDE * SIDE), 97, axis=0) * [1.0, 1.0, 0.8] - origins))
+    place, facing = _walked(rays, Materials(scene), origins, ways)
+    yield
+    mesh, owner = joined(scene)
+    hits = mesh.first_hits(origins, ways)
+    met = hits.triangle >= 0
+    expected = np.where(met, owner[np.maximum(hits.triangle, 0)], 0)
+    points = origins + np.where(met, hits.distance, 0.0)[:, None] * ways
+    normal = hits.normal * -np.sign(np.einsum("ij,ij->i", hits.normal, ways))[:, None]
+    off = np.where(place[:, 3] == expected, 0.0, np.inf)
+    on = met & (place[:, 3] == expected)
+    off[on] = np.abs(place[on, :3] - points[on]).max(axis=1) / 5.0
+    # A hit is on the side of its triangle that the ray comes from; the normal between corners may lean over.
+    clear = on & (np.abs(np.einsum("ij,ij->i", hits.normal, ways)) > 0.2)
+    off[clear] = np.maximum(off[clear], np.linalg.norm(facing[clear, :3] - normal[clear], axis=1))
+    off[np.isnan(off)] = np.inf
+    kept = np.sort(off)[: int(len(off) * (1.0 - OUTLIERS))]
+    return Found(float(kept[-1]) if on.any() and (~met).any() else np.inf, MOST_OFF, "of the scene's size")
+
+
+def things() -> SceneArrays:
+    """A ball, the same turned and stretched, and a floor."""
+    stretched = np.array([[0.5, -0.4, 0.0, 1.2], [0.3, 0.6, 0.1, -0.8], [0.0, 0.2, 0.9, 0.5], [0.0, 0.0, 0.0, 1.0]])
+    moved = np.diag([0.8, 0.8, 0.8, 1.0])
+    moved[:3, 3] = -0.9, 0.4, 0.1
+    instances = [
+        InstanceArrays(f"{number}", number, mesh, matrix, (0,))
+        for number, (mesh, matrix) in enumerate([(0, moved), (0, stretched), (1, np.eye(4))], 1)
+    ]
+    return SceneArrays(
+        (ball(24), square(2.5, -1.0)), tuple(instances), (MaterialArrays("gray"),), (), (), WorldArrays()
+    )
+
+
+def joined(scene: SceneArrays) -> tuple[MeshRays, np.ndarray]:
+    """All triangles of a scene in world space, and the object_id (n,) of each."""
+    positions: list[Float64Array] = []
+    normals: list[Float64Array] = []
+    triangles, owners, first = [], [], 0
+    for instance in scene.instances:
+        mesh, matrix = scene.meshes[instance.mesh], instance.matrix
+        positions.append(mesh.positions @ matrix[:3, :3].T + matrix[:3, 3])
+        # (As long as this makes them: between corners they are mixed in object space.)
+        normals.append(mesh.corner_normals @ np.linalg.inv(matrix[:3, :3]))
+        triangles.append(mesh.triangles + first)
+        owners.append(np.full(len(mesh.triangles), instance.object_id))
+        first += len(mesh.positions)
+    return MeshRays(np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles)), np.concatenate(
+        owners
+    )
+
+
+def _walked(rays: RayScene, materials: Materials, origins: Float64Array, ways: Float64Array) -> list[np.ndarray]:
+    """Both outputs (n, 4) of `walk.frag.glsl`."""
+    textures = [
+        texture_2d(np.dstack([array.reshape(SIDE, SIDE, 3), np.ones((SIDE, SIDE))])) for array in (origins, ways)
+    ]
+    targets = [empty_texture(SIDE, SIDE) for _ in range(2)]
+    shader = _shader()
+    with drawing_state(), frame_buffer(*targets).bind():
+        set_viewport(0, 0, SIDE, SIDE)
+        shader.bind()
+        rays.bind(shader)
+        shader.uniform_sampler("materials", materials.table)
+        for name, texture in zip(("ray_origins", "ray_directions"), textures, strict=True):
+            shader.uniform_sampler(name, texture)
+        full_screen_triangle().draw(shader)
+    return [read_texture(target).reshape(-1, 4).astype(np.float64) for target in targets]
+
+
+@gpu_cache
+def _shader() -> Any:
+    return build_shader(
+        "proof of rays",
+        FULL_SCREEN,
+        RAYS,
+        TABLE,
+        Piece(
+            samplers=named("FLOAT_2D", "ray_origins", "ray_directions"),
+            outputs=named("VEC4", "hit_place", "hit_facing"),
+            fragment="proofs/walk.frag.glsl",
+        ),
+    )
