@@ -14,6 +14,7 @@ MOTION_CHOICES = (
     Choice("FULL", "Full", "Every pixel, also while something moves"),
     Choice("HALF", "Half", "A quarter of the pixels while something moves"),
     Choice("QUARTER", "Quarter", "A sixteenth of the pixels while something moves"),
+    Choice("AUTO", "Automatic", "As many pixels while something moves as are drawn in a thirtieth of a second"),
 )
 ENVIRONMENT_CHOICES = (
     Choice(

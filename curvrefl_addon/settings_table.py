@@ -179,7 +179,7 @@ class SceneSettings:
     """Properties of `Scene.curvrefl` that are not for the renderer to know."""
 
     motion_resolution: str = setting(
-        "HALF",
+        "AUTO",
         label="While Moving",
         text="Resolution of the reflections while the view or the scene moves",
         choices=MOTION_CHOICES,

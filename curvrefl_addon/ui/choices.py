@@ -15,7 +15,7 @@ PRESETS: dict[str, tuple[str, str, dict[str, Any]]] = {
     "BALANCED": (
         "Balanced",
         "Errors under half a pixel, smooth edges when the view rests",
-        {"pixel_tolerance": 0.5, "samples": 8, "map_resolution": 128, "motion_resolution": "HALF"},
+        {"pixel_tolerance": 0.5, "samples": 8, "map_resolution": 128, "motion_resolution": "AUTO"},
     ),
     "EXACT": (
         "Exact",

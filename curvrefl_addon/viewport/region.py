@@ -26,6 +26,7 @@ from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
 from ..scene.camera.lens import Lens, lens_of
 from ..scene.camera.view import View
+from .motion_resolution import FIXED, MotionResolution
 
 if TYPE_CHECKING:
     from .shown_scene import ViewportScene
@@ -34,8 +35,6 @@ LOADING_SECONDS = 0.05
 """In each redraw, for images of materials that are not there yet"""
 SETTLED_SECONDS = 0.15
 """After the last change the full resolution is drawn again"""
-DIVISORS = {"FULL": 1, "HALF": 2, "QUARTER": 4}
-"""Of `Scene.curvrefl.motion_resolution`"""
 
 
 class RegionPicture:
@@ -51,6 +50,7 @@ class RegionPicture:
         self._reflection: Reflection | None = None
         self._canvas: Canvas | None = None
         self._divisor = 1
+        self._motion = MotionResolution()
         self._is_sharp = True
         """Drawn without the lens"""
         self._sub_frames = 0
@@ -100,9 +100,12 @@ class RegionPicture:
         divisor, at_rest = 0, False
         if self._view is None or state != self._state or not _is_same(self._view, view):
             self._changed_at = now
-            divisor = DIVISORS.get(settings.motion_resolution, DIVISORS["HALF"])
+            divisor = FIXED.get(settings.motion_resolution, self._motion.divisor)
         elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
             divisor, at_rest = 1, True
+        follows_time = bool(divisor) and not at_rest and settings.motion_resolution not in FIXED
+        is_measured = follows_time and self._motion.wants_time()
+        begun = perf_counter()
         if divisor:
             self._start(view, divisor, diagnostic, is_timed, counters, at_rest)
         else:
@@ -117,6 +120,9 @@ class RegionPicture:
             if is_timed:
                 self._canvas.wait()
                 self._draw_ms = 1e3 * (perf_counter() - start)
+            if is_measured:
+                self._canvas.wait()
+                self._motion.note(1e3 * (perf_counter() - begun))
             self._sub_frames += 1
             if self._meter is not None:
                 self._meter.look(self._sub_frames)

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture that moves has as many pixels as its time leaves room for; one at rest has all, whatever was before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
+from curvrefl.curvrefl_addon.scene.camera.view import View
+from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
+from curvrefl.curvrefl_addon.settings_table import Settings
+from curvrefl.curvrefl_addon.viewport import region
+from curvrefl.curvrefl_addon.viewport.motion_resolution import BUDGET_MS
+from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture
+from small_scene import build_scene
+
+pytestmark = pytest.mark.usefixtures("gpu")
+
+WIDTH, HEIGHT = 48, 36
+
+
+class Device:
+    """Its time goes with the pixels of a canvas, and it has no other."""
+
+    def __init__(self, ms_per_pixel: float) -> None:
+        self._seconds_per_pixel = 1e-3 * ms_per_pixel
+        self._now = 0.0
+
+    def clock(self) -> float:
+        return self._now
+
+    def draw(self, canvas: Canvas) -> None:
+        self._now += self._seconds_per_pixel * canvas.texture.width * canvas.texture.height
+
+
+def small_renderer() -> tuple[Renderer, View]:
+    build_scene()
+    scene = bpy.context.scene
+    arrays, view = read_render_scene(scene, bpy.context.view_layer, ["Mirror Ball"], WIDTH, HEIGHT)
+    return Renderer(arrays, Settings(method="exact", samples=4)), view
+
+
+@pytest.mark.parametrize(("share_of_budget", "moving"), [(0.1, 1), (3.0, 2), (14.0, 4)])
+def test_pixels_follow_the_time_they_take(share_of_budget: float, moving: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    renderer, view = small_renderer()
+    device = Device(share_of_budget * BUDGET_MS / (WIDTH * HEIGHT))
+    monkeypatch.setattr(region, "perf_counter", device.clock)
+    monkeypatch.setattr(Canvas, "wait", lambda canvas: device.draw(canvas))
+    picture = RegionPicture(None, renderer)  # type: ignore[arg-type]
+    settings: Any = SimpleNamespace(
+        show="REFLECTION", motion_resolution="AUTO", stripe_direction=(0.0, 0.0, 1.0), stripe_count=3
+    )
+    options = SimpleNamespace(colors=DiagnosticColors())
+    for step in range(40):
+        turned = view.world_to_view.copy()
+        turned[0, 3] += 1e-3 * step
+        seen = replace(view, world_to_view=turned)
+        picture.advance(seen, settings, options, 0.01 * step, False, {})
+        assert picture._canvas is not None
+        if step == 0:
+            assert picture._canvas.texture.width == WIDTH // 2
+    assert (picture._canvas.texture.width, picture._canvas.texture.height) == (WIDTH // moving, HEIGHT // moving)
+    while picture.has_work:
+        picture.advance(seen, settings, options, 0.4 + 2.0 * SETTLED_SECONDS, False, {})
+    assert (picture._canvas.texture.width, picture._canvas.texture.height) == (WIDTH, HEIGHT)
+    still = renderer.render(seen).color()
+    mirror = picture.pixels()[..., 3] > 0.999
+    assert mirror.sum() > 100
+    assert np.abs(picture.pixels() - still)[mirror].max() < 1e-5
+    renderer.free()
