@@ -54,14 +54,14 @@ class Appearance:
         before, self._scene = self._scene, scene
         if scene.materials is not before.materials or scene.images is not before.images:
             self.materials.follow(scene)
-        elif difference.moved or difference.structure or scene.origin != before.origin:
+        elif difference.elsewhere or difference.structure or scene.origin != before.origin:
             self.materials.move(scene)
         self.lighting.follow(scene, difference)
         self.shade.follow(scene)
         self.indirect.follow(scene, difference)
         if difference.structure or not same_for_paths(before, scene):
             self._follow_paths(mirrors)
-        elif difference.moved and self.tracer is not None:
+        elif difference.elsewhere and self.tracer is not None:
             self.tracer.move(scene)
 
     def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None) -> bool:

@@ -290,7 +290,7 @@ class Renderer:
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
         if self._rays is None:
-            self._rays = RayScene(self.geometry.facts)
+            self._rays = RayScene(self.geometry.facts, self.geometry.uploads)
             self._rays.follow(self.scene, self._numbers)
         return self._rays
 

@@ -11,3 +11,15 @@ vec4 fetch_record(sampler2D records, int index)
 {
   return texelFetch(records, texel_of_record(index), 0);
 }
+
+// Three numbers of many that lie one after the other, whichever records they are in (`packed_texture`).
+vec3 fetch_three(sampler2D records, int index)
+{
+  int first = 3 * index;
+  vec4 one = fetch_record(records, first >> 2);
+  vec4 next = fetch_record(records, (first >> 2) + 1);
+  int skipped = first & 3;
+  vec3 odd = skipped == 1 ? one.yzw : vec3(one.w, next.xy);
+  vec3 even = skipped == 0 ? one.xyz : vec3(one.zw, next.x);
+  return (skipped & 1) == 1 ? odd : even;
+}

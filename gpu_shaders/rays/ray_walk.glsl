@@ -7,7 +7,7 @@
 // Records of an inner node, for each of its two children: lowest corner, link; highest corner, count. count 0: an
 // inner node, link is its number; count < 0: link is an instance; count > 0: link is the first of so many triangles.
 // Of a triangle: corner A; edges B - A and C - A; numbers of its corners and its material slot. Object space.
-// Of a corner: normal.
+// Of a corner: normal; number of its vertex.
 // Of an instance: three rows from world to object space; (object_id, mirror, what sees it, length that counts as
 // none on itself); (first records of nodes, triangles and corners over REGION_UNIT, first material); (number of
 // materials, first record of attributes over REGION_UNIT, first of their places, row of instance_table).

@@ -1,12 +1,46 @@
 // SPDX-FileCopyrightText: 2026 Curvrefl contributors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vertices and corners of placed meshes into world space, a range of each; records as in renderer/geometry/chunk.py.
-// By fragments one pass has the vertices, and another (PLACES_CORNERS) the corners.
+// By fragments one pass has the vertices, and another (PLACES_CORNERS) the corners. DEFORMED: of one instance, whose
+// mesh has deformed (renderer/geometry/vertex_uploads.py).
 #include "common/invocation.glsl"
+
+#ifdef DEFORMED
+// Object space, and the number of the instance.
+vec4 source_of_vertex(int index)
+{
+  return vec4(fetch_three(mesh_positions, index - range.x), float(deformed_instance));
+}
+
+vec3 normal_of_corner(int index)
+{
+  return fetch_three(mesh_normals, index - range.z);
+}
+
+int instance_of_vertex(int index)
+{
+  return deformed_instance;
+}
+#else
+vec4 source_of_vertex(int index)
+{
+  return fetch_record(source_positions, index);
+}
+
+vec3 normal_of_corner(int index)
+{
+  return fetch_record(source_corners, 2 * index).xyz;
+}
+
+int instance_of_vertex(int index)
+{
+  return int(fetch_record(source_positions, index).w + 0.5);
+}
+#endif
 
 vec4 placed_vertex(int index)
 {
-  vec4 source = fetch_record(source_positions, index);
+  vec4 source = source_of_vertex(index);
   int instance = INSTANCE_RECORDS * int(source.w + 0.5);
   vec4 point = vec4(source.xyz, 1.0);
   vec3 world = vec3(dot(fetch_record(instances, instance), point),
@@ -18,15 +52,16 @@ vec4 placed_vertex(int index)
 // Both records of a corner.
 void place_corner(int index, out vec4 first, out vec4 second)
 {
+  vec3 source = normal_of_corner(index);
   first = fetch_record(source_corners, 2 * index);
   second = fetch_record(source_corners, 2 * index + 1);
-  int instance = INSTANCE_RECORDS * int(fetch_record(source_positions, int(first.w + 0.5)).w + 0.5);
-  vec3 normal = vec3(dot(fetch_record(instances, instance + 3).xyz, first.xyz),
-                     dot(fetch_record(instances, instance + 4).xyz, first.xyz),
-                     dot(fetch_record(instances, instance + 5).xyz, first.xyz));
+  int instance = INSTANCE_RECORDS * instance_of_vertex(int(first.w + 0.5));
+  vec3 normal = vec3(dot(fetch_record(instances, instance + 3).xyz, source),
+                     dot(fetch_record(instances, instance + 4).xyz, source),
+                     dot(fetch_record(instances, instance + 5).xyz, source));
   // As long as it was: normals between two others of a split mesh are shorter and must stay so
   // (renderer/geometry/split.py).
-  first.xyz = normal * (length(first.xyz) / max(length(normal), 1e-30));
+  first.xyz = normal * (length(source) / max(length(normal), 1e-30));
   second.w = fetch_record(instances, instance + 6).y;
 }
 

@@ -38,6 +38,20 @@ def indexed_batch(triangles: np.ndarray) -> Any:
     return gpu.types.GPUBatch(type="TRIS", buf=vertices, elem=_elements(triangles))
 
 
+def by_material(triangles: np.ndarray, material: np.ndarray) -> tuple[tuple[int, Any], ...]:
+    """Batches of triangles (n, 3), whose materials are (n,)."""
+    if len(triangles) == 0:
+        return ()
+    if (material == material[0]).all():
+        return ((int(material[0]), indexed_batch(triangles)),)
+    order = np.argsort(material, kind="stable")
+    materials, starts = np.unique(material[order], return_index=True)
+    groups = np.split(order, starts[1:])
+    return tuple(
+        (int(number), indexed_batch(triangles[group])) for number, group in zip(materials, groups, strict=True)
+    )
+
+
 def bare_batch(count: int, kind: str = "TRIS") -> Any:
     """Attribute-less batch of so many vertices, for TRIS or POINTS."""
     vertices = gpu.types.GPUVertBuf(format=gpu.types.GPUVertFormat(), len=count)

@@ -28,6 +28,16 @@ def record_texture(records: np.ndarray) -> Any:
     return texture_2d(records.reshape(-1, TEXTURE_WIDTH, 4))
 
 
+def packed_texture(numbers: Float32Array) -> Any:
+    """Record texture of numbers, any shape, one after the other (`fetch_three` of records.glsl)."""
+    # (One more: who reads the last three looks at two records.)
+    records = np.empty((padded_count(numbers.size // 4 + 2), 4), np.float32)
+    flat = records.reshape(-1)
+    flat[: numbers.size] = numbers.reshape(-1)
+    flat[numbers.size :] = 0.0
+    return record_texture(records)
+
+
 def padded_count(count: int) -> int:
     """Records in the whole rows that hold so many, at least one row."""
     return max(-(-count // TEXTURE_WIDTH), 1) * TEXTURE_WIDTH

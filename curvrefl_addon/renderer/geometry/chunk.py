@@ -5,7 +5,8 @@
 A *position* is a vertex of a placed mesh; the solver works on positions. A *corner* adds normal and UV; triangles
 index corners. On the GPU all live in record textures (see `device/records.py`), and vertex shaders fetch them by
 gl_VertexID = corner index (`geometry.glsl`), so one set serves every pass. A compute pass (`place.comp.glsl`) makes
-the world-space records: when an instance moves, its matrix is all that is uploaded.
+the world-space records: when an instance moves, its matrix is all that is uploaded, and when its mesh deforms what
+`vertex_uploads` has of it.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.arrays import InstanceArrays, Int32Array, MeshArrays
-from ..device.batches import indexed_batch
+from ..device.batches import by_material, indexed_batch
 from ..device.context import gpu_cache
 from ..device.records import empty_record_texture, padded_count, record_texture
 from ..device.shaders import Image, Piece, flags, named
@@ -27,6 +28,7 @@ from ..device.ways.features import Features, features
 from ..device.ways.record_pass import RecordPass, build_record_pass
 from .chunk_attributes import CornerAttributes
 from .mesh_pieces import is_count
+from .vertex_uploads import VertexUploads
 
 HOLDOUT = -1
 """Material index of what cuts a hole into the picture"""
@@ -37,6 +39,8 @@ CHUNK = Piece(samplers=named("FLOAT_2D", "positions", "corners"))
 MOST_RANGES = 8
 """More moved instances than these are placed all in one dispatch"""
 
+type Range = tuple[int, int, int, int]
+"""First position, how many, first corner, how many"""
 type Pieces = frozenset[tuple[int, int]]
 """Pairs (index of an instance in its chunk, piece of its mesh)"""
 type Batches = tuple[tuple[int, Any], ...]
@@ -101,6 +105,10 @@ class Chunk:
         self._batches_of_casters: dict[tuple[Pieces, frozenset[int]], Batches] = {}
         self.revision = 0
         """Another one when positions are not the same any more"""
+        self.shape_revision = 0
+        """And when they are not in object space"""
+        self._deformed: dict[int, tuple[Any, Any]] = {}
+        """By instance textures of positions and normals (`VertexUploads`), in place of those it was made with"""
 
         corner_count = int(self._corner_starts[-1])
         sources = np.zeros((padded_count(self.position_count), 4), np.float32)
@@ -139,15 +147,48 @@ class Chunk:
         self.revision += 1
         self._fill_table(changed)
         if len(changed) > MOST_RANGES:
-            self._place(((0, self.position_count, 0, int(self._corner_starts[-1])),))
-            return
-        starts, corner_starts = self._position_starts.tolist(), self._corner_starts.tolist()
-        self._place(
-            [
-                (starts[i], starts[i + 1] - starts[i], corner_starts[i], corner_starts[i + 1] - corner_starts[i])
-                for i in changed
-            ]
-        )
+            if len(self._deformed) < len(self.placed):
+                self._place(((0, self.position_count, 0, int(self._corner_starts[-1])),))
+            deformed = set(self._deformed)
+        else:
+            self._place([self._range(index) for index in changed if index not in self._deformed])
+            deformed = self._deformed.keys() & changed.keys()
+        for index in deformed:
+            self._place([self._range(index)], deformed=index)
+
+    def deform(self, changed: Mapping[int, Placed], uploads: VertexUploads) -> None:
+        """Replace instances by the same with their vertices elsewhere (`is_deformed`), and what `move` does."""
+        ranges: dict[int, Range] = {}
+        for index, item in changed.items():
+            before = self.placed[index]
+            assert item.drawn is item.mesh, "parts of split edges cannot follow"
+            if before.pieces is not item.pieces:
+                self._caster_batches.clear()
+                self._batches_of_casters.clear()
+            first, count, first_corner, corner_count = self._range(index)
+            is_turned = (
+                before.drawn.corner_normals is not item.drawn.corner_normals
+                or before.mirror != item.mirror
+                or not np.array_equal(before.instance.matrix, item.instance.matrix)
+            )
+            ranges[index] = (first, count, first_corner, corner_count if is_turned else 0)
+            mesh = item.drawn
+            self._deformed[index] = uploads.texture(mesh.positions), uploads.texture(mesh.corner_normals)
+            self.placed[index] = item
+        if len(self._deformed) == len(self.placed):
+            # Nothing will be placed from there any more.
+            self._source_positions = None
+        self.revision += 1
+        self.shape_revision += 1
+        self._fill_table(changed)
+        for index, numbers in ranges.items():
+            self._place([numbers], deformed=index)
+
+    def _range(self, index: int) -> Range:
+        """Of an instance."""
+        first, end = self._position_starts[index : index + 2].tolist()
+        first_corner, corner_end = self._corner_starts[index : index + 2].tolist()
+        return (first, end - first, first_corner, corner_end - first_corner)
 
     def batches(self, keep: NDArray[np.bool_], holdouts: bool = False) -> Batches:
         """Triangles of the instances that `keep` (instances,) chooses, by material.
@@ -224,15 +265,24 @@ class Chunk:
         self._place(((0, count, 0, 0),), sources, points)
         return points
 
-    def _place(self, ranges: Sequence[tuple[int, int, int, int]], sources: Any = None, positions: Any = None) -> None:
-        """Run the compute pass over (first position, positions, first corner, corners)."""
+    def _place(
+        self, ranges: Sequence[Range], sources: Any = None, positions: Any = None, deformed: int | None = None
+    ) -> None:
+        """Run the pass over these; `deformed`: an instance whose mesh has, which they are of."""
+        if not ranges:
+            return
         table = record_texture(self._table.reshape(-1, 4))
         device = features()
         for what in ("both",) if device.compute else ("positions", "corners"):
-            placing = _place_pass(device, what)
+            placing = _place_pass(device, what, deformed is not None)
             shader = placing.shader
             shader.bind()
-            shader.uniform_sampler("source_positions", sources or self._source_positions)
+            if deformed is None:
+                shader.uniform_sampler("source_positions", sources or self._source_positions)
+            else:
+                shader.uniform_int("deformed_instance", deformed)
+                for name, texture in zip(("mesh_positions", "mesh_normals"), self._deformed[deformed], strict=True):
+                    shader.uniform_sampler(name, texture)
             shader.uniform_sampler("source_corners", self._source_corners)
             shader.uniform_sampler("instances", table)
             images = {"positions": positions or self.positions, "corners": self.corners}
@@ -263,32 +313,22 @@ def _materials(item: Placed) -> Int32Array:
     return materials[np.minimum(item.drawn.triangle_slot, len(materials) - 1)]
 
 
-def by_material(triangles: Int32Array, material: Int32Array) -> Batches:
-    """Batches of triangles (n, 3), whose materials are (n,)."""
-    if len(triangles) == 0:
-        return ()
-    if (material == material[0]).all():
-        return ((int(material[0]), indexed_batch(triangles)),)
-    order = np.argsort(material, kind="stable")
-    materials, starts = np.unique(material[order], return_index=True)
-    groups = np.split(order, starts[1:])
-    return tuple(
-        (int(number), indexed_batch(triangles[group])) for number, group in zip(materials, groups, strict=True)
-    )
-
-
 @gpu_cache
-def _place_pass(device: Features, what: str) -> RecordPass:
+def _place_pass(device: Features, what: str, is_deformed: bool) -> RecordPass:
     """`what`: "positions" or "corners", or "both" by compute."""
     images = ("positions", "corners") if what == "both" else (what,)
+    sources = ("mesh_positions", "mesh_normals") if is_deformed else ("source_positions",)
     return build_record_pass(
-        f"place {what}",
+        f"place {'deformed ' if is_deformed else ''}{what}",
         device,
         Piece(
-            constants={"range": "IVEC4"},
-            samplers=named("FLOAT_2D", "source_positions", "source_corners", "instances"),
+            constants={"range": "IVEC4", **({"deformed_instance": "INT"} if is_deformed else {})},
+            samplers=named("FLOAT_2D", *sources, "source_corners", "instances"),
             images=dict.fromkeys(images, Image()),
-            defines={"INSTANCE_RECORDS": INSTANCE_RECORDS, **flags(*(["PLACES_CORNERS"] if what == "corners" else []))},
+            defines={
+                "INSTANCE_RECORDS": INSTANCE_RECORDS,
+                **flags(*(["PLACES_CORNERS"] if what == "corners" else []), *(["DEFORMED"] if is_deformed else [])),
+            },
             compute="surfaces/place.comp.glsl",
         ),
     )

@@ -7,10 +7,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
 from .mesh_inside import is_closed
-from .mesh_pieces import MeshPieces, box_of, mesh_pieces
+from .mesh_pieces import MeshPieces, box_of, mesh_pieces, pieces_of_box
 from .solid import solid_side
 from .split import longest_edge
 from .split_normals import sharpest_bend, sharpest_split
@@ -21,6 +24,8 @@ class MeshFacts:
 
     def __init__(self, mesh: MeshArrays) -> None:
         self.mesh = mesh
+        self.loose: NDArray[np.int8] | None = None
+        """Of a mesh that deforms (triangles,) zeros, for `pieces_of_box`"""
 
     @cached_property
     def box(self) -> tuple[Float32Array, Float32Array]:
@@ -62,7 +67,7 @@ class MeshFacts:
     @cached_property
     def pieces(self) -> MeshPieces:
         """Planes on its hull and outlines, for shadow maps."""
-        return mesh_pieces(self.mesh)
+        return mesh_pieces(self.mesh) if self.loose is None else pieces_of_box(*self.box, self.loose)
 
 
 class MeshFactsCache:
@@ -76,6 +81,14 @@ class MeshFactsCache:
         if facts is None:
             facts = self._facts[id(mesh)] = MeshFacts(mesh)
         return facts
+
+    def deform(self, before: MeshArrays, mesh: MeshArrays) -> MeshFacts:
+        """Know a mesh as another one with its vertices elsewhere (`is_deformed`)."""
+        loose = self.of(before).loose
+        found = self.of(mesh)
+        if found.loose is None:
+            found.loose = np.zeros(len(mesh.triangles), np.int8) if loose is None else loose
+        return found
 
     def keep(self, meshes: Iterable[MeshArrays]) -> None:
         """Forget all others."""

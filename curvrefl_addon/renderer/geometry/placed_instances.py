@@ -12,13 +12,13 @@ from operator import is_not
 import numpy as np
 
 from ...memory import require_memory
-from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, MeshArrays, SceneArrays
+from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from .chunk import Placed
+from .split import split_mesh
+from .vertex_uploads import is_deformed
 
 CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 """(8, 3) which end of a box each of its corners has"""
-
-NO_BOXES: tuple[tuple[int, ...], Float64Array] = ((), np.zeros((0, 8, 4)))
 
 
 @dataclass(slots=True)
@@ -26,9 +26,16 @@ class Difference:
     """What an update changed."""
 
     moved: list[int] = field(default_factory=list)
-    """Indices of instances whose matrices changed, unless `structure`"""
+    """Indices of instances whose matrices alone changed, unless `structure`"""
+    deformed: list[int] = field(default_factory=list)
+    """And of those whose vertices are elsewhere in object space, their matrices too or not"""
     structure: bool = False
-    """Instances came, went or changed in more than their matrices"""
+    """Instances came, went or changed in more than that"""
+
+    @property
+    def elsewhere(self) -> list[int]:
+        """Indices of instances of either kind."""
+        return self.moved + self.deformed
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +82,16 @@ def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight)
     """(vertices, 3) in world axes about the star center."""
     shift = instance.matrix[:3, 3] - np.array(sight.center)
     return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
+
+
+def split_for(item: Placed, sights: Sequence[Sight], slack: float) -> tuple[MeshArrays, Int32Array]:
+    """The mesh of an instance with the edges halved that are long for some mirrors, `slack` times as finely as they
+    need, and the triangle that each of its triangles is a part of."""
+    drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
+    for sight in sights:
+        drawn, rows = split_mesh(drawn, relative_positions(drawn, item.instance, sight), slack * sight.angle)
+        parents = parents[rows]
+    return drawn, parents
 
 
 def stretches_of(matrices: Float64Array) -> Float64Array:
@@ -142,3 +159,10 @@ def differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) 
         and old.holdout == instance.holdout
         and old.shadow_set == instance.shadow_set
     )
+
+
+def differs_in_vertices_only(known: Placed, instance: InstanceArrays, mesh: MeshArrays, number: int) -> bool:
+    """Whether its mesh has its vertices elsewhere now, and it may be at another place. (Parts of split edges cannot
+    follow.)"""
+    is_whole = known.drawn is known.mesh and is_deformed(known.mesh, mesh)
+    return is_whole and differs_in_place_only(known, instance, number)

@@ -20,21 +20,22 @@ from numpy.typing import NDArray
 from ...scene.arrays import Float64Array, Int32Array, SceneArrays
 from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
-from .instance_bounds import InstanceBounds
+from .instance_bounds import ChunkBoxes, InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
-    NO_BOXES,
     Difference,
     Sight,
-    box_around,
     differs_in_place_only,
+    differs_in_vertices_only,
     matched,
     moved_alone,
     relative_positions,
     require_room,
+    split_for,
     stretches_of,
 )
-from .split import has_long_edges, split_mesh
+from .split import has_long_edges
+from .vertex_uploads import VertexUploads
 
 CHUNK_TRIANGLES = 1 << 16
 """A chunk takes no more instances when it has so many: small enough to build again while something is edited, large
@@ -51,16 +52,15 @@ class SceneGeometry:
     def __init__(self) -> None:
         self.chunks: list[Chunk] = []
         self.facts = MeshFactsCache()
+        self.uploads = VertexUploads()
+        """Of the meshes that deform"""
         self._bounds = InstanceBounds(self.facts)
         self.placed: list[Placed] = []
         """As the scene's instances"""
-        self.counters = {"chunks built": 0, "instances placed": 0, "meshes split": 0}
+        self.counters = {"chunks built": 0, "instances placed": 0, "instances deformed": 0, "meshes split": 0}
         self.revision = 0
         """Another one when chunks are not the same any more"""
-        self._boxes: dict[int, Float64Array] = {}
-        """By a chunk's id, (8, 4) homogeneous corners of a box around it, world space"""
-        self._joined_boxes = NO_BOXES
-        """Ids of the chunks asked for last, and their boxes"""
+        self._boxes = ChunkBoxes(self._bounds)
         self._sceneries: dict[int, list[tuple[Chunk, Batches]]] = {}
         """By the mirror's instance; of this revision, as the next"""
         self._seen: list[tuple[Chunk, Batches]] | None = None
@@ -100,6 +100,11 @@ class SceneGeometry:
                     known[index] = replace(same, instance=instance, mirror=number)
                     difference.moved.append(index)
                 continue
+            if item is not None and not anew and differs_in_vertices_only(item, instance, mesh, number):
+                pieces = self.facts.deform(item.mesh, mesh).pieces.triangle_piece
+                known[index] = Placed(instance, mesh, mesh, pieces, number)
+                difference.deformed.append(index)
+                continue
             dirty.append(index)
             if same is not None:
                 known[index] = Placed(instance, mesh, same.drawn, same.pieces, number)
@@ -122,8 +127,9 @@ class SceneGeometry:
         self._rows.clear()
         self._unchecked = set(range(len(placed)))
         self._move(difference.moved)
+        self._deform(difference.deformed)
         self._build(dirty, stale)
-        self.facts.keep([mesh for item in placed for mesh in (item.mesh, item.drawn)])
+        self._forget_meshes()
         return difference
 
     def refine(self, sights: Sequence[Sight]) -> None:
@@ -164,7 +170,7 @@ class SceneGeometry:
         if len(chunk.placed) > 1 or not chunk.placed[0].mirror:
             return "NONE"
         item = chunk.placed[0]
-        clip = self._box(chunk) @ view.world_to_clip.T
+        clip = self._boxes.of(chunk, self.rows_of(chunk)) @ view.world_to_clip.T
         if (clip[:, 2] <= -clip[:, 3]).any() or (clip[:, 3] <= 0.0).any():
             return "NONE"
         side = self.facts.of(item.drawn).solid_side * np.sign(np.linalg.det(item.instance.matrix[:3, :3]))
@@ -172,27 +178,13 @@ class SceneGeometry:
 
     def may_be_in(self, chunks: Sequence[Chunk], world_to_clip: Float64Array) -> NDArray[np.bool_]:
         """(chunks,) False for chunks that are outside of the view volume of a matrix (4, 4) for sure."""
-        clip = self._boxes_of(chunks) @ world_to_clip.T
+        clip = self._boxes.joined(chunks, self.rows_of) @ world_to_clip.T
         outside = (clip[..., :3] > clip[..., 3:]).all(axis=1) | (clip[..., :3] < -clip[..., 3:]).all(axis=1)
         return np.asarray(~outside.any(axis=1))
 
-    def _box(self, chunk: Chunk) -> Float64Array:
-        """(8, 4) homogeneous corners of a box around a chunk, world space."""
-        box = self._boxes.get(id(chunk))
-        if box is None:
-            box = self._boxes[id(chunk)] = box_around(self.box_corners(self.rows_of(chunk)).reshape(-1, 3))
-        return box
-
-    def _boxes_of(self, chunks: Sequence[Chunk]) -> Float64Array:
-        """(n, 8, 4) the same of several."""
-        key = tuple(map(id, chunks))
-        if self._joined_boxes[0] != key:
-            self._joined_boxes = key, np.array([self._box(chunk) for chunk in chunks]).reshape(-1, 8, 4)
-        return self._joined_boxes[1]
-
     def chunk_balls(self, chunks: Sequence[Chunk]) -> tuple[Float64Array, Float64Array]:
         """Centers (n, 3) and radii (n,) of balls around chunks, world space."""
-        boxes = self._boxes_of(chunks)[..., :3]
+        boxes = self._boxes.joined(chunks, self.rows_of)[..., :3]
         low, high = boxes.min(axis=1), boxes.max(axis=1)
         return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
@@ -244,27 +236,39 @@ class SceneGeometry:
     def _follow_moved(self, placed: list[Placed], difference: Difference) -> Difference:
         """Know the same instances, some at other places."""
         self.placed = placed
-        self._bounds.follow(placed, difference.moved)
-        self._unchecked.update(difference.moved)
+        self._bounds.follow(placed, difference.elsewhere)
+        self._unchecked.update(difference.elsewhere)
         self._move(difference.moved)
+        self._deform(difference.deformed)
         return difference
 
-    def _move(self, moved: Iterable[int]) -> None:
-        changed: dict[int, tuple[Chunk, dict[int, int]]] = {}
-        for index in moved:
-            chunk, local = self.place_of(index)
-            changed.setdefault(id(chunk), (chunk, {}))[1][local] = index
-            self.counters["instances placed"] += 1
-        for chunk, rows in changed.values():
+    def _move(self, moved: Sequence[int]) -> None:
+        self.counters["instances placed"] += len(moved)
+        for chunk, rows in self._by_chunk(moved):
             chunk.move({row: self.placed[index] for row, index in rows.items()})
-            self._grow_box(chunk, list(rows.values()))
+            self._boxes.grow(chunk, list(rows.values()))
 
-    def _grow_box(self, chunk: Chunk, moved: Sequence[int]) -> None:
-        """Make a known box hold these instances too; it gets no smaller until the chunk is built again."""
-        box = self._boxes.get(id(chunk))
-        if box is not None:
-            self._boxes[id(chunk)] = box_around(np.concatenate([box[:, :3], *self.box_corners(moved)]))
-            self._joined_boxes = NO_BOXES
+    def _deform(self, deformed: Sequence[int]) -> None:
+        self.counters["instances deformed"] += len(deformed)
+        for chunk, rows in self._by_chunk(deformed):
+            chunk.deform({row: self.placed[index] for row, index in rows.items()}, self.uploads)
+            self._boxes.forget(chunk)
+        if deformed:
+            self._forget_meshes()
+
+    def _by_chunk(self, indices: Iterable[int]) -> Iterable[tuple[Chunk, dict[int, int]]]:
+        """Chunks of instances, and indices of these in the scene by those in the chunk."""
+        found: dict[int, tuple[Chunk, dict[int, int]]] = {}
+        for index in indices:
+            chunk, row = self.place_of(index)
+            found.setdefault(id(chunk), (chunk, {}))[1][row] = index
+        return found.values()
+
+    def _forget_meshes(self) -> None:
+        """What is known of meshes that are gone."""
+        meshes = [mesh for item in self.placed for mesh in (item.mesh, item.drawn)]
+        self.facts.keep(meshes)
+        self.uploads.keep(meshes)
 
     def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
@@ -273,8 +277,7 @@ class SceneGeometry:
         if not dirty and not stale:
             return
         self.revision += 1
-        self._boxes.clear()
-        self._joined_boxes = NO_BOXES
+        self._boxes.forget_all()
         self._rows.clear()
         self._sceneries.clear()
         self._seen = None
@@ -338,11 +341,7 @@ class SceneGeometry:
             for sight in sights
         ):
             return False
-        slack = 1.0 if item.drawn is item.mesh else SLACK
-        drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
-        for sight in sights:
-            drawn, rows = split_mesh(drawn, relative_positions(drawn, item.instance, sight), slack * sight.angle)
-            parents = parents[rows]
+        drawn, parents = split_for(item, sights, 1.0 if item.drawn is item.mesh else SLACK)
         pieces = self.facts.of(item.mesh).pieces.triangle_piece
         self.placed[index] = replace(item, drawn=drawn, pieces=pieces[parents])
         self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)

@@ -70,7 +70,7 @@ class IndirectLight:
         is_same &= all(getattr(scene, name) == getattr(before, name) for name in ("reflectors", "origin", "caustics"))
         if scene.origin != before.origin:
             self.irradiance = None
-        if difference.structure or difference.moved or not is_same:
+        if difference.structure or difference.elsewhere or not is_same:
             self._needs_patches = self._needs_light = True
         same_light = scene.lights is before.lights and scene.world is before.world
         if not same_light or scene.diffuse_bounces != before.diffuse_bounces:

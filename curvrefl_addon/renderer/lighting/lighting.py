@@ -148,7 +148,7 @@ class Lighting:
         if difference.structure or scene.materials is not before.materials or scene.reflectors != before.reflectors:
             self._left_out = left_out(scene)
             self._of_surfaces = surface_features(scene)
-        moved = difference.moved
+        moved = difference.elsewhere
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
         planned = difference.structure or (bool(moved) and not self._holds(moved))

@@ -15,14 +15,14 @@ from ...scene.arrays import (
     LARGEST_COORDINATE,
     Float32Array,
     Float64Array,
-    InstanceArrays,
     MeshArrays,
 )
-from .hierarchy import Hierarchy
-from .ray_records import (
-    triangle_corners,
-)
+from .hierarchy import Boxes, Hierarchy
+from .hierarchy_fit import HierarchyFit
+from .ray_records import attribute_records, corner_records, node_records, triangle_corners, triangle_records
 
+REGIONS = 4
+"""Of a mesh: nodes, triangles, corners, attributes"""
 AT_ONCE = 500_000
 """Triangles of meshes that are built or uploaded together: more would gain nothing and take memory"""
 
@@ -42,6 +42,20 @@ class MeshRays:
     """Of the tree when it was built; vertices may have moved since"""
     is_best: bool
     """`improve` leaves the tree as it is"""
+    box: Boxes
+    """Lowest and highest corner (3,) around it"""
+    fit: HierarchyFit | None = None
+    """Once it deforms; the boxes of `hierarchy` are those of before then"""
+
+    @property
+    def is_judged(self) -> bool:
+        """It has deformed, and what its tree costs now is to be looked at."""
+        return self.fit is not None and self.fit.is_judged
+
+    @property
+    def present_hierarchy(self) -> Hierarchy:
+        """With boxes of the mesh as it is."""
+        return self.hierarchy if self.fit is None else self.hierarchy.fitted(*triangle_boxes(self.mesh, self.kept))
 
     @cached_property
     def topology(self) -> tuple[int, int]:
@@ -59,6 +73,15 @@ class MeshTree:
     cost: float
     is_best: bool
 
+    def records(self) -> tuple[Float32Array, ...]:
+        """What each of its REGIONS holds."""
+        return (
+            node_records(self.hierarchy, self.hierarchy.link, self.hierarchy.count),
+            triangle_records(self.mesh, self.kept[self.hierarchy.order]),
+            corner_records(self.mesh),
+            attribute_records(self.mesh),
+        )
+
 
 def batches_of[Item](items: list[Item], sizes: list[int]) -> Iterator[list[Item]]:
     """The items in turn, some together whose sizes add up to no more than AT_ONCE, or one that is larger."""
@@ -72,21 +95,6 @@ def batches_of[Item](items: list[Item], sizes: list[int]) -> Iterator[list[Item]
         total += size
     if batch:
         yield batch
-
-
-def all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
-    """What the records of an instance are made of beside its matrix."""
-    return (
-        instance.object_id,
-        instance.mesh,
-        instance.materials,
-        instance.visible_camera,
-        instance.visible_glossy,
-        instance.visible_shadow,
-        instance.visible_transmission,
-        instance.holdout,
-        instance.shadow_set,
-    )
 
 
 def of_same_topology(mesh: MeshArrays, known: Collection[MeshRays]) -> MeshRays | None:
@@ -125,8 +133,8 @@ def triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> tuple[Float32Ar
 
 def world_boxes(items: list[MeshRays], matrices: Float64Array) -> tuple[Float32Array, Float32Array]:
     """Boxes (n, 3) around placed meshes: around the box around the mesh, and a little more than rounding takes."""
-    low = np.array([item.hierarchy.low[0] for item in items], np.float64)
-    high = np.array([item.hierarchy.high[0] for item in items], np.float64)
+    low = np.array([item.box[0] for item in items], np.float64)
+    high = np.array([item.box[1] for item in items], np.float64)
     center, half = 0.5 * (low + high), 0.5 * (high - low)
     middle = np.einsum("nij,nj->ni", matrices[:, :3, :3], center) + matrices[:, :3, 3]
     reach = np.einsum("nij,nj->ni", np.abs(matrices[:, :3, :3]), half)

@@ -112,6 +112,8 @@ def triangle_records(mesh: MeshArrays, order: NDArray[np.int64]) -> Float32Array
 def corner_records(mesh: MeshArrays) -> Float32Array:
     records = np.zeros((len(mesh.corner_vertex), 4), np.float32)
     records[:, :3] = mesh.corner_normals
+    # (for `hierarchy_fit`)
+    records[:, 3] = mesh.corner_vertex
     return records
 
 

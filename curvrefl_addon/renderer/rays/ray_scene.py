@@ -3,8 +3,8 @@
 """The scene as rays need it: a hierarchy over the triangles of every mesh, and one over the placed meshes.
 
 A mesh's hierarchy is in object space and made once for all its instances, quickly at first; `improve` makes it better
-while nothing else is to be done. A mesh that deforms keeps the tree of its topology with new boxes. What moves
-changes the top level alone. All of it is one record texture (see `ray_walk.glsl`).
+while nothing else is to be done. A mesh that deforms keeps the tree of its topology, whose boxes are fitted on the GPU
+(`hierarchy_fit`). What moves changes the top level alone. All of it is one record texture (see `ray_walk.glsl`).
 """
 
 from __future__ import annotations
@@ -14,44 +14,41 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...errors import InputError
-from ...scene.arrays import InstanceArrays, MeshArrays, SceneArrays
+from ...scene.arrays import LARGEST_COORDINATE, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.shaders import Piece
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
-from ..geometry.placed_instances import others
+from ..geometry.vertex_uploads import VertexUploads
 from ..paths.features import lets_straight_on
-from .hierarchy import Boxes, Hierarchy
-from .hierarchy_build import HierarchyBuild, build, build_all, build_all_quickly
+from .elsewhere import Elsewhere, things_elsewhere
+from .hierarchy import Hierarchy
+from .hierarchy_build import HierarchyBuild, build
+from .hierarchy_fit import HierarchyFit
 from .mesh_rays import (
+    REGIONS,
     MeshRays,
     MeshTree,
-    all_but_place,
     batches_of,
     of_same_topology,
     triangle_boxes,
     triangles_with_a_place,
     world_boxes,
 )
+from .mesh_trees import WORSE, trees_of
 from .ray_instances import INSTANCE_RECORDS, fill_records
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
     InstanceFlag,
     NumberLists,
-    attribute_records,
-    corner_records,
     node_records,
     put_boxes,
-    triangle_records,
 )
 
-PARTS = 4
-"""Regions of a mesh"""
 STACK = 64
 """Levels of the top and the deepest mesh together"""
 RAYS = Piece(
@@ -68,26 +65,18 @@ RAYS = Piece(
     },
 )
 """What `ray_walk.glsl` needs"""
-FEW = 4096
-"""A mesh of no more triangles gets the best tree at once: 15 milliseconds at most in place of 8, and rays look at a
-third of the boxes, also while the mesh deforms and nothing can be improved"""
-MOST_IMPROVED = 400_000
-"""A mesh of more triangles keeps the tree of the quick build: a step of the better one, 0.4 microseconds a triangle,
-would be felt in a viewport"""
-WORSE = 1.4
-"""A top level whose cost has grown by this factor since it was built is built anew"""
 
 
 class RayScene:
     """Hierarchies of one scene on the GPU. `follow` before the first use."""
 
-    def __init__(self, facts: MeshFactsCache) -> None:
+    def __init__(self, facts: MeshFactsCache, uploads: VertexUploads) -> None:
         self.regions = RecordRegions()
         counted = ("hierarchies built", "hierarchies fitted", "hierarchies improved", "top levels built")
         self.counters = dict.fromkeys(counted, 0)
         self.build_ms = 0.0
         """Of the last time that meshes came"""
-        self._facts = facts
+        self._facts, self._uploads = facts, uploads
         self._left_out: list[MeshArrays] = []
         """Of which some triangles have no place"""
         self._meshes: dict[int, MeshRays] = {}
@@ -131,15 +120,11 @@ class RayScene:
         clear = frozenset(index for index in seen_through if lets_straight_on(scene.materials[index]))
         attributes = attributes_of(scene)
         is_same = (seen_through, clear, attributes) == (self._seen_through, self._clear, self._attributes)
-        moved = self._moved(scene, numbers) if is_same else None
+        found = self._elsewhere(scene, numbers) if is_same else None
         self._seen_through, self._clear, self._attributes = seen_through, clear, attributes
         self._followed = (scene, dict(numbers))
-        if moved is not None:
-            for index in moved:
-                self._instances[self._place_of[index]] = scene.instances[index]
-            if moved:
-                self._fill([self._place_of[index] for index in moved])
-                self._store_top(is_same=True)
+        if found is not None:
+            self._follow_places(scene, found)
             return
         self._read_meshes(scene)
         known = [
@@ -155,19 +140,67 @@ class RayScene:
         if instances:
             self._place(is_same)
 
-    def _moved(self, scene: SceneArrays, numbers: Mapping[int, int]) -> list[int] | None:
-        """Instances (with triangles) that have another matrix, where nothing else has changed since the last time."""
+    def _elsewhere(self, scene: SceneArrays, numbers: Mapping[int, int]) -> Elsewhere | None:
+        """What is not where it was; None where more has changed, or a tree cannot be fitted where it is."""
         if self._followed is None:
             return None
-        before, numbers_before = self._followed
-        if len(scene.instances) != len(before.instances) or numbers != numbers_before:
+        found = things_elsewhere(*self._followed, scene, numbers)
+        if found is None or not all(self._can_deform(*pair) for pair in found.meshes):
             return None
-        if list(map(id, scene.meshes)) != list(map(id, before.meshes)):
-            return None
-        found = others(before.instances, scene.instances)
-        if any(all_but_place(before.instances[index]) != all_but_place(scene.instances[index]) for index in found):
-            return None
-        return [index for index in found if index in self._place_of]
+        return found
+
+    def _can_deform(self, before: MeshArrays, mesh: MeshArrays) -> bool:
+        item = self._meshes.get(id(before))
+        if item is None or len(item.kept) < len(mesh.triangles) or not HierarchyFit.serves(item.hierarchy, mesh):
+            return False
+        low, high = self._facts.of(mesh).box
+        return bool(np.maximum(np.abs(low), np.abs(high)).max() < LARGEST_COORDINATE)
+
+    def _follow_places(self, scene: SceneArrays, found: Elsewhere) -> None:
+        """Where nothing else has changed."""
+        places = [self._place_of[index] for index in found.instances if index in self._place_of]
+        for index in found.instances:
+            if index in self._place_of:
+                self._instances[self._place_of[index]] = scene.instances[index]
+        if found.meshes:
+            self._mesh_of = [scene.meshes[instance.mesh] for instance in self._instances]
+        if self._deform(found.meshes):
+            self._place(is_same=True)
+        elif places:
+            self._fill(places)
+            self._store_top(is_same=True)
+
+    def _deform(self, pairs: list[tuple[MeshArrays, MeshArrays]]) -> bool:
+        """Fit the trees of meshes, as they were and as they are; returns whether any had to be built anew."""
+        items = [self._meshes.pop(id(before)) for before, _ in pairs]
+        for item, (before, mesh) in zip(items, pairs, strict=True):
+            self._meshes[id(mesh)] = item
+            item.mesh, item.box = mesh, self._facts.of(mesh).box
+            if self._build is not None and self._build[0] is item:
+                self._build = None
+            if self._rebuild_if_worse(item):
+                continue
+            item.fit = item.fit or HierarchyFit(item.hierarchy)
+            item.fit.fit(self.regions, item.starts, before, mesh, self._uploads)
+            self.counters["hierarchies fitted"] += 1
+        return any(self._meshes[id(item.mesh)] is not item for item in items)
+
+    def _rebuild_if_worse(self, item: MeshRays) -> bool:
+        """Build the tree of a mesh that deforms anew where it has been found to be bad; returns whether it has."""
+        if item.fit is None or not item.is_judged or item.fit.cost() < WORSE * item.cost:
+            return False
+        return self._replace(item, trees_of([(item.mesh, item.kept, None)], self.counters))
+
+    def _replace(self, item: MeshRays, trees: list[MeshTree]) -> bool:
+        """Put another tree in the place of a mesh's own; False where there is no room for both."""
+        try:
+            # (The regions of the other are free only then.)
+            self._store(trees)
+        except InputError:
+            # What is there serves as well, only slower.
+            return False
+        self._free(item)
+        return True
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -179,11 +212,15 @@ class RayScene:
     @property
     def can_improve(self) -> bool:
         """Whether `improve` would do anything."""
-        return self._build is not None or any(not item.is_best for item in self._meshes.values())
+        return self._build is not None or any(not item.is_best or item.is_judged for item in self._meshes.values())
 
     def improve(self) -> None:
         """Go on making the trees better: one step, about a third of a microsecond for each triangle of a mesh."""
         if self._build is None:
+            for item in [item for item in self._meshes.values() if item.is_judged]:
+                if self._rebuild_if_worse(item):
+                    self._place(is_same=True)
+                    return
             waiting = [item for item in self._meshes.values() if not item.is_best]
             if not waiting:
                 return
@@ -199,14 +236,8 @@ class RayScene:
         self._build = None
         better = growth.finished()
         chosen.is_best = True
-        if better.cost() < chosen.hierarchy.cost():
-            try:
-                # (This puts the better one in the place of the other, whose regions are free only then.)
-                self._store([MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)])
-            except InputError:
-                # No room for both: what is there serves as well, only slower.
-                return
-            self._free(chosen)
+        tree = MeshTree(chosen.mesh, chosen.kept, better, better.cost(), is_best=True)
+        if better.cost() < chosen.present_hierarchy.cost() and self._replace(chosen, [tree]):
             self.counters["hierarchies improved"] += 1
             self._place(is_same=True)
 
@@ -230,7 +261,7 @@ class RayScene:
                 self._left_out.append(mesh)
             if len(kept):
                 fresh.append((mesh, kept, of_same_topology(mesh, gone.values())))
-        trees = self._trees(fresh)
+        trees = trees_of(fresh, self.counters)
         for item in gone.values():
             self._forget(item)
         for batch in batches_of(trees, [len(tree.kept) for tree in trees]):
@@ -238,51 +269,18 @@ class RayScene:
         if fresh:
             self.build_ms = 1e3 * (perf_counter() - start)
 
-    def _trees(self, fresh: list[tuple[MeshArrays, NDArray[np.int64], MeshRays | None]]) -> list[MeshTree]:
-        """Of meshes that have come, or were another with their vertices elsewhere."""
-        trees: list[MeshTree] = []
-        to_build: list[tuple[MeshArrays, NDArray[np.int64], Boxes, Hierarchy | None]] = []
-        for mesh, kept, before in fresh:
-            boxes = triangle_boxes(mesh, kept)
-            fitted = None
-            if before is not None and np.array_equal(before.kept, kept):
-                fitted = before.hierarchy.fitted(*boxes)
-                if fitted.cost() < WORSE * before.cost:
-                    self.counters["hierarchies fitted"] += 1
-                    trees.append(MeshTree(mesh, kept, fitted, before.cost, before.is_best))
-                    continue
-            to_build.append((mesh, kept, boxes, fitted))
-        for is_best, build_them in ((True, build_all), (False, build_all_quickly)):
-            group = [item for item in to_build if (len(item[1]) <= FEW) == is_best]
-            for batch in batches_of(group, [len(kept) for _, kept, _, _ in group]):
-                built = build_them([boxes for _, _, boxes, _ in batch])
-                for (mesh, kept, _, fitted), tree in zip(batch, built, strict=True):
-                    # One that has come apart may still be better than one that is built quickly.
-                    better = fitted if fitted is not None and fitted.cost() < tree.cost() else tree
-                    trees.append(MeshTree(mesh, kept, better, better.cost(), is_best or len(kept) > MOST_IMPROVED))
-        self.counters["hierarchies built"] += len(to_build)
-        return trees
-
     def _store(self, trees: list[MeshTree]) -> None:
         """All at once: each would be an upload, and make the texture grow, of its own."""
-        parts = [
-            part
-            for tree in trees
-            for part in (
-                node_records(tree.hierarchy, tree.hierarchy.link, tree.hierarchy.count),
-                triangle_records(tree.mesh, tree.kept[tree.hierarchy.order]),
-                corner_records(tree.mesh),
-                attribute_records(tree.mesh),
-            )
-        ]
+        parts = [part for tree in trees for part in tree.records()]
         sizes = [len(part) for part in parts]
         # (What has no records gets no region.)
         stored = iter(self.regions.put([part for part in parts if len(part)]))
         starts = [next(stored) if size else 0 for size in sizes]
         for index, tree in enumerate(trees):
-            own = slice(PARTS * index, PARTS * (index + 1))
+            own = slice(REGIONS * index, REGIONS * (index + 1))
+            box = tree.hierarchy.low[0], tree.hierarchy.high[0]
             self._meshes[id(tree.mesh)] = MeshRays(
-                tree.mesh, tree.hierarchy, tree.kept, starts[own], sizes[own], tree.cost, tree.is_best
+                tree.mesh, tree.hierarchy, tree.kept, starts[own], sizes[own], tree.cost, tree.is_best, box
             )
 
     def _forget(self, item: MeshRays) -> None:

@@ -26,8 +26,9 @@ from numpy.typing import NDArray
 from ...optics import status
 from ...scene.arrays import Float32Array, Int32Array
 from ...scene.camera.view import View
+from ..device.batches import by_material
 from ..device.records import read_records, record_texture
-from ..geometry.chunk import Chunk, by_material
+from ..geometry.chunk import Chunk
 from ..geometry.split import number_pairs, subdivide
 from .solution import Pieces, SolvedChunk, VertexSolution
 

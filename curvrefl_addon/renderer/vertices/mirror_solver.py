@@ -55,7 +55,7 @@ class MirrorSolver:
         self._screen_maps = ScreenMaps()
         self._regions: tuple[Any, RegionTextures] | None = None
         """With the map that they are of"""
-        self._grids: dict[int, tuple[Chunk, float, ChunkGrid]] = {}
+        self._grids: dict[int, tuple[Chunk, tuple[float, int], ChunkGrid]] = {}
 
     def solve(
         self,
@@ -230,6 +230,7 @@ class MirrorSolver:
 
     def _grid(self, chunk: Chunk, share: float) -> ChunkGrid:
         known = self._grids.get(id(chunk))
-        if known is None or known[1] != share:
-            known = self._grids[id(chunk)] = (chunk, share, ChunkGrid(chunk, share))
+        key = (share, chunk.shape_revision)
+        if known is None or known[1] != key:
+            known = self._grids[id(chunk)] = (chunk, key, ChunkGrid(chunk, share))
         return known[2]

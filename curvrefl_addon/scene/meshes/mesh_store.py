@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import heappop, heappush
+from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import MeshArrays
 from ..remarks import Remark
@@ -27,9 +29,20 @@ EMPTY = MeshArrays(
 )
 """At the numbers of meshes that are gone: those of the others stay"""
 
+_ARRAYS = (
+    "corner_vertex",
+    "triangles",
+    "triangle_slot",
+    "corner_normals",
+    "corner_uv",
+    "corner_attributes",
+)
+"""Of `MeshArrays`, that may stay while a mesh deforms"""
 type Source = bpy.types.Object | HairSystem
 type _Key = tuple[int, MeshNeeds, bool]
 """Address of the evaluated mesh, what is read of it, whether wound the other way round"""
+type _Shape = tuple[int, MeshNeeds, bool]
+"""`session_uid` of an object, the rest as of a key: the same where the mesh has been evaluated anew"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +58,7 @@ class StoredMesh:
     """`session_uid` of data-blocks whose change of geometry changes the mesh"""
     reach: float
     """Largest distance of a vertex from the object's origin, or more"""
+    shape: _Shape
 
 
 class MeshStore:
@@ -60,6 +74,8 @@ class MeshStore:
         """Numbers of `EMPTY` meshes, a heap"""
         self._replaced: dict[int, MeshArrays] = {}
         """By signature, arrays that were dropped since the last walk"""
+        self._shapes: dict[_Shape, MeshArrays] = {}
+        """The same by what they were read of"""
 
     def begin(self) -> None:
         """Before a walk through all instances."""
@@ -70,6 +86,7 @@ class MeshStore:
         for key in set(self._stored) - self._used:
             self._drop(key)
         self._replaced.clear()
+        self._shapes.clear()
 
     def forget_all(self) -> None:
         """Any may have changed; those whose arrays come out the same stay the same objects all the same."""
@@ -91,13 +108,15 @@ class MeshStore:
         self._used.add(key)
         if key not in self._stored:
             owners = frozenset((owner, obj.original.session_uid, obj.data.original.session_uid))
+            shape = (obj.original.session_uid, needs, is_mirrored)
             if is_mirrored:
                 plain = self.read(source, owner, needs, is_mirrored=False)
                 arrays, dropped, remarks = mirrored(self.meshes[plain.number]), plain.dropped, plain.remarks
             else:
                 arrays, dropped, remarks = self._read(source, needs)
-            reach = 2.0 * float(np.abs(arrays.positions).max(initial=0.0))
-            self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach)
+            arrays = self._replaced.get(arrays.signature) or with_known_arrays(arrays, self._shapes.get(shape))
+            reach = 2.0 * max(float(arrays.positions.max(initial=0.0)), -float(arrays.positions.min(initial=0.0)))
+            self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach, shape)
         return self._stored[key]
 
     def _read(self, source: Source, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
@@ -114,8 +133,7 @@ class MeshStore:
         return reading.mesh, reading.dropped, tuple(remarks)
 
     def _number(self, arrays: MeshArrays) -> int:
-        """The lowest free number for these arrays, or for the same ones as they were before."""
-        arrays = self._replaced.get(arrays.signature, arrays)
+        """The lowest free number for these arrays."""
         if self._free:
             number = heappop(self._free)
             self.meshes[number] = arrays
@@ -126,9 +144,27 @@ class MeshStore:
     def _drop(self, key: _Key) -> None:
         stored = self._stored.pop(key)
         arrays = self.meshes[stored.number]
-        self._replaced[arrays.signature] = arrays
+        self._replaced[arrays.signature] = self._shapes[stored.shape] = arrays
         self.meshes[stored.number] = EMPTY
         heappush(self._free, stored.number)
+
+
+def with_known_arrays(arrays: MeshArrays, known: MeshArrays | None) -> MeshArrays:
+    """A mesh with those arrays of another one that hold the same: of one that deforms all but two stay the same
+    objects."""
+    if known is None:
+        return arrays
+    kept: dict[str, Any] = {}
+    for name in _ARRAYS:
+        new, old = getattr(arrays, name), getattr(known, name)
+        if new is not None and old is not None and new.dtype == old.dtype and np.array_equal(_words(new), _words(old)):
+            kept[name] = old
+    return replace(arrays, **kept)
+
+
+def _words(array: NDArray[Any]) -> NDArray[Any]:
+    """The same numbers as whole ones: what is no number is itself, and no zero another one."""
+    return array.view(np.int32)
 
 
 def _read_surface(obj: Source, needs: MeshNeeds) -> MeshReading:

@@ -18,6 +18,7 @@ from curvrefl.curvrefl_addon.renderer.geometry.chunk_attributes import (
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import SceneGeometry
 from curvrefl.curvrefl_addon.renderer.geometry.split import split_mesh
+from curvrefl.curvrefl_addon.renderer.geometry.vertex_uploads import VertexUploads
 from curvrefl.curvrefl_addon.renderer.programs.instance_table import PLAIN_VALUES, InstanceTable
 from curvrefl.curvrefl_addon.renderer.rays.ray_instances import INSTANCE_RECORDS
 from curvrefl.curvrefl_addon.renderer.rays.ray_records import TRIANGLE_RECORDS
@@ -135,7 +136,7 @@ def test_rays_find_the_attributes_of_what_they_hit(gpu: None) -> None:
     meshes = (mesh(1.0, HEAT, TINT), mesh(2.0, MAP), mesh(3.0))
     scene = scene_of(*meshes)
     order = attributes_of(scene)
-    rays = RayScene(MeshFactsCache())
+    rays = RayScene(MeshFactsCache(), VertexUploads())
     rays.follow(scene, {})
     instance = f"rays_top.y + {INSTANCE_RECORDS} * (index / 3)"
     triangle = f"REGION_UNIT * int(fetch_record(rays, {instance} + 4).y)"

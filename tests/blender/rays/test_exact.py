@@ -13,9 +13,10 @@ from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.frame import Frame
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_inside import holds_point, is_closed
+from curvrefl.curvrefl_addon.renderer.geometry.vertex_uploads import VertexUploads
 from curvrefl.curvrefl_addon.renderer.mirrors import mirror as mirror_module
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror
-from curvrefl.curvrefl_addon.renderer.rays import ray_scene
+from curvrefl.curvrefl_addon.renderer.rays import mesh_trees
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import RayScene
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
@@ -36,7 +37,7 @@ EYES = ((0.0, -5.0, 1.5), (3.0, 2.5, 4.0))
 def test_every_pixel_shows_what_its_ray_meets_first(mirror: str, best: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     if not best:
         # Or these small meshes would get the best tree at once.
-        monkeypatch.setattr(ray_scene, "FEW", 0)
+        monkeypatch.setattr(mesh_trees, "FEW", 0)
     pixels = wrong = ties = 0
     for seed, eye in enumerate(EYES):
         scene = hall(mirror, seed)
@@ -170,7 +171,7 @@ def same(one: Frame, other: Frame) -> bool:
 def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer(monkeypatch: pytest.MonkeyPatch) -> None:
     """Things move, deform, go and come back; fitted and improved trees show the same as those just built."""
     # Or these small meshes would get the best tree at once.
-    monkeypatch.setattr(ray_scene, "FEW", 0)
+    monkeypatch.setattr(mesh_trees, "FEW", 0)
     view = look_at(np.array(EYES[0]), np.zeros(3), 120, 90, 0.6)
     scene = hall("vase", 0, clutter=8)
     renderer = Renderer(scene, Settings(method="exact", samples=1))
@@ -206,7 +207,7 @@ def test_a_tree_that_comes_apart_slowly_is_built_anew() -> None:
     scene = hall("sphere", 0, clutter=1)
     ball = scene.meshes[1]
     shuffled = ball.positions[np.random.default_rng(0).permutation(len(ball.positions))]
-    rays = RayScene(MeshFactsCache())
+    rays = RayScene(MeshFactsCache(), VertexUploads())
     rays.follow(scene, {0: 1})
     built = rays.counters["hierarchies built"]
     for share in np.linspace(0.0, 1.0, 60, dtype=np.float32)[1:]:

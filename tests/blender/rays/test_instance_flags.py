@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
 from curvrefl.curvrefl_addon.renderer.geometry.mesh_facts import MeshFactsCache
+from curvrefl.curvrefl_addon.renderer.geometry.vertex_uploads import VertexUploads
 from curvrefl.curvrefl_addon.renderer.rays.ray_records import InstanceFlag
 from curvrefl.curvrefl_addon.renderer.rays.ray_scene import INSTANCE_RECORDS, RayScene
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, SceneArrays
@@ -60,7 +61,7 @@ def test_who_sees_an_instance_follows_its_switches(
     changes: dict[str, bool], lost: InstanceFlag, gained: InstanceFlag
 ) -> None:
     scene = a_mirror_and_a_ball()
-    rays = RayScene(MeshFactsCache())
+    rays = RayScene(MeshFactsCache(), VertexUploads())
     rays.follow(scene, {0: 1})
     assert flags_of_ball(rays)[0] == ALL
     rays.follow(with_ball(scene, **changes), {0: 1})
@@ -69,7 +70,7 @@ def test_who_sees_an_instance_follows_its_switches(
 
 def test_what_becomes_glass_knows_how_it_sees_itself() -> None:
     scene = a_mirror_and_a_ball()
-    rays = RayScene(MeshFactsCache())
+    rays = RayScene(MeshFactsCache(), VertexUploads())
     rays.follow(scene, {0: 1})
     assert flags_of_ball(rays)[0] == ALL
     gray, chrome = scene.materials

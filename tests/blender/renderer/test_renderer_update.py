@@ -74,6 +74,31 @@ def edit_mirror(scene: SceneArrays) -> SceneArrays:
     return replace(scene, meshes=(radial_mesh(Bumpy(0.1), 64), *scene.meshes[1:]))
 
 
+def wave_ball(scene: SceneArrays) -> SceneArrays:
+    """Its vertices, and the normals with them, not the topology."""
+    ball = scene.meshes[1]
+    waves = 1.0 + 0.1 * np.sin(6.0 * ball.positions[:, 2:] + 1.0)
+    normals = ball.corner_normals * np.array([1.0, 1.0, 1.4], np.float32)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    waved = replace(ball, positions=(ball.positions * waves).astype(np.float32), corner_normals=normals)
+    return replace(scene, meshes=(scene.meshes[0], waved, *scene.meshes[2:]))
+
+
+def wave_floor(scene: SceneArrays) -> SceneArrays:
+    """No plane on the hull any more."""
+    floor = scene.meshes[3]
+    raised = floor.positions + np.array(
+        [[0.0, 0.0, 0.4], [0.0, 0.0, 0.0], [0.0, 0.0, 0.2], [0.0, 0.0, 0.0]], np.float32
+    )
+    return replace(scene, meshes=(*scene.meshes[:3], replace(floor, positions=raised)))
+
+
+def wave_mirror(scene: SceneArrays) -> SceneArrays:
+    mirror = scene.meshes[0]
+    squeezed = mirror.positions * np.array([1.0, 0.9, 0.8], np.float32)
+    return replace(scene, meshes=(replace(mirror, positions=squeezed), *scene.meshes[1:]))
+
+
 def paint_ball(scene: SceneArrays) -> SceneArrays:
     return replace(scene, materials=(replace(scene.materials[0], base_color=(1.0, 0.1, 0.1)), *scene.materials[1:]))
 
@@ -113,6 +138,9 @@ def no_shadow(scene: SceneArrays) -> SceneArrays:
         (stretch_mirror, 1),
         (edit_ball, 0),
         (edit_mirror, 1),
+        (wave_ball, 0),
+        (wave_floor, 0),
+        (wave_mirror, 1),
         (paint_ball, 0),
         (dim, 0),
         (move_lamp, 0),

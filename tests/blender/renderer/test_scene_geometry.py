@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.device.records import read_records
+from curvrefl.curvrefl_addon.renderer.device.ways.features import Features, only_features
 from curvrefl.curvrefl_addon.renderer.geometry.placed_instances import Sight
 from curvrefl.curvrefl_addon.renderer.geometry.scene_geometry import CHUNK_TRIANGLES, SceneGeometry
 from curvrefl.curvrefl_addon.renderer.geometry.split import has_long_edges
@@ -106,6 +107,17 @@ def move_mirror(scene: SceneArrays) -> SceneArrays:
     return with_instance(scene, 0, matrix=matrix(98))
 
 
+def bend(scene: SceneArrays) -> SceneArrays:
+    """A mesh of eight instances, of which one moves as well."""
+    bent = replace(scene.meshes[2], positions=np.sin(2.0 * scene.meshes[2].positions))
+    return with_instance(replace(scene, meshes=(*scene.meshes[:2], bent, *scene.meshes[3:])), 6, matrix=matrix(96))
+
+
+def bend_mirror(scene: SceneArrays) -> SceneArrays:
+    bent = replace(scene.meshes[0], corner_normals=scene.meshes[0].corner_normals[::-1].copy())
+    return replace(scene, meshes=(bent, *scene.meshes[1:]))
+
+
 def edit(scene: SceneArrays) -> SceneArrays:
     return replace(scene, meshes=(scene.meshes[0], soup(7, 50), *scene.meshes[2:]))
 
@@ -126,6 +138,8 @@ def unseen_by_mirrors(scene: SceneArrays) -> SceneArrays:
     ("act", "placed", "built"),
     [
         (lambda scene: scene, 0, 0),
+        (bend, 0, 0),
+        (bend_mirror, 0, 0),
         (move, 1, 0),
         (move_many, 19, 0),
         (move_mirror, 1, 0),
@@ -240,6 +254,57 @@ def test_what_no_mirror_sees_is_not_split() -> None:
     geometry.update(scene, {0: 1})
     geometry.refine([Sight((0.0, 0.0, 0.1), 0.1, 0)])
     assert geometry.counters["meshes split"] == 0
+
+
+@pytest.mark.parametrize("device", [Features(), Features(compute=False)], ids=["compute", "fragments"])
+def test_what_deforms_is_uploaded_once_and_moves_as_it_is(device: Features) -> None:
+    """One mesh of eight instances, in a chunk with others; then few of them move, many, and what is made anew."""
+    with only_features(device):
+        scene = a_scene([soup(20, seed) for seed in range(4)], 30)
+        geometry = SceneGeometry()
+        geometry.update(scene, {0: 1})
+        assert geometry.uploads.count == 0, "nothing is kept where nothing deforms"
+        scene = bend(scene)
+        difference = geometry.update(scene, {0: 1})
+        assert sorted(difference.elsewhere) == sorted(difference.deformed) == [2, 6, 10, 14, 18, 22, 26]
+        assert geometry.uploads.count == 2, "positions and normals"
+        for act in (move, move_many, bend, bend_mirror, unseen_by_mirrors, bend):
+            scene = act(scene)
+            geometry.update(scene, {0: 1})
+            assert_is_scene(geometry, scene)
+        assert geometry.uploads.count == 6, "two meshes' positions more, whose normals stay, and two of the mirror's"
+        fresh = SceneGeometry()
+        fresh.update(scene, {0: 1})
+        found, expected = world_triangles(geometry), world_triangles(fresh)
+        for number, triangles in expected.items():
+            np.testing.assert_array_equal(found[number], triangles)
+        np.testing.assert_array_equal(geometry.box_corners(range(30)), fresh.box_corners(range(30)))
+
+
+def test_another_topology_is_built_anew() -> None:
+    scene = a_scene([soup(20, seed) for seed in range(4)], 30)
+    geometry = SceneGeometry()
+    geometry.update(scene, {0: 1})
+    scene = bend(scene)
+    geometry.update(scene, {0: 1})
+    turned = replace(scene.meshes[2], triangles=scene.meshes[2].triangles[:, ::-1].copy())
+    scene = replace(scene, meshes=(*scene.meshes[:2], turned, *scene.meshes[3:]))
+    assert geometry.update(scene, {0: 1}).deformed == []
+    assert_is_scene(geometry, scene)
+
+
+def test_boxes_of_chunks_hold_what_has_deformed() -> None:
+    scene = a_scene([soup(20, seed) for seed in range(4)], 30)
+    geometry = SceneGeometry()
+    geometry.update(scene, {0: 1})
+    geometry.chunk_balls(geometry.chunks)
+    grown = replace(scene.meshes[2], positions=9.0 * scene.meshes[2].positions)
+    scene = replace(scene, meshes=(*scene.meshes[:2], grown, *scene.meshes[3:]))
+    geometry.update(scene, {0: 1})
+    centers, radii = geometry.chunk_balls(geometry.chunks)
+    for chunk, center, radius in zip(geometry.chunks, centers, radii, strict=True):
+        places = read_records(chunk.positions, chunk.position_count)[:, :3]
+        assert np.linalg.norm(places - center, axis=1).max() <= radius * 1.0001
 
 
 def test_bounds_of_what_moved_are_those_of_geometry_made_anew() -> None:

@@ -6,7 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import MeshPieces, mesh_pieces, outline
+from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import (
+    ROOM_TO_DEFORM,
+    MeshPieces,
+    box_of,
+    mesh_pieces,
+    outline,
+    pieces_of_box,
+)
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from scenes.mirror_room import mesh
 
@@ -143,3 +150,23 @@ def test_what_casts_no_shadow_only_receives() -> None:
     extent = SceneExtent([(box, placed((0, 0, 0)), True), (box, placed((7, 0, 0)), False)])
     _, casters, receivers = extent.split_by(np.array([0.0, 0.0, 1.0, 0.0]))
     assert casters[:, 0].max() <= 0.5 < 7.5 <= receivers[:, 0].max()
+
+
+@pytest.mark.parametrize("count", [1, 511, 512, 513, 5000])
+def test_a_box_is_that_of_all_points(count: int) -> None:
+    points = np.random.default_rng(count).normal(size=(count, 3)).astype(np.float32)
+    low, high = box_of(points)
+    np.testing.assert_array_equal(low, points.min(axis=0))
+    np.testing.assert_array_equal(high, points.max(axis=0))
+    points[-1, 1] = np.nan
+    assert np.isnan(box_of(points)[0][1]) and np.isnan(box_of(points)[1][1])
+
+
+def test_what_deforms_is_its_box_with_room_and_no_plane() -> None:
+    low, high = np.array([-1.0, 0.0, 2.0], np.float32), np.array([1.0, 3.0, 2.0], np.float32)
+    pieces = pieces_of_box(low, high, np.zeros(7, np.int8))
+    assert len(pieces.areas) == len(pieces.normals) == 0
+    (outline_of_box,) = pieces.outlines
+    size = high - low
+    np.testing.assert_allclose(outline_of_box.min(axis=0), low - ROOM_TO_DEFORM * size)
+    np.testing.assert_allclose(outline_of_box.max(axis=0), high + ROOM_TO_DEFORM * size)
