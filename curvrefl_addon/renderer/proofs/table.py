@@ -12,7 +12,7 @@ from .proof import Proof
 from .quads import prove_quads
 from .records import prove_list, prove_records
 from .searches import prove_refraction, prove_regions, prove_search
-from .walk import prove_walk
+from .walk import prove_fits, prove_walk
 
 BY_COMPUTE = ("compute",)
 BY_LIST = ("atomics", "compute")
@@ -22,6 +22,7 @@ FIRST = (
     Proof("list", "lists by image atomics", prove_list, BY_LIST),
     Proof("newton", 'reflection points by "Newton"', partial(prove_search, "newton"), BY_LIST, ("newton",)),
     Proof("rays", "rays", prove_walk, (), ("exact",)),
+    Proof("fits", "rays at what deforms", prove_fits, ("fits",)),
     Proof("quads", "derivatives between pixels", prove_quads, ("quads",)),
     Proof("pictures", "surfaces, materials and light", prove_pictures),
 )

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ...optics.surfaces.mesh_rays import MeshRays
 from ...optics.surfaces.radial_surfaces import unit
-from ...scene.arrays import Float64Array, InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
+from ...scene.arrays import Float64Array, InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer
@@ -18,6 +19,7 @@ from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
 from ..device.state import drawing_state, set_viewport
 from ..device.textures import empty_texture, read_texture, texture_2d
 from ..geometry.mesh_facts import MeshFactsCache
+from ..geometry.vertex_uploads import VertexUploads
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from .cases import as_stored, ball, directions, square
@@ -27,6 +29,8 @@ SIDE = 24
 """Rays are a square of so many"""
 MOST_OFF = 1e-4
 """Of a hit, in parts of the scene's size, and of its normal in radians"""
+TWIST = 0.9
+"""Radians a meter, in `deformed`"""
 OUTLIERS = 0.01
 """Share of the rays that may do anything: along edges rounding decides"""
 
@@ -34,9 +38,38 @@ OUTLIERS = 0.01
 def prove_walk() -> Work:
     """Three placed meshes, seen by rays from a sphere around them to its inside."""
     scene = things()
-    rays = RayScene(MeshFactsCache())
+    rays = RayScene(MeshFactsCache(), VertexUploads())
     rays.follow(scene, {})
     yield
+    return (yield from _compared(rays, scene))
+
+
+def prove_fits() -> Work:
+    """The same, where the meshes have deformed since their trees were built."""
+    scene = things()
+    rays = RayScene(MeshFactsCache(), VertexUploads())
+    rays.follow(scene, {})
+    yield
+    scene = replace(scene, meshes=tuple(deformed(mesh) for mesh in scene.meshes))
+    rays.follow(scene, {})
+    yield
+    return (yield from _compared(rays, scene))
+
+
+def deformed(mesh: MeshArrays) -> MeshArrays:
+    """Turned more the higher up, and stretched; each vertex has a corner."""
+    x, y, z = mesh.positions.T.astype(np.float64)
+    cosine, sine = np.cos(TWIST * z), np.sin(TWIST * z)
+    turned = np.stack([cosine * x - sine * y, sine * x + cosine * y, 1.2 * z + 0.1 * x], axis=1)
+    along_x = np.stack([cosine, sine, np.full_like(x, 0.1)], axis=1)
+    along_y = np.stack([-sine, cosine, np.zeros_like(x)], axis=1)
+    along_z = np.stack([-TWIST * turned[:, 1], TWIST * turned[:, 0], np.full_like(x, 1.2)], axis=1)
+    normals = np.linalg.solve(np.stack([along_x, along_y, along_z], axis=1), mesh.corner_normals[..., None])[..., 0]
+    return replace(mesh, positions=turned.astype(np.float32), corner_normals=unit(normals).astype(np.float32))
+
+
+def _compared(rays: RayScene, scene: SceneArrays) -> Work:
+    """Rays through the hierarchies and those in numpy."""
     origins = as_stored(5.0 * directions(SIDE * SIDE))
     ways = as_stored(unit(2.2 * np.roll(directions(SIDE * SIDE), 97, axis=0) * [1.0, 1.0, 0.8] - origins))
     place, facing = _walked(rays, Materials(scene), origins, ways)

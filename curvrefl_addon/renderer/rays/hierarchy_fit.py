@@ -56,7 +56,7 @@ class HierarchyFit:
     @staticmethod
     def serves(hierarchy: Hierarchy, mesh: MeshArrays) -> bool:
         """Whether the device fits trees, and records of so large a one hold the numbers that this takes."""
-        if not features().compute:
+        if not (features().compute and features().fits):
             return False
         numbers = (NODE_RECORDS * len(hierarchy.link), len(hierarchy.order), len(mesh.corner_vertex))
         return max(*numbers, len(mesh.positions)) < LARGEST_NUMBER

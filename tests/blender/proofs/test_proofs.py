@@ -85,12 +85,16 @@ BROKEN = {
         {"records": "compute"},
     ),
     "points by all ways": ((LINE, SHIFTED), {"newton": ""}),
+    "boxes of what deforms": (
+        ("min(record_of(child).xyz, record_of(child + 2).xyz)", "record_of(child).xyz"),
+        {"fits": "fits"},
+    ),
     "rows of quads": (("dFdy(row)", "dFdx(row)"), {"quads": "quads"}),
     "derivatives": (("dFdx(here.z)", "0.5 * dFdx(here.z)"), {"quads": "quads"}),
     "what rays hit": (("          hit.range = range;", "          hit.range = 1.001 * range;"), {"rays": ""}),
     "which triangles rays hit": (
         ("place.y >= -OVERLAP &&", "place.y >= 0.1 &&"),
-        {"rays": ""},
+        {"rays": "", "fits": ""},
     ),
     "light": (
         ("vec3 sum = emission_of(s, lobes) + lamps_on", "vec3 sum = emission_of(s, lobes) + 1.05 * lamps_on"),
@@ -105,7 +109,7 @@ def test_what_is_wrong_is_found(name: str) -> None:
     """And goes another way, if there is one that is right."""
     (text, wrong), expected = BROKEN[name]
     expected = {"pictures": ""} if expected is None else expected
-    proofs = of(*("pictures",) if "pictures" in expected else ("records", "list", "newton", "rays", "quads"))
+    proofs = of(*("pictures",) if "pictures" in expected else ("records", "list", "newton", "rays", "fits", "quads"))
     if "secant_star" in expected:
         proofs += of("secant_star")
         # Once compute shaders are given up it is right.

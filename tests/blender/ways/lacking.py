@@ -20,6 +20,7 @@ LACKING = {
     "compute": Features(compute=False, atomics=False),
     "atomics": Features(atomics=False),
     "quads": Features(quads=False),
+    "fits": Features(fits=False),
 }
 EYE = np.array([2.3, -2.9, 1.8])
 

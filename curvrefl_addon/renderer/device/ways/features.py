@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-FEATURES = ("compute", "atomics", "quads")
+FEATURES = ("compute", "atomics", "quads", "fits")
 """Names of the fields of `Features` that say what a device has"""
 
 
@@ -26,6 +26,8 @@ class Features:
     """A first pass lists what it leaves to a second one by image atomics; else the second looks at all records"""
     quads: bool = True
     """Derivatives tell the pixels of a quad apart, which share what they look up; else each looks up all"""
+    fits: bool = True
+    """Compute shaders fit trees of what deforms, a pass for each level, in the texture that they read; else numpy"""
     distrusted: frozenset[str] = field(default=frozenset(), compare=False)
     """Methods that no way gets right: `auto` takes none of them"""
 
@@ -35,6 +37,7 @@ class Features:
             compute=self.compute and "compute" not in names,
             atomics=self.atomics and "atomics" not in names,
             quads=self.quads and "quads" not in names,
+            fits=self.fits and "fits" not in names,
             distrusted=self.distrusted,
         )
 
