@@ -91,7 +91,10 @@ BROKEN = {
     ),
     "rows of quads": (("dFdy(row)", "dFdx(row)"), {"quads": "quads"}),
     "derivatives": (("dFdx(here.z)", "0.5 * dFdx(here.z)"), {"quads": "quads"}),
-    "what rays hit": (("          hit.range = range;", "          hit.range = 1.001 * range;"), {"rays": ""}),
+    "what rays hit": (
+        ("          hit.range = range;", "          hit.range = 1.001 * range;"),
+        {"rays": "", "fits": ""},
+    ),
     "which triangles rays hit": (
         ("place.y >= -OVERLAP &&", "place.y >= 0.1 &&"),
         {"rays": "", "fits": ""},
