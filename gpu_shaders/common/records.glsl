@@ -23,3 +23,10 @@ vec3 fetch_three(sampler2D records, int index)
   vec3 even = skipped == 0 ? one.xyz : vec3(one.zw, next.x);
   return (skipped & 1) == 1 ? odd : even;
 }
+
+#ifdef RECORD_IMAGES
+vec4 fetch_record(restrict readonly image2D records, int index)
+{
+  return imageLoad(records, texel_of_record(index));
+}
+#endif

@@ -72,13 +72,23 @@ def renderer_name() -> str:
     return gpu.platform.renderer_get()
 
 
+def backend_name() -> str:
+    """The graphics interface that Blender uses: OPENGL, VULKAN or METAL."""
+    return gpu.platform.backend_type_get()
+
+
+def is_software_opengl() -> bool:
+    """Whether the processor draws, by Mesa's OpenGL."""
+    return backend_name() == "OPENGL" and renderer_name().startswith(("llvmpipe", "softpipe"))
+
+
 def platform_facts() -> dict[str, str]:
     """Of GPU, driver, and the graphics interface that Blender uses."""
     return {
         "renderer": renderer_name(),
         "vendor": gpu.platform.vendor_get(),
         "version": gpu.platform.version_get(),
-        "backend": gpu.platform.backend_type_get(),
+        "backend": backend_name(),
     }
 
 

@@ -4,13 +4,16 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from ...scene.arrays import Float32Array
+from . import context
 from .textures import empty_texture, read_texture, texture_2d
 
+RECORD_FORMAT = "RGBA32F"
 ROW_BITS = 11
 """Known to every shader, as a power of two is found with a shift and a mask"""
 TEXTURE_WIDTH = 1 << ROW_BITS
@@ -36,6 +39,21 @@ def packed_texture(numbers: Float32Array) -> Any:
     flat[: numbers.size] = numbers.reshape(-1)
     flat[numbers.size :] = 0.0
     return record_texture(records)
+
+
+@cache
+def records_are_images() -> bool:
+    """Whether drawing shaders read records as images, not as textures.
+
+    Both give the same numbers. Graphics cards cache textures better; a software driver works out the level of detail of
+    every texel, even where there is one, which takes it as long as the texel itself.
+    """
+    return context.is_software_opengl()
+
+
+def set_records(shader: Any, name: str, texture: Any) -> None:
+    """Set one of `Piece.records` of a bound shader."""
+    (shader.image if records_are_images() else shader.uniform_sampler)(name, texture)
 
 
 def padded_count(count: int) -> int:

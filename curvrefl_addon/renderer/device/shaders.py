@@ -19,7 +19,7 @@ import numpy as np
 from ....gpu_shaders.loader import Part, Source, load
 from .compile_log import captured_output, explain
 from .context import gpu_cache
-from .records import ROW_BITS
+from .records import RECORD_FORMAT, ROW_BITS, records_are_images
 
 MOST_GROUPS = 1 << 15
 """Of a dispatch along one axis"""
@@ -58,6 +58,8 @@ class Piece:
     """What some GLSL needs; all by name."""
 
     samplers: Kinds = field(default_factory=dict)
+    records: Kinds = field(default_factory=dict)
+    """Record textures that drawing shaders read: set them by `set_records`"""
     images: Mapping[str, Image] = field(default_factory=dict)
     constants: Kinds = field(default_factory=dict)
     """Push constants, set for each draw"""
@@ -146,9 +148,16 @@ def _add_declarations(info: Any, label: str, pieces: tuple[Piece, ...]) -> Any:
         info.uniform_buf(slot, block.kind, f"{name}[{block.length}]" if block.length else name)
     for name, kind in _joined(pieces, "constants").items():
         info.push_constant(kind, name)
-    for slot, (name, kind) in enumerate(_joined(pieces, "samplers").items()):
+    samplers, images, records = (_joined(pieces, what) for what in ("samplers", "images", "records"))
+    if records_are_images():
+        info.define("RECORD_IMAGES")
+        for slot, (name, kind) in enumerate(records.items(), len(images)):
+            info.image(slot, RECORD_FORMAT, kind, name, qualifiers={"READ"})
+    else:
+        samplers = {**samplers, **records}
+    for slot, (name, kind) in enumerate(samplers.items()):
         info.sampler(slot, kind, name)
-    for slot, (name, image) in enumerate(_joined(pieces, "images").items()):
+    for slot, (name, image) in enumerate(images.items()):
         info.image(slot, image.format, image.kind, name, qualifiers={"WRITE"} | ({"READ"} if image.is_read else set()))
     for slot, (name, kind) in enumerate(_joined(pieces, "inputs").items()):
         info.vertex_in(slot, kind, name)

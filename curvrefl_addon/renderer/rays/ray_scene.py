@@ -19,6 +19,7 @@ from ...errors import InputError
 from ...scene.arrays import LARGEST_COORDINATE, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
+from ..device.records import set_records
 from ..device.shaders import Piece
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
@@ -52,7 +53,7 @@ from .ray_records import (
 STACK = 64
 """Levels of the top and the deepest mesh together"""
 RAYS = Piece(
-    samplers={"rays": "FLOAT_2D"},
+    records={"rays": "FLOAT_2D"},
     constants={"rays_top": "IVEC4"},
     defines={
         "STACK": STACK,
@@ -108,7 +109,7 @@ class RayScene:
 
     def bind(self, shader: Any) -> None:
         """Set what `RAYS` names on a bound shader."""
-        shader.uniform_sampler("rays", self.regions.texture)
+        set_records(shader, "rays", self.regions.texture)
         shader.uniform_int("rays_top", self._top_places)
 
     def follow(self, scene: SceneArrays, numbers: Mapping[int, int]) -> None:

@@ -77,6 +77,8 @@ def computed(count: int, glsl: str, *pieces: Piece, **samplers: Any) -> np.ndarr
     for name, value in samplers.items():
         if isinstance(value, tuple):
             shader.uniform_int(name, value)
+        elif isinstance(value, RayScene):
+            value.bind(shader)
         else:
             shader.uniform_sampler(name, value)
     dispatch(shader, count, 64)
@@ -145,8 +147,7 @@ def test_rays_find_the_attributes_of_what_they_hit(gpu: None) -> None:
         f"hit_attribute({instance}, {triangle}, vec3(0.5, 0.25, 0.25), index % 3)",
         RAYS,
         Piece(compute="rays/hit_attributes.glsl"),
-        rays=rays.regions.texture,
-        rays_top=rays._top_places,
+        rays=rays,
     ).reshape(3, 3, 4)
     assert TRIANGLE_RECORDS == 4
     for index, one in enumerate(meshes):
@@ -161,8 +162,7 @@ def test_rays_find_the_attributes_of_what_they_hit(gpu: None) -> None:
         f"vec4(float(row_of_instance(rays_top.y + {INSTANCE_RECORDS} * index)))",
         RAYS,
         Piece(compute="rays/hit_attributes.glsl"),
-        rays=rays.regions.texture,
-        rays_top=rays._top_places,
+        rays=rays,
     )
     assert rows[:, 0].tolist() == [0.0, 1.0, 2.0]
 
