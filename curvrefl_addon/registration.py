@@ -13,7 +13,15 @@ import bpy
 
 from .gpu_caches import clear_gpu_caches
 
-OPERATORS = ("bake_look", "bake_reflector", "compare_with_cycles", "mirror_settings", "save_preview", "trace_at_cursor")
+OPERATORS = (
+    "bake_look",
+    "bake_reflector",
+    "compare_with_cycles",
+    "copy_report",
+    "mirror_settings",
+    "save_preview",
+    "trace_at_cursor",
+)
 """Modules of `operators`; each lists its classes in CLASSES"""
 INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""

@@ -45,6 +45,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         self.layout.prop(context.window_manager, "curvrefl_enabled", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
+        from ..viewport import device
         from ..viewport import handlers as viewport
 
         layout = self.layout
@@ -72,6 +73,9 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         for message in dict.fromkeys([*([newer] if newer else []), *viewport.messages()]):
             if message not in told:
                 draw_message(layout, message, context)
+        if sentence := device.message():
+            draw_message(layout, sentence, context)
+            layout.operator("curvrefl.copy_report", icon="COPYDOWN")
         draw_looks(layout, of_materials, context)
         if mirrors and not context.window_manager.curvrefl_enabled and not viewport.messages():
             draw_message(layout, "Switched off: tick the box in this panel's header", context, "INFO")
@@ -193,6 +197,7 @@ class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
         draw_rows(self.layout, viewport.statistics())
         if reason := viewport.reason():
             draw_message(self.layout, reason, context, icon="INFO")
+        self.layout.operator("curvrefl.copy_report", icon="COPYDOWN")
 
 
 def draw_show(layout: Any, settings: Any) -> None:

@@ -89,6 +89,21 @@ def platform_facts() -> dict[str, str]:
         "vendor": gpu.platform.vendor_get(),
         "version": gpu.platform.version_get(),
         "backend": backend_name(),
+        "kind": gpu.platform.device_type_get(),
+    }
+
+
+def device_limits() -> dict[str, int]:
+    """Greatest numbers of what passes use, by what they are called in a report."""
+    capabilities = gpu.capabilities
+    return {
+        "texels along a side": capabilities.max_texture_size_get(),
+        "layers": capabilities.max_texture_layers_get(),
+        "textures": capabilities.max_textures_get(),
+        "textures of a fragment": capabilities.max_textures_frag_get(),
+        "images": capabilities.max_images_get(),
+        "groups of a dispatch": capabilities.max_work_group_count_get(0),
+        "invocations of a group": capabilities.max_work_group_size_get(0),
     }
 
 

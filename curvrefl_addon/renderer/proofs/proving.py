@@ -8,7 +8,8 @@ from collections import deque
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
 
-from ..device.ways.features import Features, features, only_features, use_features
+from ..device.state import kept_state
+from ..device.ways.features import Features, features, only_features
 from .proof import Found, Proof, Work
 from .table import PROOFS
 from .verdict import Failure, Verdict
@@ -29,7 +30,7 @@ class Proving:
 
     def work(self) -> Iterator[None]:
         """Ends a slice at each `yield`: one dispatch or draw and the shader for it, or a search in numpy. Passes that
-        others run meanwhile use what they did; at the end all use what is right."""
+        others run meanwhile use what they did, until somebody takes the verdict (`known.take_verdict`)."""
         waiting, tried = deque(self._proofs), list[Proof]()
         while waiting:
             proof = waiting.popleft()
@@ -41,7 +42,6 @@ class Proving:
             waiting.extendleft(again)
         names = tuple(proof.name for proof in self._proofs)
         self.verdict = self._before.with_more(Verdict(names, tuple(self._failures.values())))
-        use_features(self.verdict.features)
 
     def _prove(self, proof: Proof) -> Generator[None, None, str]:
         """The feature that is given up for it, if any."""
@@ -68,8 +68,9 @@ class Proving:
 def prove_all(proofs: Sequence[Proof] = PROOFS) -> Proving:
     """At once."""
     proving = Proving(proofs)
-    for _ in proving.work():
-        pass
+    with kept_state():
+        for _ in proving.work():
+            pass
     return proving
 
 

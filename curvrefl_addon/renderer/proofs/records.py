@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,10 +15,12 @@ from ..device.record_regions import RecordRegions
 from ..device.records import TEXTURE_WIDTH, read_records, record_texture
 from ..device.textures import read_texture
 from ..geometry.chunk import Chunk, Placed
+from ..geometry.vertex_uploads import VertexUploads
 from ..vertices.solve import prepare_solve
 from .cases import EYE, ball, records_of, vertices_around, view_of_origin
 from .proof import Found, Work
 from .searches import CASES, PIXELS
+from .walk import deformed
 
 MOST_OFF = 1e-5
 """Of a placed vertex, in parts of its distance from the origin"""
@@ -26,8 +29,9 @@ LISTED = 3000
 
 
 def prove_records() -> Work:
-    """Vertices placed, one instance moved by itself, and records copied to where others were."""
+    """Vertices placed, one instance moved by itself and deformed, and records copied to where others were."""
     mesh = ball(16)
+    meshes = mesh, deformed(mesh)
     matrices = [
         np.eye(4),
         np.array([[0.0, -2.0, 0.0, 1.0], [1.0, 0.0, 0.5, 2.0], [0.0, 0.3, 1.0, -3.0], [0, 0, 0, 1.0]]),
@@ -38,6 +42,7 @@ def prove_records() -> Work:
     ]
     chunk = Chunk([placed[0], placed[0]])
     chunk.move({1: placed[1]})
+    chunk.deform({1: replace(placed[1], mesh=meshes[1], drawn=meshes[1])}, VertexUploads())
     yield
     count = len(mesh.positions)
     positions = read_records(chunk.positions, 2 * count).astype(np.float64).reshape(2, count, 4)
@@ -45,8 +50,8 @@ def prove_records() -> Work:
     yield
     off = 0.0
     for k, matrix in enumerate(matrices):
-        world = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
-        normals = mesh.corner_normals @ np.linalg.inv(matrix[:3, :3])
+        world = meshes[k].positions @ matrix[:3, :3].T + matrix[:3, 3]
+        normals = meshes[k].corner_normals @ np.linalg.inv(matrix[:3, :3])
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         size = np.linalg.norm(world, axis=1).max()
         off = max(off, float(np.abs(positions[k, :, :3] - world).max() / size))

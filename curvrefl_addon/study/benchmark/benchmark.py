@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the device does per second: vertex solves and, apart from them, draws of what was solved; mirror rays."""
+"""What the device does per second: vertex solves and, apart from them, draws of what was solved; mirror rays. Before
+that, whether it does the right thing."""
 
 from __future__ import annotations
 
@@ -12,6 +13,9 @@ from typing import Any
 
 from ...output import folder_to_publish
 from ...renderer.device.context import platform_facts
+from ...renderer.proofs.known import take_verdict
+from ...renderer.proofs.proving import prove_all
+from ...renderer.proofs.report import summary
 from ...report.table import NO_NUMBER, aligned, number
 from .rays import measure_rays
 from .solves import STATES, measure_solves
@@ -45,7 +49,11 @@ def measure_benchmark(
     benchmark.json and benchmark.txt in `folder` are written anew with each row, so that a run that is stopped leaves
     what it has.
     """
-    report: dict[str, Any] = {"device": platform_facts(), "limits": asdict(limits), "solves": [], "rays": []}
+    proving = prove_all()
+    take_verdict(proving.verdict)
+    say(f"{summary(proving)}.")
+    report: dict[str, Any] = {"device": platform_facts(), "limits": asdict(limits), "proofs": proving.found}
+    report |= {"failures": proving.verdict.as_json()["failures"], "solves": [], "rays": []}
     solves = measure_solves(_up_to(VERTEX_COUNTS, vertices), say)
     rays = measure_rays(_up_to(TRIANGLE_COUNTS, triangles), say)
     for name, rows, states in (("solves", solves, STATES), ("rays", rays, ("quick", "best"))):
@@ -66,6 +74,8 @@ def format_benchmark(report: dict[str, Any]) -> str:
     """As lines of text."""
     device = report["device"]
     lines = [f"{device['renderer']} ({device['vendor']}), {device['version']}, {device['backend']}", ""]
+    for name, failure in report["failures"].items():
+        lines += [f"Not right: {name}, {failure['words']}; now: {report['proofs'][name]}.", ""]
     table: list[tuple[str, ...]] = [_SOLVE_TITLES]
     for row in report["solves"]:
         for state in STATES:

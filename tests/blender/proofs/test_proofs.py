@@ -9,7 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.catalog import METHODS, REFRACTIONS
-from curvrefl.curvrefl_addon.renderer.device.ways.features import FEATURES, Features, features, use_features
+from curvrefl.curvrefl_addon.renderer.device.ways.features import FEATURES, Features, features
+from curvrefl.curvrefl_addon.renderer.proofs.known import known_verdict, take_verdict
 from curvrefl.curvrefl_addon.renderer.proofs.proof import Found, Proof, Work
 from curvrefl.curvrefl_addon.renderer.proofs.proving import Proving, prove_all
 from curvrefl.curvrefl_addon.renderer.proofs.table import FIRST, PROOFS
@@ -31,7 +32,7 @@ SHIFTED = LINE.replace("solved.point,", "solved.point + vec3(0.01, 0.0, 0.0),")
 @pytest.fixture(autouse=True)
 def as_before() -> Iterator[None]:
     yield
-    use_features(Features())
+    take_verdict(Verdict())
 
 
 def of(*names: str) -> tuple[Proof, ...]:
@@ -85,6 +86,10 @@ BROKEN = {
         {"records": "compute"},
     ),
     "points by all ways": ((LINE, SHIFTED), {"newton": ""}),
+    "vertices that deform": (
+        ("fetch_three(mesh_positions, index - range.x)", "fetch_three(mesh_positions, index)"),
+        {"records": ""},
+    ),
     "boxes of what deforms": (
         ("min(record_of(child).xyz, record_of(child + 2).xyz)", "record_of(child).xyz"),
         {"fits": "fits"},
@@ -112,18 +117,20 @@ def test_what_is_wrong_is_found(name: str) -> None:
     """And goes another way, if there is one that is right."""
     (text, wrong), expected = BROKEN[name]
     expected = {"pictures": ""} if expected is None else expected
-    proofs = of(*("pictures",) if "pictures" in expected else ("records", "list", "newton", "rays", "fits", "quads"))
+    proofs = of("pictures") if "pictures" in expected else tuple(item for item in FIRST if item.name != "pictures")
     if "secant_star" in expected:
         proofs += of("secant_star")
         # Once compute shaders are given up it is right.
         expected = {key: value for key, value in expected.items() if value}
     with broken(text, wrong):
         verdict = prove_all(proofs).verdict
+    is_lacking = any(verdict.features.missing) or verdict.features.distrusted
+    assert features() == Features() and take_verdict(verdict) == bool(is_lacking)
+    assert not take_verdict(verdict) and known_verdict() is verdict
     assert {item.name: item.without for item in verdict.failures} == expected
     assert set(features().missing) == {value for value in expected.values() if value}
-    assert (features().distrusted != frozenset()) == any(
-        not value and key != "pictures" for key, value in expected.items()
-    )
+    wrong = {key for key, value in expected.items() if not value}
+    assert features().distrusted == {method for key in wrong for method in BY_NAME[key].methods}
     assert all(item.words for item in verdict.failures)
     sentence = verdict.sentence
     assert sentence.count(". ") == 0 and sentence.endswith(".")
@@ -140,7 +147,6 @@ def test_each_method_is_proven_by_its_own_shader() -> None:
         for proof in searching:
             proving = Proving((proof,))
             list(proving.work())
-            use_features(Features())
             found[proof.name] = [item.without for item in proving.verdict.failures]
     assert found == {proof.name: ["compute"] for proof in searching}
 
@@ -155,7 +161,7 @@ def test_auto_solves_no_points_that_are_wrong() -> None:
     try:
         chosen = renderer.reflect(view).choice
         assert chosen is not None and chosen.methods == ("newton",)
-        use_features(Verdict(failures=(Failure("newton", "off"),)).features)
+        assert take_verdict(Verdict(failures=(Failure("newton", "off"),)))
         chosen = renderer.reflect(view).choice
         assert chosen is not None and chosen.methods == ("exact",)
         assert "gets reflection points wrong: rays are followed" in chosen.why
@@ -182,11 +188,11 @@ def test_others_draw_as_before_between_slices() -> None:
         between.append(features())
     assert between == [Features()] * 4
     assert [item.quads for item in seen] == [True, True, False, False]
-    assert features().missing == ("quads",)
+    assert features() == Features()
+    assert proving.verdict.features.missing == ("quads",)
     assert proving.found == {"quads": "off by 0.5 units, 1 allowed, without quads"}
     assert proving.verdict.failures == (Failure("quads", "off by 2 units, 1 allowed", "quads"),)
 
-    use_features(Features())
     work = Proving((Proof("quads", "", lambda: _stub([2.0], seen), ("quads",)),)).work()
     next(work)
     work.close()  # type: ignore[attr-defined]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.renderer.proofs.table import PROOFS
 from curvrefl.curvrefl_addon.study.benchmark import benchmark
 from curvrefl.curvrefl_addon.study.benchmark.benchmark import Limits, measure_benchmark
 from curvrefl.curvrefl_addon.study.benchmark.solves import FETCH_BYTES, FETCHES, SOLVE_BYTES
@@ -24,6 +25,7 @@ def test_benchmark_writes_counts_and_a_table(tmp_path: Path, capfd: pytest.Captu
     assert sorted(path.name for path in output.iterdir()) == ["benchmark.json", "benchmark.txt"]
     report = json.loads((output / "benchmark.json").read_text())
     assert all(report["device"].values())
+    assert set(report["proofs"]) == {proof.name for proof in PROOFS} and report["failures"] == {}
     assert report["limits"] == {"bandwidth": 20.0, "flops": 0.5}
     assert [(row["method"], row["vertices"]) for row in report["solves"]] == [("newton", 2000), ("secant_star", 2000)]
     for row in report["solves"]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 
 FEATURES = ("compute", "atomics", "quads", "fits")
@@ -52,26 +53,26 @@ class Features:
         return tuple(name for name in FEATURES if not getattr(self, name))
 
 
-_used = Features()
+_used = [Features()]
+_tried: ContextVar[Features | None] = ContextVar("tried", default=None)
+"""By this thread alone: a render may go on in another one"""
 
 
 def features() -> Features:
     """What passes use now."""
-    return _used
+    return _tried.get() or _used[0]
 
 
 def use_features(found: Features) -> None:
     """From now on. What has been drawn or solved before is not done again."""
-    global _used
-    _used = found
+    _used[0] = found
 
 
 @contextmanager
 def only_features(found: Features) -> Iterator[None]:
-    """Use these meanwhile."""
-    before = features()
-    use_features(found)
+    """Use these meanwhile, in this thread."""
+    token = _tried.set(found)
     try:
         yield
     finally:
-        use_features(before)
+        _tried.reset(token)
