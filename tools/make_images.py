@@ -121,6 +121,10 @@ def _chart(folder: Path) -> None:
     _verb("chart", *files, "--reflector", "Mirror", "--resolution", "640x480", "--output", str(folder))
 
 
+def _costs(folder: Path) -> None:
+    _verb("chart", "--against", "all", "--output", str(folder))
+
+
 def _stability(folder: Path) -> None:
     _verb("stability", "--output", str(folder))
 
@@ -149,6 +153,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "demo": _demo,
     "window": _window,
     "chart": _chart,
+    "costs": _costs,
     "stability": _stability,
     "methods": _methods,
     "materials": _materials,
@@ -166,6 +171,7 @@ IMAGES: dict[str, Picture] = {
     "trace.jpg": Picture("window", _cut("trace", VIEW)),
     "chart.png": Picture("chart", _copied),
     "vertex_count.png": Picture("chart", _copied),
+    "costs.png": Picture("costs", _copied),
     "stability.jpg": Picture("stability", _drawn_stability),
     "methods.png": Picture("methods", _copied),
     "materials.jpg": Picture("materials", _copied),

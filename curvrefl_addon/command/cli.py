@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import io
 import os
-import re
 import signal
 import sys
 import traceback
@@ -22,17 +21,17 @@ from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
-from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, RENDERER
+from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import verbs
+from . import charts, verbs
+from .arguments import between, positive, resolution
 from .inputs import SETTING, say
 from .signals import StoppedError, answered_signals
 
 DONE, OUR_FAILURE, BAD_INPUT = 0, 1, 2
 
-CHARTED_PEERS = "eevee,cycles1,cycles8,cycles64"
 PEERS_HELP = "eevee, cycles1, cycles2, cycles4 and so on to cycles64; or none (%(default)s)"
 MAX_FRAME = 1048574
 """Blender's own limit"""
@@ -157,27 +156,34 @@ def _parser() -> argparse.ArgumentParser:
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     chart = verb(
-        "chart", verbs.chart, "Chart time against error, of methods with all their settings, and time against vertices."
+        "chart",
+        charts.chart,
+        "Chart time against error, of methods with all their settings, and against vertices; or against other amounts.",
     )
-    chart.add_argument("files", nargs="+", metavar="FILE.blend")
+    chart.add_argument("files", nargs="*", metavar="FILE.blend", help="without, --against uses scenes of its own")
+    chart.add_argument(
+        "--against",
+        metavar="A[,A..]",
+        help=f"chart time and its slope against amounts in place of errors: of {', '.join(charts.AGAINST)}",
+    )
     chart.add_argument(
         "--reflector", metavar="A[,B..]", help="names of the mirror objects in all files (those marked as mirrors)"
     )
-    chart.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
-    chart.add_argument("--method", default="all", metavar="M[,M..]", help="or all (%(default)s)")
-    _add_reference_samples(chart, 64, "of the references")
+    chart.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
+    chart.add_argument("--method", metavar="M[,M..]", help="or all (all; five of them with --against)")
+    _add_reference_samples(chart, charts.OF_ERRORS["samples"], "of the references")
     chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
-    chart.add_argument("--peers", default=CHARTED_PEERS, metavar="P[,P..]", help=PEERS_HELP)
+    chart.add_argument("--peers", default=charts.OF_ERRORS["peers"], metavar="P[,P..]", help=PEERS_HELP)
     chart.add_argument(
         "--sub-frames",
-        default="",
+        default=charts.OF_ERRORS["sub_frames"],
         metavar="N[,N..]",
         help="chart pictures of so many sub-frames, in place of what else each method can vary",
     )
     chart.add_argument(
         "--vertices",
-        type=_between(1000, 10_000_000),
-        default=1_000_000,
+        type=between(1000, 10_000_000),
+        default=charts.OF_ERRORS["vertices"],
         metavar="N",
         help="largest number in the chart of time against vertices (%(default)s)",
     )
@@ -186,14 +192,14 @@ def _parser() -> argparse.ArgumentParser:
     stability = verb("stability", verbs.stability, "Try methods where they fail: motion, contact, caustics, any input.")
     stability.add_argument(
         "--vertices",
-        type=_between(10, 100_000),
+        type=between(10, 100_000),
         default=400,
         metavar="N",
         help="per reflector and regime of the solver table (%(default)s)",
     )
     stability.add_argument(
         "--fuzz",
-        type=_between(1000, 100_000_000),
+        type=between(1000, 100_000_000),
         default=1_000_000,
         metavar="N",
         help="random eyes, vertices and reflectors a method (%(default)s)",
@@ -203,22 +209,20 @@ def _parser() -> argparse.ArgumentParser:
     benchmark = verb("benchmark", verbs.benchmark, "Measure vertex solves and mirror rays per second on this device.")
     benchmark.add_argument(
         "--vertices",
-        type=_between(1000, 10_000_000),
+        type=between(1000, 10_000_000),
         default=10_000_000,
         metavar="N",
         help="largest number to solve (%(default)s)",
     )
     benchmark.add_argument(
         "--triangles",
-        type=_between(1000, 10_000_000),
+        type=between(1000, 10_000_000),
         default=2_000_000,
         metavar="N",
         help="of the largest scene to follow rays in (%(default)s)",
     )
-    benchmark.add_argument(
-        "--bandwidth", type=_positive, metavar="GB/s", help="of the device's memory, to compare with"
-    )
-    benchmark.add_argument("--flops", type=_positive, metavar="TFLOP/s", help="of the device in float32, likewise")
+    benchmark.add_argument("--bandwidth", type=positive, metavar="GB/s", help="of the device's memory, to compare with")
+    benchmark.add_argument("--flops", type=positive, metavar="TFLOP/s", help="of the device in float32, likewise")
     benchmark.add_argument(
         "--output", default="output/benchmark", metavar="DIR", help="folder to write to (%(default)s)"
     )
@@ -252,9 +256,9 @@ def _add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
     parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument(
-        "--frame", type=_between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
+        "--frame", type=between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )
-    parser.add_argument("--resolution", type=_resolution, metavar="WxH", help="in pixels (the scene's)")
+    parser.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
 
 
 def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
@@ -288,7 +292,7 @@ def _value_of(item: Setting) -> Callable[[str], Any]:
     if isinstance(item.default, int):
         least, most = item.hard
         assert least is not None and most is not None, f"{item.name} is a whole number without a range"
-        return _between(int(least), int(most))
+        return between(int(least), int(most))
 
     def value(text: str) -> Any:
         if item.choices:
@@ -306,38 +310,8 @@ def _value_of(item: Setting) -> Callable[[str], Any]:
 def _add_reference_samples(parser: argparse.ArgumentParser, default: int, text: str) -> None:
     parser.add_argument(
         "--samples",
-        type=_between(1, MOST_REFERENCE_SAMPLES),
+        type=between(1, MOST_REFERENCE_SAMPLES),
         default=default,
         metavar="N",
         help=f"{text} (%(default)s)",
     )
-
-
-def _between(least: int, most: int) -> Callable[[str], int]:
-    """An argument type: a whole number in this range."""
-
-    def number(text: str) -> int:
-        # (a dozen digits are out of any range)
-        if not re.fullmatch(r"[+-]?\d{1,12}", text) or not least <= int(text) <= most:
-            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from {least} to {most}")
-        return int(text)
-
-    return number
-
-
-def _positive(text: str) -> float:
-    """A number above zero."""
-    if not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", text) or float(text) == 0.0:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
-    return float(text)
-
-
-def _resolution(text: str) -> tuple[int, int]:
-    """Width and height in pixels."""
-    match = re.fullmatch(r"(\d{1,9})[xX](\d{1,9})", text)
-    if not match:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a resolution like 640x480")
-    width, height = int(match[1]), int(match[2])
-    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
-        raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {LARGEST_SIDE} pixels a side")
-    return width, height

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish
-from ..streams import STDOUT, dropped, readable
+from ..streams import STDOUT, dropped
 from ..supervised import ended_softly
 from .inputs import (
     chosen_settings,
@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     import bpy
 
     from ..report.compare import Comparison
-    from ..study.charts.chart import ChartFile
 
 DEMO_SAMPLES, DEMO_SUB_FRAMES = 32, 16
 """Of the demo's reference and of our pictures of it: two cores need about three minutes in all"""
@@ -110,40 +109,6 @@ def compare(options: argparse.Namespace) -> int:
     return 0
 
 
-def chart(options: argparse.Namespace) -> int:
-    """Time against error, and against vertices; see `study.charts.chart`."""
-    methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
-    require_known(methods, list(METHODS), "method")
-    peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
-    reflectors = [] if options.reflector is None else read_names(options.reflector, "reflector")
-    sub_frames = _sub_frames(options.sub_frames)
-    output = checked_folder(options.output)
-    start_gpu()
-
-    from ..report.compare import Comparison
-    from ..study.charts.chart import chart_steps
-    from ..study.charts.chart_draw import require_matplotlib
-    from ..study.charts.chart_table import format_chart
-
-    require_matplotlib()
-    comparison = Comparison(methods=tuple(methods), samples=options.samples, light=options.light, peers=tuple(peers))
-    # All files are looked at first: what is wrong with the last one shows before minutes of Cycles.
-    files = [_chart_file(options, file, name, reflectors) for file, name in _scene_names(options.files)]
-    with dropped(STDOUT) as stdout:
-        steps = chart_steps(files, comparison, options.vertices, output, sub_frames)
-        while True:
-            try:
-                step = next(steps)
-            except StopIteration as end:
-                charts = end.value
-                break
-            print(f"{100.0 * step.done:3.0f} %  {step.label}", file=stdout, flush=True)
-    warn_of(charts.warnings)
-    print(format_chart(charts))
-    print(f"Charts: {output / 'chart.png'}")
-    return 0
-
-
 def stability(options: argparse.Namespace) -> int:
     """Where methods fail; see `study.stability.stability`."""
     output = checked_folder(options.output)
@@ -178,51 +143,6 @@ def benchmark(options: argparse.Namespace) -> int:
     print(format_benchmark(report))
     print(f"Numbers: {output / 'benchmark.json'}")
     return 0
-
-
-def _sub_frames(text: str) -> tuple[int, ...]:
-    """Numbers of sub-frames to chart, least first. Raises InputError for what is none."""
-    from ..renderer.settings import Settings, check_settings
-
-    try:
-        numbers = tuple(sorted({int(part) for part in text.split(",") if part.strip()}))
-    except ValueError:
-        raise InputError(f'"{text}" names no numbers of sub-frames: give them as in 1,4,16.') from None
-    for number in numbers:
-        check_settings(Settings(samples=number))
-    return numbers
-
-
-def _scene_names(files: Sequence[str]) -> list[tuple[str, str]]:
-    """The files, once each, with their names in a chart: the name of the file, or its path where two share it."""
-    stems = [Path(file).stem for file in dict.fromkeys(files)]
-    return [
-        (file, stem if stems.count(stem) == 1 else file) for file, stem in zip(dict.fromkeys(files), stems, strict=True)
-    ]
-
-
-def _chart_file(options: argparse.Namespace, file: str, name: str, reflectors: Sequence[str]) -> ChartFile:
-    """What to chart of a file. Raises InputError where that cannot be."""
-    from ..scene.opened.blend_file import find_camera, find_reflectors
-    from ..study.charts.chart import ChartFile
-
-    scene = open_scene(file)
-    find_camera(scene)
-    chosen = list(reflectors) or _marked_mirrors(scene)
-    if not chosen:
-        raise InputError(
-            f'No object of "{file}" is marked as a mirror: mark one in Blender, or name it by --reflector.'
-        )
-    find_reflectors(scene, chosen)
-    return ChartFile(readable(name), Path(file), tuple(chosen), *resolution_of(options, scene))
-
-
-def _marked_mirrors(scene: bpy.types.Scene) -> list[str]:
-    """Names of the objects whose Mirror switch is on."""
-    from ..options import marked_mirrors
-
-    with registered():
-        return [mirror.name for mirror in marked_mirrors(scene)]
 
 
 def bake(options: argparse.Namespace) -> int:

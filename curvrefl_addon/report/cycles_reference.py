@@ -68,8 +68,8 @@ def render_reference(
     """The scene in Cycles on the CPU.
 
     `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that way, up to
-    `bounces` mirrors one after the other; Blender's default pixel filter. 'full': the bounces, clamps and pixel filter
-    that the user has set. `sharp` leaves out depth of field and motion blur.
+    `bounces` mirrors one after the other and through as much glass as the file allows; Blender's default pixel filter.
+    'full': the bounces, clamps and pixel filter that the user has set. `sharp` leaves out depth of field and motion blur.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
@@ -186,12 +186,13 @@ def use_cycles(
     if light == "direct":
         # From mirror to mirror; what the last one shows is lit, then the path ends. Cycles still follows that bounce
         # to lamps, emitters and the world (the other half of its direct light), but shades nothing there.
+        through_glass = min(cycles.max_bounces, cycles.transmission_bounces)
         changes.set(
             cycles,
-            max_bounces=bounces,
+            max_bounces=bounces + through_glass,
             diffuse_bounces=0,
             glossy_bounces=bounces,
-            transmission_bounces=0,
+            transmission_bounces=through_glass,
             volume_bounces=0,
             sample_clamp_direct=0.0,
             sample_clamp_indirect=0.0,

@@ -12,8 +12,15 @@ from ..scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 
 
 def in_direct_light(scene: SceneArrays) -> SceneArrays:
-    """Mirrors follow each other as often as asked on both sides, whatever the file says."""
-    return replace(scene, mirror_bounces=UNLIMITED_BOUNCES, diffuse_bounces=0, indirect_clamp=0.0)
+    """Mirrors follow each other as often as asked on both sides, whatever the file says; light goes through as much
+    glass as that allows."""
+    return replace(
+        scene,
+        mirror_bounces=UNLIMITED_BOUNCES,
+        most_bounces=UNLIMITED_BOUNCES,
+        diffuse_bounces=0,
+        indirect_clamp=0.0,
+    )
 
 
 def mirrors_met(scene: SceneArrays, bounces: int) -> int:

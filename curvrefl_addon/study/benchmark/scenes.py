@@ -155,10 +155,14 @@ def _placed(rng: np.random.Generator) -> Float64Array:
 
 
 def _floor() -> MeshArrays:
-    """Two triangles."""
     corners = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]) * 9.0
     corners[:, 2] = -1.0
-    return _mesh(corners, np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
+    return quad_mesh(corners, (0.0, 0.0, 1.0))
+
+
+def quad_mesh(corners: Float64Array, normal: Sequence[float]) -> MeshArrays:
+    """Two triangles: `corners` (4, 3) counter-clockwise as seen from where the unit `normal` points."""
+    return _mesh(corners, np.tile(np.asarray(normal, np.float64), (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
 
 
 def _mesh(

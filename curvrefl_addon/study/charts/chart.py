@@ -81,7 +81,7 @@ def open_scene_steps(
     count = step_count(comparison) + 1
     with folder_to_publish(output) as folder:
         steps = scene_steps(scene, view_layer, reflector_names, comparison, name)
-        marks, warnings = yield from _counted(steps, 0, count)
+        marks, warnings = yield from counted(steps, 0, count)
         yield Step("Drawing", 1.0 - 1.0 / count)
         charts = Charts(tuple(marks), warnings=tuple(dict.fromkeys(warnings)))
         _write(charts, comparison, folder)
@@ -111,10 +111,10 @@ def chart_steps(
             assert scene is not None and view_layer is not None, "an open file has both"
             if index == 0:
                 arrays, view = read_render_scene(scene, view_layer, file.reflectors, file.width, file.height)
-                curves = yield from _counted(vertex_count_steps(arrays, view, comparison.methods, largest), 0, count)
+                curves = yield from counted(vertex_count_steps(arrays, view, comparison.methods, largest), 0, count)
             here = replace(comparison, width=file.width, height=file.height)
             steps = scene_steps(scene, view_layer, file.reflectors, here, file.name, sub_frames)
-            more, warned = yield from _counted(steps, counting + index * per_file, count, f"{file.name}: ")
+            more, warned = yield from counted(steps, counting + index * per_file, count, f"{file.name}: ")
             marks += more
             warnings += [f"{file.name}: {warning}" for warning in warned]
         yield Step("Drawing", 1.0 - 1.0 / count)
@@ -125,7 +125,7 @@ def chart_steps(
     return charts
 
 
-def _counted[T](steps: Generator[str, None, T], first: int, count: int, prefix: str = "") -> Generator[Step, None, T]:
+def counted[T](steps: Generator[str, None, T], first: int, count: int, prefix: str = "") -> Generator[Step, None, T]:
     """Labels as steps number `first`, `first` + 1, ... of `count`; returns what `steps` returns."""
     done = first
     while True:

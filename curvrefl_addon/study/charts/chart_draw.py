@@ -80,30 +80,30 @@ def draw_chart(marks: Sequence[Mark], headline: str, folder: Path, levels: Seque
 
     Raises InputError without matplotlib.
     """
-    with _matplotlib():
+    with drawing():
         scenes = list(dict.fromkeys(mark.scene for mark in marks))
         asked = [LEVELS[name] for name in levels]
         drawn = [level for level in asked if any(point(level, mark) for mark in marks)] or asked
-        figure, panels = _figure(len(drawn), len(scenes), headline)
+        figure, panels = figure_of(len(drawn), len(scenes), headline)
         for row, level in enumerate(drawn):
             for column, scene in enumerate(scenes):
                 panel = panels[row][column]
                 _draw_panel(panel, level, [mark for mark in marks if mark.scene == scene])
                 panel.set_title(scene if row == 0 else "", fontsize=12, fontweight="bold")
                 panel.set_ylabel(f"{level.title}\n{level.error_label}" if column == 0 else "", fontsize=9, ma="center")
-            _share_limits(panels[row])
+            share_limits(panels[row])
         handles = [_method_handle(name, marks) for name in _methods(marks)]
         handles += [_peer_handle(name) for name in _PEERS if any(mark.name == name for mark in marks)]
         handles += _sign_handles()
-        _finish(figure, handles, folder / "chart")
+        finish(figure, handles, folder / "chart")
 
 
 def draw_vertex_count(curves: Sequence[Curve], headline: str, folder: Path) -> None:
     """vertex_count.svg and .png into `folder`. Raises InputError without matplotlib."""
-    with _matplotlib():
+    with drawing():
         from matplotlib.lines import Line2D
 
-        figure, panels = _figure(1, 1, headline, (7.0, 5.0))
+        figure, panels = figure_of(1, 1, headline, (7.0, 5.0))
         panel = panels[0][0]
         handles = []
         for curve in curves:
@@ -126,11 +126,11 @@ def draw_vertex_count(curves: Sequence[Curve], headline: str, folder: Path) -> N
         panel.set_yscale("log")
         panel.grid(True, color="#E6E6E6", linewidth=0.6)
         panel.set_axisbelow(True)
-        _share_limits([panel])
+        share_limits([panel])
         panel.set_xlabel("vertices")
         panel.set_ylabel("solve, ms (median and quartiles)")
         panel.set_title("lines: constant + factor × vertices ^ slope, least squares; slope 1 is linear", fontsize=9)
-        _finish(figure, handles, folder / "vertex_count")
+        finish(figure, handles, folder / "vertex_count")
 
 
 def _methods(marks: Sequence[Mark]) -> list[str]:
@@ -179,7 +179,7 @@ def _draw_panel(panel: Any, level: Level, marks: Sequence[Mark]) -> None:
                 )
 
 
-def _share_limits(panels: Sequence[Any]) -> None:
+def share_limits(panels: Sequence[Any]) -> None:
     """The panels of a row show the same errors and times, with few round numbers at their axes."""
     from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
@@ -206,14 +206,19 @@ def round_numbers(low: float, high: float) -> list[float]:
 
 
 def _method_handle(name: str, marks: Sequence[Mark]) -> Any:
-    from matplotlib.lines import Line2D
-
     method = METHODS[name]
     values = sorted({mark.value for mark in marks if mark.name == name and mark.value is not None})
     field = next((mark.setting for mark in marks if mark.name == name and mark.setting), "")
-    color, marker = method_style(name)
     varied = f"{field.replace('_', ' ')} {values[0]:g} to {values[-1]:g}" if len(values) > 1 else "no setting"
-    return Line2D([], [], color=color, marker=marker, markersize=7, linewidth=0.9, label=f"{method.label}\n{varied}")
+    return method_handle(name, f"{method.label}\n{varied}")
+
+
+def method_handle(name: str, label: str) -> Any:
+    """A method's line in a legend."""
+    from matplotlib.lines import Line2D
+
+    color, marker = method_style(name)
+    return Line2D([], [], color=color, marker=marker, markersize=7, linewidth=0.9, label=label)
 
 
 def _peer_handle(name: str) -> Any:
@@ -245,7 +250,8 @@ def _sign_handles() -> list[Any]:
     ]
 
 
-def _figure(rows: int, columns: int, headline: str, panel: tuple[float, float] = PANEL) -> tuple[Any, Any]:
+def figure_of(rows: int, columns: int, headline: str, panel: tuple[float, float] = PANEL) -> tuple[Any, Any]:
+    """The figure with room for a legend, and its panels, rows by columns."""
     from matplotlib.figure import Figure
 
     width, height = panel[0] * columns + LEGEND_WIDTH, panel[1] * rows + 0.5
@@ -254,7 +260,8 @@ def _figure(rows: int, columns: int, headline: str, panel: tuple[float, float] =
     return figure, figure.subplots(rows, columns, squeeze=False)
 
 
-def _finish(figure: Any, handles: Sequence[Any], path: Path) -> None:
+def finish(figure: Any, handles: Sequence[Any], path: Path) -> None:
+    """Put the legend there and write PATH.png and PATH.svg."""
     figure.legend(handles=handles, loc="outside right center", fontsize=9, frameon=False, labelspacing=0.9)
     figure.savefig(path.with_suffix(".png"), dpi=PNG_DPI)
     # No date, no random names: the same numbers make the same file.
@@ -262,7 +269,7 @@ def _finish(figure: Any, handles: Sequence[Any], path: Path) -> None:
 
 
 @contextmanager
-def _matplotlib() -> Iterator[None]:
+def drawing() -> Iterator[None]:
     """matplotlib as it comes, whatever the user's settings; its cache of fonts goes to a temporary folder."""
     require_matplotlib()
     before = os.environ.get("MPLCONFIGDIR")

@@ -13,7 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.compare import Comparison, compare_open_scene
 from curvrefl.curvrefl_addon.report.cycles_reference import render_reference
-from curvrefl.curvrefl_addon.report.direct_light import mirrors_met
+from curvrefl.curvrefl_addon.report.direct_light import in_direct_light, mirrors_met
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
 from curvrefl.curvrefl_addon.settings_table import Settings
 from scenes.file_settings.blurred_stage import build_blurred_stage, slide
@@ -95,6 +95,30 @@ def test_a_ball_alone_is_followed_once() -> None:
     layer = bpy.context.view_layer
     assert mirrors_met(read_render_scene(scene, layer, ["ball"], 8, 8)[0], 4) == 1
     assert mirrors_met(read_render_scene(scene, layer, ["ball", "cube 0"], 8, 8)[0], 4) == 4
+
+
+@pytest.mark.parametrize("most", [0, 12])
+def test_direct_light_goes_through_glass_as_far_as_the_file_allows_on_both_sides(most: int) -> None:
+    scene = build_blurred_stage()
+    glass = bpy.data.objects["cube 0"]
+    glass.location, glass.scale = (-1.0, -2.6, 0.2), (2.5, 2.5, 2.5)
+    shader = glass.data.materials[0].node_tree.nodes["Principled BSDF"]
+    shader.inputs["Base Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    shader.inputs["Transmission Weight"].default_value, shader.inputs["Emission Strength"].default_value = 1.0, 0.0
+    scene.cycles.transmission_bounces, scene.cycles.max_bounces = most, 12
+    bpy.context.view_layer.update()
+    layer = bpy.context.view_layer
+    expected = render_reference(scene, layer, WIDTH, HEIGHT, 64).pixels[..., :3]
+    arrays, view = read_render_scene(scene, layer, ["ball"], WIDTH, HEIGHT)
+    renderer = Renderer(in_direct_light(arrays), Settings(method="exact", samples=16, bounces=1))
+    frame = renderer.render(view)
+    found = frame.color()[..., :3]
+    (number,) = [one.object_id for one in arrays.instances if one.object_name == "cube 0"]
+    behind = frame.surfaces["seen_position"][..., 3] == number
+    renderer.free()
+    assert behind.sum() > 300
+    assert (expected[behind].mean() > 0.1) == (most > 0)
+    assert np.abs(found - expected)[behind].mean() < 0.03
 
 
 def test_comparisons_are_blurred_on_both_sides(tmp_path: Path) -> None:

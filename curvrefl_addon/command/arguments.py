@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Types of arguments on the command line: each makes a value of a text, or says in a sentence's part why not."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+
+from ..settings_table import LARGEST_SIDE
+
+
+def between(least: int, most: int) -> Callable[[str], int]:
+    """An argument type: a whole number in this range."""
+
+    def number(text: str) -> int:
+        # (a dozen digits are out of any range)
+        if not re.fullmatch(r"[+-]?\d{1,12}", text) or not least <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from {least} to {most}")
+        return int(text)
+
+    return number
+
+
+def positive(text: str) -> float:
+    """A number above zero."""
+    if not re.fullmatch(r"\d{1,9}(\.\d{1,9})?", text) or float(text) == 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return float(text)
+
+
+def resolution(text: str) -> tuple[int, int]:
+    """Width and height in pixels."""
+    match = re.fullmatch(r"(\d{1,9})[xX](\d{1,9})", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a resolution like 640x480")
+    width, height = int(match[1]), int(match[2])
+    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
+        raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {LARGEST_SIDE} pixels a side")
+    return width, height
