@@ -18,6 +18,7 @@ OPERATORS = (
     "bake_reflector",
     "compare_with_cycles",
     "copy_report",
+    "measure_device",
     "mirror_settings",
     "save_preview",
     "trace_at_cursor",
@@ -59,6 +60,8 @@ def unregister() -> None:
         tracing.clear()
     if (viewport := sys.modules.get(f"{__package__}.viewport.handlers")) is not None:
         viewport.unregister()
+    if (device_run := sys.modules.get(f"{__package__}.viewport.device_run")) is not None:
+        device_run.end_session()
     for name in (ENGINE, *(f"ui.{name}" for name in reversed(INTERFACE))):
         module = sys.modules.get(f"{__package__}.{name}")
         if module is not None and hasattr(module, "remove"):

@@ -328,6 +328,12 @@ class OwnPreferences:
         unit="MB",
         preference=True,
     )
+    measures_devices: bool = setting(
+        True,
+        label="Measure New Devices",
+        text="Find out what rays and reflection points cost at a device's or driver's first use, while the view rests",
+        preference=True,
+    )
 
 
 RENDERER = settings_in(Settings)

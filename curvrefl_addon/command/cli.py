@@ -25,7 +25,7 @@ from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, verbs
+from . import charts, device_verbs, verbs
 from .arguments import between, positive, resolution
 from .inputs import SETTING, say
 from .signals import StoppedError, answered_signals
@@ -206,7 +206,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     stability.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
-    benchmark = verb("benchmark", verbs.benchmark, "Measure vertex solves and mirror rays per second on this device.")
+    benchmark = verb(
+        "benchmark", device_verbs.benchmark, "Measure vertex solves and mirror rays per second on this device."
+    )
     benchmark.add_argument(
         "--vertices",
         type=between(1000, 10_000_000),
@@ -220,6 +222,9 @@ def _parser() -> argparse.ArgumentParser:
         default=2_000_000,
         metavar="N",
         help="of the largest scene to follow rays in (%(default)s)",
+    )
+    benchmark.add_argument(
+        "--calibrate", action="store_true", help="measure in two seconds what auto counts with, and nothing else"
     )
     benchmark.add_argument("--bandwidth", type=positive, metavar="GB/s", help="of the device's memory, to compare with")
     benchmark.add_argument("--flops", type=positive, metavar="TFLOP/s", help="of the device in float32, likewise")

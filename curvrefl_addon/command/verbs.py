@@ -125,26 +125,6 @@ def stability(options: argparse.Namespace) -> int:
     return 0
 
 
-def benchmark(options: argparse.Namespace) -> int:
-    """Solves and rays per second; see `study.benchmark.benchmark`."""
-    output = checked_folder(options.output)
-    start_gpu()
-
-    from ..study.benchmark.benchmark import Limits, format_benchmark, measure_benchmark
-
-    with dropped(STDOUT) as stdout:
-        report = measure_benchmark(
-            options.vertices,
-            options.triangles,
-            Limits(options.bandwidth, options.flops),
-            output,
-            lambda line: print(line, file=stdout, flush=True),
-        )
-    print(format_benchmark(report))
-    print(f"Numbers: {output / 'benchmark.json'}")
-    return 0
-
-
 def bake(options: argparse.Namespace) -> int:
     """Bake one reflector, save its maps, and print how well they fit."""
     reflectors = read_names(options.reflector, "reflector")

@@ -21,7 +21,8 @@ from types import MappingProxyType
 import numpy as np
 
 from ..scene.camera.view import View
-from .costs import STILL_SHARE, STRICTER_SHARE, Scenery, cost_share, in_shadow
+from .costs.model import STILL_SHARE, STRICTER_SHARE, Scenery, cost_share, in_shadow
+from .costs.table import costs_in_use
 from .device.ways.features import features
 from .mirrors.mirror import Mirror
 from .settings import Settings
@@ -211,7 +212,7 @@ def _choose(
         return rays(f'"{name}" is too thin for a map that reflection points could be found on')
     if VERTICES in features().distrusted:
         return rays("This graphics driver gets reflection points wrong")
-    share, cost = cost_share(settings, view, mirror, scenery, unseen, is_still)
+    share, cost = cost_share(settings, view, mirror, scenery, unseen, is_still, costs_in_use())
     was_solved = last is not None and last.method == VERTICES
     kept = 1.0 if last is None or last.method == NOTHING else KEPT_SHARE if was_solved else 1.0 / KEPT_SHARE
     if share > MOST_SHARE * kept:

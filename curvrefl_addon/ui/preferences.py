@@ -12,6 +12,7 @@ from bpy.props import FloatVectorProperty
 from ..diagnostic_colors import DiagnosticColors
 from ..options import PACKAGE
 from ..settings_table import OF_NEW_SCENES, OF_PREFERENCES
+from .messages import draw_message, draw_rows
 from .table_properties import properties_of
 
 _COLORS = DiagnosticColors()
@@ -44,7 +45,9 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
         "color_high": _color("Most", "High end of the ramp of iterations and errors", _COLORS.ramp[-1]),
     }
 
-    def draw(self, _context: bpy.types.Context) -> None:
+    def draw(self, context: bpy.types.Context) -> None:
+        from ..viewport import device_run
+
         layout = self.layout
         layout.use_property_split = True
         column = layout.column(heading="New Scenes")
@@ -52,6 +55,13 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
             column.prop(self, item.name)
         for item in OF_PREFERENCES:
             layout.prop(self, item.name)
+        box = layout.box()
+        draw_rows(box, device_run.rows())
+        for message in device_run.messages():
+            draw_message(box, message, context)
+        row = box.row()
+        row.operator("curvrefl.measure_device")
+        row.operator("curvrefl.forget_device")
         column = layout.column(heading="Diagnostic Views")
         for name in ("color_converged", "color_hidden", "color_failed", "color_low", "color_high"):
             column.prop(self, name)

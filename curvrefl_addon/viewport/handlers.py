@@ -14,6 +14,7 @@ redraw. A handler that fails switches itself off, says why once in the panel, an
 from __future__ import annotations
 
 import traceback
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import monotonic
@@ -28,6 +29,7 @@ from ..options import current_options, settings_of
 from ..renderer.device.frame_buffers import active_frame_buffer
 from ..renderer.device.state import viewport
 from ..renderer.shading.diagnostic_legend import draw_legend
+from . import device_run
 from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
 from .shown_scene import ViewportScene, look_of
 
@@ -52,7 +54,7 @@ class _State:
     failure: str = ""
     asked_at: float = -1e9
     """When the statistics were last asked for, on a monotonic clock"""
-    counters: dict[str, int] = field(default_factory=dict)
+    counters: Counter[str] = field(default_factory=Counter)
     """Of scenes that are gone, and of pictures"""
 
 
@@ -70,7 +72,7 @@ def switch(on: bool) -> None:
 
 def messages() -> list[str]:
     """What the user should know, one sentence each."""
-    found = [_state.failure] if _state.failure else []
+    found = [*([_state.failure] if _state.failure else []), *device_run.messages()]
     for scene in _state.scenes.values():
         found += scene.messages
         for renderer in scene.renderers.values():
@@ -93,10 +95,10 @@ def material_remarks() -> dict[str, list[str]]:
 
 def counters() -> dict[str, int]:
     """How often what was read, made and drawn since the extension was enabled: what tests of laziness count."""
-    total = dict(_state.counters)
+    total = Counter(_state.counters)
     for scene in _state.scenes.values():
-        _add_counts(total, scene.counters)
-    return total
+        total.update(scene.counters)
+    return dict(total)
 
 
 def pictures() -> Mapping[int, RegionPicture]:
@@ -195,6 +197,7 @@ def _stop() -> None:
     for timer in (redraw_all, _redraw_settled):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
+    device_run.cancel()
     _state.pictures.clear()
     _state.frame_buffers.clear()
     for key in list(_state.scenes):
@@ -203,7 +206,7 @@ def _stop() -> None:
 
 def _free(key: tuple[int, str]) -> None:
     scene = _state.scenes.pop(key)
-    _add_counts(_state.counters, scene.counters)
+    _state.counters.update(scene.counters)
     for region in [region for region, picture in _state.pictures.items() if picture.scene is scene]:
         del _state.pictures[region]
     scene.free()
@@ -239,7 +242,7 @@ def _mirrors_may_differ(*_arguments: Any) -> None:
 def _loaded(*_arguments: Any) -> None:
     """Another file: nothing of the last one is left."""
     if any(manager.curvrefl_enabled for manager in bpy.data.window_managers):
-        _state.pictures.clear()
+        device_run.cancel()
         forget_scenes()
     else:
         _stop()
@@ -300,6 +303,7 @@ def _draw(context: bpy.types.Context) -> None:
         shown = _state.scenes[key] = ViewportScene()
     chosen = scene.curvrefl
     options = current_options()
+    device_run.begin_session(options.measures_devices)
     memory, images = options.memory_cap << 20, options.image_memory << 20
     renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), memory, images)
     picture = _state.pictures.pop(region, None)
@@ -316,6 +320,7 @@ def _draw(context: bpy.types.Context) -> None:
     if chosen.show in MODES or frame_buffer is None:
         frame_buffer = active_frame_buffer()
     picture.composite(frame_buffer, pixels)
+    device_run.advance(is_resting=not picture.is_coarse)
     _draw_again(picture)
 
 
@@ -337,14 +342,9 @@ def _draw_again(picture: RegionPicture) -> None:
     if picture.is_coarse:
         if not bpy.app.timers.is_registered(_redraw_settled):
             bpy.app.timers.register(_redraw_settled, first_interval=SETTLED_SECONDS)
-    elif picture.has_work and not bpy.app.timers.is_registered(redraw_all):
+    elif (picture.has_work or device_run.is_running()) and not bpy.app.timers.is_registered(redraw_all):
         bpy.app.timers.register(redraw_all, first_interval=IDLE_SECONDS)
 
 
 def _redraw_settled() -> None:
     redraw_all()
-
-
-def _add_counts(total: dict[str, int], counts: dict[str, int]) -> None:
-    for name, count in counts.items():
-        total[name] = total.get(name, 0) + count

@@ -33,9 +33,11 @@ def arguments() -> list[str]:
     return sys.argv[sys.argv.index("--") + 1 :]
 
 
-def install(archive: str) -> None:
+def install(archive: str, measures_devices: bool = False) -> None:
+    """The extension, enabled. `measures_devices`: as its preference; without it `auto` chooses alike everywhere."""
     bpy.context.preferences.view.show_splash = False
     bpy.ops.extensions.package_install_files(repo="user_default", filepath=archive, enable_on_install=True)
+    bpy.context.preferences.addons[EXTENSION].preferences.measures_devices = measures_devices
 
 
 def extension(name: str) -> ModuleType:

@@ -25,6 +25,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.programs",),
     ("renderer.surfaces",),
     ("renderer.mirrors",),
+    ("renderer.costs",),
     ("renderer.paths",),
     ("renderer.vertices", "renderer.rays", "renderer.lighting"),
     ("renderer.indirect",),

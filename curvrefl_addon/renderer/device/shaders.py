@@ -9,7 +9,9 @@ defines.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,6 +31,25 @@ type Kinds = Mapping[str, str]
 
 class ShaderError(RuntimeError):
     """A shader does not compile; the message has the GLSL file and line, and the driver's words."""
+
+
+class ShaderPendingError(RuntimeError):
+    """A shader is left for later: see `compiling_one`."""
+
+
+_may_compile: ContextVar[int | None] = ContextVar("may_compile", default=None)
+"""Shaders of this thread; None: any number"""
+
+
+@contextmanager
+def compiling_one() -> Iterator[None]:
+    """Let at most one shader be compiled: the next one raises ShaderPendingError. What was compiled is kept, so that
+    the same done again gets one shader further."""
+    token = _may_compile.set(1)
+    try:
+        yield
+    finally:
+        _may_compile.reset(token)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,8 +138,13 @@ def build_shader(label: str, *pieces: Piece) -> Any:
     """Compile the shader of these pieces, whose GLSL follows in their order. `label`: a name for error messages.
 
     Not inside of a frame's drawing loop: keep what is built with `functools.cache`, which `clear_gpu_caches` empties.
-    Raises ShaderError when it does not compile, ValueError when two pieces mean different things by one name.
+    Raises ShaderError when it does not compile, ValueError when two pieces mean different things by one name,
+    ShaderPendingError within `compiling_one`.
     """
+    if (left := _may_compile.get()) is not None:
+        if left == 0:
+            raise ShaderPendingError(f"the shader {label} is to be compiled")
+        _may_compile.set(left - 1)
     info = gpu.types.GPUShaderCreateInfo()
     # (Held until it is compiled.)
     interface = _add_declarations(info, label, pieces)

@@ -5,10 +5,15 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
+from time import perf_counter
 
+from ..device.shaders import ShaderPendingError, compiling_one
 from ..device.state import kept_state
+
+LEAST_SECONDS = 0.01
+"""A slice goes on after a `yield` that came before so long"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,9 +23,20 @@ class Task:
     label: str
     """What is being done, for the panel: "Measuring this device" """
     work: Callable[[], Iterator[None]]
-    """Makes a generator when its turn has come. Each `yield` ends a slice, which should take at most 50 ms of which the
-    compilation of one shader may be more. Nothing may be bound at a `yield`; what the generator made goes in its
-    `finally`, which runs too when the run is canceled."""
+    """Makes a generator when its turn has come. A `yield` ends a slice, unless there was hardly anything in it: between
+    two of them at most 50 ms of work belong, but for a shader that compiles (`compiled`). Nothing may be bound at a
+    `yield`; what the generator made goes in its `finally`, which runs too when the run is canceled."""
+
+
+def compiled[Result](act: Callable[[], Result]) -> Generator[None, None, Result]:
+    """`yield from compiled(act)`: what `act` returns, which is called anew until all of its shaders are there, one of
+    which compiles in each slice."""
+    while True:
+        try:
+            with compiling_one():
+                return act()
+        except ShaderPendingError:
+            yield
 
 
 class SpreadRun:
@@ -52,11 +68,19 @@ class SpreadRun:
         if not self._left:
             return
         self.slices += 1
+        start = perf_counter()
+        with kept_state():
+            while self._left:
+                self._step()
+                if perf_counter() - start >= LEAST_SECONDS:
+                    break
+
+    def _step(self) -> None:
+        """To the next `yield`."""
         try:
-            with kept_state():
-                if self._running is None:
-                    self._running = self._left[0].work()
-                next(self._running)
+            if self._running is None:
+                self._running = self._left[0].work()
+            next(self._running)
         except StopIteration:
             self._running = None
             del self._left[0]

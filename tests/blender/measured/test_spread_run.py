@@ -7,9 +7,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from curvrefl.curvrefl_addon.renderer.measured.spread_run import SpreadRun, Task
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader
+from curvrefl.curvrefl_addon.renderer.measured import spread_run
+from curvrefl.curvrefl_addon.renderer.measured.spread_run import SpreadRun, Task, compiled
+from curvrefl.gpu_shaders.loader import Snippet
 
 pytestmark = pytest.mark.usefixtures("gpu")
+
+
+@pytest.fixture(autouse=True)
+def every_yield_ends_a_slice(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(spread_run, "LEAST_SECONDS", 0.0)
 
 
 def noting(seen: list[str], name: str, slices: int) -> Task:
@@ -99,3 +107,42 @@ def test_the_state_is_as_it_was(ending: str) -> None:
     finally:
         gpu.state.blend_set("NONE")
         gpu.state.depth_test_set("NONE")
+
+
+def test_a_slice_goes_on_until_there_was_something_in_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(spread_run, "LEAST_SECONDS", 1e9)
+    seen: list[str] = []
+    run = SpreadRun([noting(seen, "a", 3), noting(seen, "b", 2)])
+    run.advance()
+    assert run.is_done and run.slices == 1
+    assert seen == ["a0", "a1", "a2", "a freed", "b0", "b1", "b freed"]
+
+
+def test_a_shader_compiles_in_each_slice() -> None:
+    """What needs three is begun three times; without `compiled` all compile at once."""
+    made: dict[int, object] = {}
+    begun: list[int] = []
+
+    def needs_three() -> int:
+        begun.append(len(made))
+        for number in range(3):
+            if number not in made:
+                text = f"void main() {{ color = vec4({number}.0); }}"
+                piece = Piece(outputs={"color": "VEC4"}, fragment=Snippet("color", text))
+                made[number] = build_shader(f"color {number}", FULL_SCREEN, piece)
+        return len(made)
+
+    seen: list[int] = []
+
+    def work() -> Iterator[None]:
+        seen.append((yield from compiled(needs_three)))
+
+    run = SpreadRun([Task("Compiling", work)])
+    counts = []
+    while not run.is_done:
+        run.advance()
+        counts.append(len(made))
+    assert run.failure == "" and seen == [3]
+    assert counts == [1, 2, 3] and begun == [0, 1, 2]
+    made.clear()
+    assert needs_three() == 3

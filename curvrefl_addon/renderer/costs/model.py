@@ -9,29 +9,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene.arrays import Float64Array
-from ..scene.camera.view import View
-from .geometry.split import split_angle
-from .mirrors.mirror import Mirror
-from .settings import Settings
+from ...scene.arrays import Float64Array
+from ...scene.camera.view import View
+from ..geometry.split import split_angle
+from ..mirrors.mirror import Mirror
+from ..settings import Settings
+from .table import Costs
 
-PIXEL_BY_RAY, PIXEL_BY_RAY_PER_DOUBLING = 0.030, 0.010
-"""Cost of following the ray of a mirror pixel beyond that of shading it, which both ways have, and what each doubling
-of the triangles adds. This and the other costs are about microseconds of the processor that they were fitted on; only
-their proportions count (`docs/figures.md`)."""
-LAYER_DRAWN, TRIANGLE_DRAWN = 0.015, 0.66
-"""Cost of a mirror pixel for each layer of solved triangles drawn onto it, and of a triangle drawn, per sub-frame"""
-VERTEX_SOLVED, EDGES_ASKED = 0.85, 1.45
-"""Cost of a solved vertex, and what asking whether its edges leave their chords adds to it in a still: solutions are
-read back for that, and midpoints solved"""
 SAMPLED_VERTICES, SILHOUETTE_SIDES, PIXELS_PROBED = 2000, 16, 16
 """A mirror's silhouette is taken as a polygon of so many sides around about so many of its vertices, and its pixels are
 counted by so many probes along each side of its window"""
 BEFORE_SHARE, MOST_BEFORE = 0.58, 64
 """Radii of an object's ball, and so many of the largest balls: what they cover in the view counts as before the mirror.
 The balls hold the objects' boxes: so much of it is a round object's own radius."""
-SOLVE_BEGUN = 1500.0
-"""Cost of a mirror's solve and draw before the first vertex: programs are bound, results waited for"""
 SPLIT_TRIANGLES = 30.0
 """Triangles that a ball is split into around a mirror, times the square of the angle that its edges are split to, where
 it is as large as it is far away"""
@@ -66,20 +56,26 @@ class Scenery:
 
 
 def cost_share(
-    settings: Settings, view: View, mirror: Mirror, scenery: Scenery, unseen: NDArray[np.bool_], is_still: bool
+    settings: Settings,
+    view: View,
+    mirror: Mirror,
+    scenery: Scenery,
+    unseen: NDArray[np.bool_],
+    is_still: bool,
+    costs: Costs,
 ) -> tuple[float, str]:
     """What solving costs over what following rays does, and that in words."""
     pixels = mirror_pixels(mirror, view, scenery)
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
     added = split_triangles(settings, view, mirror, scenery, unseen, is_still)
-    by_rays = pixels * (PIXEL_BY_RAY + PIXEL_BY_RAY_PER_DOUBLING * np.log2(max(triangles, 2)))
-    vertex = VERTEX_SOLVED + (EDGES_ASKED if is_still else 0.0)
-    once = SOLVE_BEGUN + vertex * (vertices + 0.5 * added)
+    by_ray = costs.pixel_by_ray + costs.pixel_by_ray_per_doubling * np.log2(max(triangles, 2))
+    vertex = costs.vertex_solved + (costs.edges_asked if is_still else 0.0)
+    once = costs.solve_begun + vertex * (vertices + 0.5 * added)
     layers = layers_around(mirror.shape().center, scenery.centers[~unseen], scenery.radii[~unseen])
-    by_points = pixels * LAYER_DRAWN * layers + TRIANGLE_DRAWN * (triangles + added)
-    by_points += once / (settings.samples if is_still else 1)
+    by_points = pixels * costs.layer_drawn * layers + costs.triangle_drawn * (triangles + added)
+    by_points += costs.pixel_cleared * view.width * view.height + once / (settings.samples if is_still else 1)
     # (Of one pixel at least, where all may be hidden.)
-    share = by_points / max(by_rays, PIXEL_BY_RAY)
+    share = by_points / (max(pixels, 1.0) * by_ray)
     return share, f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
 
 
