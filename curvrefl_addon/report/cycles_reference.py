@@ -68,8 +68,9 @@ def render_reference(
     """The scene in Cycles on the CPU.
 
     `light` 'direct': surfaces are lit by lamps, emitters and the world only, and mirrors show them lit that way, up to
-    `bounces` mirrors one after the other and through as much glass as the file allows; Blender's default pixel filter.
-    'full': the bounces, clamps and pixel filter that the user has set. `sharp` leaves out depth of field and motion blur.
+    `bounces` mirrors one after the other and through as much glass as the file allows; Blender's default pixel
+    filter. 'full': the bounces, clamps and pixel filter that the user has set. `sharp` leaves out depth of field and
+    motion blur.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
