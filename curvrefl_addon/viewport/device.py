@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
-from ..renderer.proofs.known import known_verdict, take_verdict
 from ..renderer.proofs.proving import Proving, prove_all
-from ..renderer.proofs.verdict import Verdict
+from ..renderer.proofs.verdict import Verdict, known_verdict, take_verdict
 from . import handlers
 
 

@@ -30,7 +30,7 @@ class Proving:
 
     def work(self) -> Iterator[None]:
         """Ends a slice at each `yield`: one dispatch or draw and the shader for it, or a search in numpy. Passes that
-        others run meanwhile use what they did, until somebody takes the verdict (`known.take_verdict`)."""
+        others run meanwhile use what they did, until somebody takes the verdict (`verdict.take_verdict`)."""
         waiting, tried = deque(self._proofs), list[Proof]()
         while waiting:
             proof = waiting.popleft()

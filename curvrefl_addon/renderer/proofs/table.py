@@ -7,6 +7,7 @@ from __future__ import annotations
 from functools import partial
 
 from .other_searches import prove_grid, prove_parametric, prove_planar, prove_screen
+from .paths import prove_paths
 from .pictures import prove_pictures
 from .proof import Proof
 from .quads import prove_quads
@@ -28,6 +29,7 @@ FIRST = (
 )
 """Of what `auto` draws by"""
 OTHERS = (
+    Proof("paths", "rough, layered and glassy surfaces", prove_paths),
     Proof("regions", 'further images by "Newton"', prove_regions, BY_COMPUTE, ("newton",)),
     Proof(
         "secant_star",

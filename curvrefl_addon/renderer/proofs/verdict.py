@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..device.ways.features import FEATURES, Features
+from ..device.ways.features import FEATURES, Features, features, use_features
 from .table import PROOFS
 
 
@@ -84,3 +84,20 @@ class Verdict:
 def joined(words: list[str]) -> str:
     """In a sentence."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+_known = [Verdict()]
+
+
+def known_verdict() -> Verdict:
+    """Nothing is wrong as long as nothing was proven."""
+    return _known[0]
+
+
+def take_verdict(verdict: Verdict) -> bool:
+    """From now on use what it says; whether that is something else than before, so that what was drawn and solved
+    until now may be wrong."""
+    used, distrusted = features(), features().distrusted
+    _known[0] = verdict
+    use_features(verdict.features)
+    return (used, distrusted) != (features(), features().distrusted)

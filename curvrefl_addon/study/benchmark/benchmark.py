@@ -13,9 +13,9 @@ from typing import Any
 
 from ...output import folder_to_publish
 from ...renderer.device.context import platform_facts
-from ...renderer.proofs.known import take_verdict
 from ...renderer.proofs.proving import prove_all
 from ...renderer.proofs.report import summary
+from ...renderer.proofs.verdict import take_verdict
 from ...report.table import NO_NUMBER, aligned, number
 from .rays import measure_rays
 from .solves import STATES, measure_solves

@@ -14,11 +14,10 @@ import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.renderer.device.context import device_limits, platform_facts
 from curvrefl.curvrefl_addon.renderer.device.ways.features import features
-from curvrefl.curvrefl_addon.renderer.proofs.known import known_verdict, take_verdict
 from curvrefl.curvrefl_addon.renderer.proofs.proving import prove_all
 from curvrefl.curvrefl_addon.renderer.proofs.report import device_report, summary
 from curvrefl.curvrefl_addon.renderer.proofs.table import PROOFS
-from curvrefl.curvrefl_addon.renderer.proofs.verdict import Verdict
+from curvrefl.curvrefl_addon.renderer.proofs.verdict import Verdict, known_verdict, take_verdict
 from curvrefl.curvrefl_addon.ui.panel import CURVREFL_PT_main
 from curvrefl.curvrefl_addon.viewport import device, handlers
 from proofs.broken import broken
