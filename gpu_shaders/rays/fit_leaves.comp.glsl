@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The leaves of the hierarchy of a mesh that has deformed: records of their triangles, and their boxes into the nodes
 // above them (records as in rays/ray_walk.glsl). `leaves`: first triangle, how many, which record of the nodes begins
-// the box. `regions`: first records of nodes, triangles and corners; how many leaves.
+// the box. `regions`: first records of nodes, triangles and corners; how many leaves. CORNERS_ARE_VERTICES: in their
+// order.
 #include "common/invocation.glsl"
 #include "common/records.glsl"
 
 vec3 place_of_corner(float number)
 {
-  vec4 corner = imageLoad(rays, texel_of_record(regions.z + int(number)));
-  return fetch_three(mesh_positions, int(corner.w));
+#ifdef CORNERS_ARE_VERTICES
+  return fetch_three(mesh_positions, int(number));
+#else
+  return fetch_three(mesh_positions, int(imageLoad(rays, texel_of_record(regions.z + int(number))).w));
+#endif
 }
 
 void main()

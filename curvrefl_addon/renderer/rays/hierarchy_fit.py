@@ -20,8 +20,9 @@ from ...scene.arrays import MeshArrays
 from ..device.context import gpu_cache
 from ..device.record_regions import RecordRegions
 from ..device.records import empty_record_texture, read_records, record_texture
-from ..device.shaders import Image, Piece, build_shader, dispatch
+from ..device.shaders import Image, Piece, build_shader, dispatch, flags
 from ..device.ways.features import features
+from ..geometry.mesh_pieces import is_count
 from ..geometry.vertex_uploads import VertexUploads
 from .hierarchy import Hierarchy
 from .ray_records import NODE_RECORDS, TRIANGLE_RECORDS
@@ -36,9 +37,9 @@ _GROUP = 64
 
 
 class HierarchyFit:
-    """Of one tree, which is on the GPU."""
+    """Of one tree over a mesh, which is on the GPU."""
 
-    def __init__(self, hierarchy: Hierarchy) -> None:
+    def __init__(self, hierarchy: Hierarchy, mesh: MeshArrays) -> None:
         inner = np.flatnonzero(hierarchy.count == 0)
         leaves = np.flatnonzero(hierarchy.count > 0)
         # (A root that is a leaf has its box in a node above it.)
@@ -50,6 +51,7 @@ class HierarchyFit:
         self._leaves = record_texture(records)
         self._leaf_count, self._node_count = len(leaves), len(inner)
         self._levels = _levels_to_fit(hierarchy, inner)
+        self._corners_are_vertices = is_count(mesh.corner_vertex)
         self._fitted = 0
         self._sums: Any = None
 
@@ -72,7 +74,7 @@ class HierarchyFit:
         """Boxes, triangles and normals of `mesh`, which is the mesh `before` with its vertices elsewhere; `starts`:
         first records of its nodes, triangles and corners."""
         nodes, triangles, corners = starts[:3]
-        shader = _leaves_shader()
+        shader = _leaves_shader(self._corners_are_vertices)
         shader.bind()
         shader.uniform_sampler("leaves", self._leaves)
         shader.uniform_sampler("mesh_positions", uploads.texture(mesh.positions))
@@ -136,12 +138,17 @@ _FITTED = Piece(
 
 
 @gpu_cache
-def _leaves_shader() -> Any:
+def _leaves_shader(corners_are_vertices: bool) -> Any:
     samplers = {"leaves": "FLOAT_2D", "mesh_positions": "FLOAT_2D"}
     return build_shader(
         "fit leaves",
         _FITTED,
-        Piece(samplers=samplers, constants={"regions": "IVEC4"}, compute="rays/fit_leaves.comp.glsl"),
+        Piece(
+            samplers=samplers,
+            constants={"regions": "IVEC4"},
+            defines=flags(*(["CORNERS_ARE_VERTICES"] if corners_are_vertices else [])),
+            compute="rays/fit_leaves.comp.glsl",
+        ),
     )
 
 

@@ -181,7 +181,7 @@ class RayScene:
                 self._build = None
             if self._rebuild_if_worse(item):
                 continue
-            item.fit = item.fit or HierarchyFit(item.hierarchy)
+            item.fit = item.fit or HierarchyFit(item.hierarchy, mesh)
             item.fit.fit(self.regions, item.starts, before, mesh, self._uploads)
             self.counters["hierarchies fitted"] += 1
         return any(self._meshes[id(item.mesh)] is not item for item in items)

@@ -10,13 +10,13 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import MeshArrays
 from ..remarks import Remark
 from ..strands.particles import HairSystem
 from ..strands.reading import is_strands_or_points, read_strands
 from .meshes import MeshNeeds, MeshReading, mirrored, read_mesh
+from .topology import Topology, same_bits
 
 EMPTY = MeshArrays(
     name="",
@@ -76,6 +76,8 @@ class MeshStore:
         """By signature, arrays that were dropped since the last walk"""
         self._shapes: dict[_Shape, MeshArrays] = {}
         """The same by what they were read of"""
+        self._topologies: dict[_Shape, Topology] = {}
+        """Of what has been read more than once"""
 
     def begin(self) -> None:
         """Before a walk through all instances."""
@@ -87,6 +89,9 @@ class MeshStore:
             self._drop(key)
         self._replaced.clear()
         self._shapes.clear()
+        if self._topologies:
+            shapes = {stored.shape for stored in self._stored.values()}
+            self._topologies = {key: item for key, item in self._topologies.items() if key in shapes}
 
     def forget_all(self) -> None:
         """Any may have changed; those whose arrays come out the same stay the same objects all the same."""
@@ -113,14 +118,18 @@ class MeshStore:
                 plain = self.read(source, owner, needs, is_mirrored=False)
                 arrays, dropped, remarks = mirrored(self.meshes[plain.number]), plain.dropped, plain.remarks
             else:
-                arrays, dropped, remarks = self._read(source, needs)
+                arrays, dropped, remarks = self._read(source, needs, shape)
             arrays = self._replaced.get(arrays.signature) or with_known_arrays(arrays, self._shapes.get(shape))
             reach = 2.0 * max(float(arrays.positions.max(initial=0.0)), -float(arrays.positions.min(initial=0.0)))
             self._stored[key] = StoredMesh(self._number(arrays), dropped, remarks, owners, reach, shape)
         return self._stored[key]
 
-    def _read(self, source: Source, needs: MeshNeeds) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
-        reading = _read_surface(source, needs)
+    def _read(
+        self, source: Source, needs: MeshNeeds, shape: _Shape
+    ) -> tuple[MeshArrays, int, tuple[Remark | str, ...]]:
+        reading = _read_surface(source, needs, self._topologies.get(shape))
+        if shape in self._shapes and reading.topology is not None:
+            self._topologies[shape] = reading.topology
         obj = source.obj if isinstance(source, HairSystem) else source
         self.reads += 1
         remarks: list[Remark | str] = []
@@ -157,26 +166,21 @@ def with_known_arrays(arrays: MeshArrays, known: MeshArrays | None) -> MeshArray
     kept: dict[str, Any] = {}
     for name in _ARRAYS:
         new, old = getattr(arrays, name), getattr(known, name)
-        if new is not None and old is not None and new.dtype == old.dtype and np.array_equal(_words(new), _words(old)):
+        if new is not None and old is not None and same_bits(new, old):
             kept[name] = old
     return replace(arrays, **kept)
 
 
-def _words(array: NDArray[Any]) -> NDArray[Any]:
-    """The same numbers as whole ones: what is no number is itself, and no zero another one."""
-    return array.view(np.int32)
-
-
-def _read_surface(obj: Source, needs: MeshNeeds) -> MeshReading:
+def _read_surface(obj: Source, needs: MeshNeeds, known: Topology | None) -> MeshReading:
     if isinstance(obj, HairSystem) or is_strands_or_points(obj.data):
         return read_strands(obj, needs)
     assert isinstance(obj.data, bpy.types.Mesh)
     if not obj.data.is_editmode:
-        return read_mesh(obj.data, needs)
+        return read_mesh(obj.data, needs, known)
     # What is being edited has its evaluated arrays only in a copy.
     mesh = obj.to_mesh()
     assert mesh is not None
     try:
-        return read_mesh(mesh, needs)
+        return read_mesh(mesh, needs, known)
     finally:
         obj.to_mesh_clear()

@@ -17,8 +17,8 @@ from ..finite import LARGEST_LIGHT, LARGEST_PLACE, is_usable
 from ..programs.program import Attribute
 from ..signature import array_signature
 from .attributes import attribute_data, corner_coordinates
-from .corners import merge_corners
 from .program_attributes import Corners, four_numbers, generated_of, read_layers, uv_of_map
+from .topology import Source, Topology, topology_of
 
 GENERATED = "\0generated"
 """Texture space "Generated" in place of a UV map's name"""
@@ -48,12 +48,15 @@ class MeshReading:
     """Triangles left out because a coordinate is not finite"""
     repaired: tuple[str, ...] = ()
     """Causes of remarks: what of it was no number and has been replaced"""
+    topology: Topology | None = None
+    """Of a mesh of Blender's"""
 
 
-def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
+def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds, known: Topology | None = None) -> MeshReading:
     """Read an evaluated mesh, object space. Vertices that no face uses are left out.
 
-    Normals are Blender's: smooth, flat or custom, per corner only where the mesh has them so.
+    Normals are Blender's: smooth, flat or custom, per corner only where the mesh has them so. `known`: what it, or
+    another state of it, was put together like; where it is so still, the arrays that follow from it are the same ones.
     """
     triangle_corners = _loop_triangles(mesh)
     corner_vertex = np.empty(len(mesh.loops), np.int32)
@@ -81,54 +84,45 @@ def read_mesh(mesh: bpy.types.Mesh, needs: MeshNeeds) -> MeshReading:
     uv = _usable(_uv(mesh, needs.uv_map, positions, corner_vertex), "Texture coordinates", repaired)
     per_vertex_normals = mesh.normals_domain == "POINT"
     normals = _normals(mesh, per_vertex_normals)
-    known = Corners(positions, corner_vertex, normals, triangle_corners)
-    extra = read_layers(mesh, needs.attributes, known, repaired)
+    corners = Corners(positions, corner_vertex, normals, triangle_corners)
+    extra = read_layers(mesh, needs.attributes, corners, repaired)
 
-    used_corners, triangle_corners = _compact(
-        triangle_corners, len(corner_vertex), complete=dropped == 0 and not any(needs.hidden_slots)
+    layers = [layer for layer in (None if per_vertex_normals else normals, uv) if layer is not None]
+    layers += [layer.values for layer in extra]
+    source = Source(
+        len(positions),
+        mesh.normals_domain,
+        corner_vertex,
+        triangle_corners,
+        slots,
+        dropped == 0 and not any(needs.hidden_slots),
     )
-    if used_corners is not None:
-        corner_vertex = corner_vertex[used_corners]
-        normals = normals if per_vertex_normals else normals[used_corners]
-        uv = None if uv is None else uv[used_corners]
-        extra = [replace(layer, values=layer.values[used_corners]) for layer in extra]
-    used_vertices, corner_vertex = _compact(corner_vertex, len(positions), complete=False)
-    if used_vertices is not None:
-        positions = positions[used_vertices]
-        normals = normals[used_vertices] if per_vertex_normals else normals
-
-    models: Int32Array | None = None
-    if per_vertex_normals and uv is None and not extra:
-        corner_count = len(positions)
-        triangles = corner_vertex[triangle_corners]
-        corner_vertex = np.arange(corner_count, dtype=np.int32)
-    elif mesh.normals_domain == "FACE":
-        # Every face has its own normal: nothing to merge.
-        triangles = triangle_corners
+    topology = known
+    if topology is None or not topology.source.is_same(source) or not topology.serves(layers):
+        topology = topology_of(source, layers)
+    positions, corner_vertex = topology.at_vertices(positions), topology.corner_vertex
+    if not per_vertex_normals:
+        normals = topology.at_corners(normals)
     else:
-        layers = [layer for layer in (None if per_vertex_normals else normals, uv) if layer is not None]
-        layers += [layer.values for layer in extra]
-        merged, models = merge_corners(corner_vertex, len(positions), layers)
-        triangles = merged[triangle_corners]
-        normals = normals[corner_vertex[models]] if per_vertex_normals else normals[models]
-        uv = None if uv is None else uv[models]
-        corner_vertex = corner_vertex[models]
+        normals = topology.at_vertices(normals)
+        normals = normals if topology.models is None else normals[corner_vertex]
     if not np.isfinite(normals).all():
-        normals = _repaired_normals(normals, positions, corner_vertex, triangles)
-    attributes = four_numbers(extra, models)
+        normals = _repaired_normals(normals, positions, corner_vertex, topology.triangles)
+    uv = None if uv is None else topology.at_corners(uv)
+    attributes = four_numbers([replace(layer, values=topology.at_corners(layer.values)) for layer in extra], None)
     arrays = MeshArrays(
         name=mesh.name,
         positions=positions,
         corner_vertex=corner_vertex,
         corner_normals=normals,
         corner_uv=uv,
-        triangles=triangles,
-        triangle_slot=slots,
+        triangles=topology.triangles,
+        triangle_slot=topology.source.slots,
         attributes=tuple(layer.attribute for layer in extra),
         corner_attributes=attributes,
-        signature=array_signature(positions, corner_vertex, normals, uv, triangles, slots, attributes),
+        signature=array_signature(np.array([topology.signature]), positions, normals, uv, attributes),
     )
-    return MeshReading(arrays, dropped, tuple(repaired))
+    return MeshReading(arrays, dropped, tuple(repaired), topology)
 
 
 def mirrored(mesh: MeshArrays) -> MeshArrays:
@@ -206,23 +200,6 @@ def _usable(layer: Float32Array | None, what: str, repaired: list[str]) -> Float
         return layer
     repaired.append(f"{what} {{of}} that are not usable numbers are taken for 0.")
     return np.where(np.abs(layer) <= LARGEST_LIGHT, layer, np.float32(0.0))
-
-
-def _compact(indices: Int32Array, count: int, complete: bool) -> tuple[Int32Array | None, Int32Array]:
-    """The members of 0..count-1 that `indices` uses and the indices into these; None where that is all of them.
-
-    `complete`: known to use all.
-    """
-    if complete:
-        return None, indices
-    used = np.zeros(count, bool)
-    used[indices.reshape(-1)] = True
-    if used.all():
-        return None, indices
-    members = np.flatnonzero(used).astype(np.int32)
-    number = np.empty(count, np.int32)
-    number[members] = np.arange(len(members), dtype=np.int32)
-    return members, number[indices]
 
 
 def _repaired_normals(

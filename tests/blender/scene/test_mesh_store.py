@@ -4,17 +4,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.renderer.geometry.vertex_uploads import is_deformed
-from curvrefl.curvrefl_addon.scene.arrays import MeshArrays, SceneArrays
+from curvrefl.curvrefl_addon.scene.arrays import Float32Array, MeshArrays, SceneArrays
 from curvrefl.curvrefl_addon.scene.changes import Changes
 from curvrefl.curvrefl_addon.scene.extract import SceneReader, extract_scene
+from curvrefl.curvrefl_addon.scene.meshes import meshes
 from curvrefl.curvrefl_addon.scene.meshes.mesh_store import MeshStore
 from curvrefl.curvrefl_addon.scene.meshes.meshes import MeshNeeds
+from curvrefl.curvrefl_addon.scene.meshes.topology import Source, Topology
 from extraction import add_mesh, empty_scene
 
 
@@ -106,6 +109,60 @@ def test_what_deforms_keeps_all_but_its_vertices(look: str) -> None:
     finer = read_frame(reader, 22)
     assert not is_deformed(second, finer) and len(finer.triangles) > len(first.triangles)
     assert is_deformed(finer, read_frame(reader, 23))
+
+
+def test_a_third_reading_takes_positions_and_normals_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How it is put together is found twice, and again when it is put together otherwise; then all is let go."""
+    found: list[int] = []
+    original = meshes.topology_of
+
+    def counted(source: Source, layers: Sequence[Float32Array]) -> Topology:
+        found.append(source.vertices)
+        return original(source, layers)
+
+    empty_scene()
+    grid = waving_grid("grid", textured=True)
+    reader = SceneReader()
+    monkeypatch.setattr(meshes, "topology_of", counted)
+    counts = []
+    for frame in range(20, 25):
+        scene = bpy.context.scene
+        scene.frame_set(frame)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        reader.read(depsgraph, scene, [], Changes(geometry={grid.session_uid}))
+        counts.append(len(found))
+    assert counts == [1, 2, 2, 2, 2]
+    grid.data.polygons[3].flip()
+    grid.data.update_tag()
+    read_frame(reader, 25)
+    assert len(found) == 4, "and by the one who reads it anew"
+    bpy.data.objects.remove(grid)
+    reader.read(bpy.context.evaluated_depsgraph_get(), scene, [], Changes(everything=True))
+    assert not reader._meshes._topologies
+
+
+def surface_of(mesh: MeshArrays) -> np.ndarray:
+    """(triangles, 3, 6) places and normals."""
+    both = np.concatenate([mesh.positions[mesh.corner_vertex], mesh.corner_normals], axis=1)
+    return both[mesh.triangles]
+
+
+def test_corners_that_were_alike_come_apart() -> None:
+    """Sharp edges show nowhere on a plane, then here and there as waves come by."""
+    empty_scene()
+    grid = waving_grid("grid", sharp=True)
+    grid.modifiers["Wave"].time_offset = 3.0
+    reader = SceneReader()
+    corners = set()
+    for frame in (1, 2, 4, 5, 6, 8, 12, 20, 21):
+        scene = bpy.context.scene
+        scene.frame_set(frame)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        arrays = reader.read(depsgraph, scene, [], Changes(geometry={grid.session_uid}))
+        (mesh,), (expected,) = used_meshes(arrays), used_meshes(extract_scene(depsgraph, scene, []))
+        corners.add(len(mesh.corner_vertex))
+        np.testing.assert_array_equal(surface_of(mesh), surface_of(expected))
+    assert len(corners) > 1
 
 
 def test_vertices_that_swap_corners_are_another_topology() -> None:
