@@ -202,7 +202,7 @@ class RegionPicture:
         self._is_sharp = not at_rest
         lens = None if self._is_sharp else view.lens
         size = (max(view.width // divisor, 1), max(view.height // divisor, 1))
-        small = replace(view, width=size[0], height=size[1], lens=lens)
+        small = replace(view, width=size[0], height=size[1], lens=lens, stands_for=divisor)
         texture = None if self._canvas is None else self._canvas.texture
         if self._canvas is None or (texture.width, texture.height) != (small.width, small.height):
             self._canvas = Canvas.of_size(small.width, small.height, linear=True)

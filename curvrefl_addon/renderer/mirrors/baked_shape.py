@@ -92,11 +92,11 @@ class BakedShape:
         return self.map is not None and self.map.holes > OPEN_SHARE
 
     def radius_pixels(self, view: View) -> float:
-        """Size of the ball around it in the picture."""
+        """Size of the ball around it in the picture, or in the one that this one stands for."""
         distance = 1.0
         if not view.is_orthographic:
             distance = max(float(np.linalg.norm(view.eye[:3] - self.center)), self.bound)
-        return view.focal_pixels * self.bound / distance
+        return view.stands_for * view.focal_pixels * self.bound / distance
 
     def parametric(self) -> Any:
         """Its parametric map, baked when first asked for. Raises InputError where it has no UV map that serves."""

@@ -46,6 +46,9 @@ class View:
     height: int
     lens: Lens | None = None
     """Sub-frames look through places on it; None is a pinhole"""
+    stands_for: int = 1
+    """Times as many pixels along a side has the picture that takes its place once nothing moves: what is kept from
+    picture to picture, split meshes and maps, is as fine as that one needs"""
     clip: tuple[float, float] | None = None
     """Distances along the line of sight between which things are seen, where the projection is not exact about them"""
     linear_depth: float = 0.0

@@ -41,11 +41,26 @@ class Device:
         self._now += self._seconds_per_pixel * canvas.texture.width * canvas.texture.height
 
 
-def small_renderer() -> tuple[Renderer, View]:
+def small_renderer(method: str = "exact", size: int = 1) -> tuple[Renderer, View]:
     build_scene()
     scene = bpy.context.scene
-    arrays, view = read_render_scene(scene, bpy.context.view_layer, ["Mirror Ball"], WIDTH, HEIGHT)
-    return Renderer(arrays, Settings(method="exact", samples=4)), view
+    arrays, view = read_render_scene(scene, bpy.context.view_layer, ["Mirror Ball"], size * WIDTH, size * HEIGHT)
+    return Renderer(arrays, Settings(method=method, samples=4)), view
+
+
+def settings(motion: str) -> Any:
+    return SimpleNamespace(
+        show="REFLECTION", motion_resolution=motion, stripe_direction=(0.0, 0.0, 1.0), stripe_count=3
+    )
+
+
+OPTIONS = SimpleNamespace(colors=DiagnosticColors())
+
+
+def seen_from(view: View, step: int) -> View:
+    turned = view.world_to_view.copy()
+    turned[0, 3] += 1e-3 * step
+    return replace(view, world_to_view=turned)
 
 
 @pytest.mark.parametrize(("share_of_budget", "moving"), [(0.1, 1), (3.0, 2), (14.0, 4)])
@@ -55,24 +70,31 @@ def test_pixels_follow_the_time_they_take(share_of_budget: float, moving: int, m
     monkeypatch.setattr(region, "perf_counter", device.clock)
     monkeypatch.setattr(Canvas, "wait", lambda canvas: device.draw(canvas))
     picture = RegionPicture(None, renderer)  # type: ignore[arg-type]
-    settings: Any = SimpleNamespace(
-        show="REFLECTION", motion_resolution="AUTO", stripe_direction=(0.0, 0.0, 1.0), stripe_count=3
-    )
-    options = SimpleNamespace(colors=DiagnosticColors())
     for step in range(40):
-        turned = view.world_to_view.copy()
-        turned[0, 3] += 1e-3 * step
-        seen = replace(view, world_to_view=turned)
-        picture.advance(seen, settings, options, 0.01 * step, False, {})
+        seen = seen_from(view, step)
+        picture.advance(seen, settings("AUTO"), OPTIONS, 0.01 * step, False, {})
         assert picture._canvas is not None
         if step == 0:
             assert picture._canvas.texture.width == WIDTH // 2
     assert (picture._canvas.texture.width, picture._canvas.texture.height) == (WIDTH // moving, HEIGHT // moving)
     while picture.has_work:
-        picture.advance(seen, settings, options, 0.4 + 2.0 * SETTLED_SECONDS, False, {})
+        picture.advance(seen, settings("AUTO"), OPTIONS, 0.4 + 2.0 * SETTLED_SECONDS, False, {})
     assert (picture._canvas.texture.width, picture._canvas.texture.height) == (WIDTH, HEIGHT)
     still = renderer.render(seen).color()
     mirror = picture.pixels()[..., 3] > 0.999
     assert mirror.sum() > 100
     assert np.abs(picture.pixels() - still)[mirror].max() < 1e-5
+    renderer.free()
+
+
+def test_what_is_kept_is_as_fine_as_the_picture_at_rest_needs() -> None:
+    """However coarse pictures are meanwhile: else all would be split again as they get finer."""
+    renderer, view = small_renderer("newton", 8)
+    picture = RegionPicture(None, renderer)  # type: ignore[arg-type]
+    counts = []
+    for step, motion in enumerate(("QUARTER", "HALF", "FULL", "QUARTER")):
+        picture.advance(seen_from(view, step), settings(motion), OPTIONS, 0.01 * step, False, {})
+        counts.append({**renderer.geometry.counters, **renderer.counters})
+    assert counts[0]["meshes split"] > 0
+    assert all(count == counts[0] for count in counts[1:])
     renderer.free()
