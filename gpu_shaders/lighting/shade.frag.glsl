@@ -94,7 +94,7 @@ void main()
 #else
 #ifdef QUADS
   world_is_shared =
-    quad_is_one_surface(shown.position, shown.normal, vec3(position.w, normal.w, seen_mirror));
+    quad_is_one_surface(shown.position, shown.normal, vec3(position.w, normal.w, seen_mirror + 0.25 * base.w));
 #endif
   vec3 radiance = shade_surface(shown, -direction);
 #ifdef GATHER_SHARED

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a mirror pixel shows: the first surface on the ray that its point and shading normal reflect. With ON_PATH the
 // mirror is what the pass before has shown, and the ray goes on from there. Drawn at mirror pixels only (path_mask).
-// With KEEPS_WAY the next pass can go on from here. With WITH_COUNTS the direction is (nodes, triangles, instances
-// that the ray was tested against, 1).
+// With KEEPS_WAY the next pass can go on from here. With AT_ONCE there is none: the ray goes on from mirrors here,
+// until it has met `most_hits` surfaces, and tells where it set out to the last and how many these were. With
+// WITH_COUNTS the direction is (nodes, triangles, instances that the ray was tested against, 1).
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "lighting/mirror_tint.glsl"
@@ -26,7 +27,33 @@ void main()
   // mirror rays start a little off its surface, and do not get out.
   bool is_enclosed = abs(own - enclosing.x) < 0.5;
   vec3 origin = is_enclosed ? mirror_place.xyz + enclosing.y * normal : mirror_place.xyz;
+#ifdef AT_ONCE
+  Hit hit;
+  RaySurface surface;
+  vec3 tint = vec3(1.0);  // of all mirrors but the first
+  float hits = 0.0;
+  bool goes_on;
+  do {
+    hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, own, false);
+    hits += 1.0;
+    goes_on = false;
+    if (hit.instance >= 0) {
+      surface = surface_of_hit(hit, origin, direction);
+      goes_on = surface.mirror > 0.5 && hits < most_hits;
+    }
+    if (goes_on) {
+      vec3 base = fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb;
+      tint *= mirror_tint(surface.material, base, max(-dot(surface.normal, direction), 0.0));
+      origin = surface.position;
+      direction = reflect(direction, surface.normal);
+      own = surface.mirror;
+    }
+  } while (goes_on);
+  before_out = vec4(origin, hits);
+  throughput_out = vec4(min(tint, vec3(6e4)), 1.0);
+#else
   Hit hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, is_enclosed ? 0.0 : own, false);
+#endif
 
 #ifdef KEEPS_WAY
 #ifdef WITH_COUNTS
@@ -45,6 +72,9 @@ void main()
     surface_position = vec4(direction, 0.0);
     surface_normal = vec4(0.0);
     surface_color_out = vec4(0.0);
+#ifdef AT_ONCE
+    surface_color_out.w = hits > 1.5 ? 1.0 : 0.0;
+#endif
 #ifdef LIGHTING_LINKED
     surface_normal.w = float(light_set_of(int(mirror_facing.w + 0.5)));
 #endif
@@ -53,7 +83,9 @@ void main()
 #endif
     return;
   }
+#ifndef AT_ONCE
   RaySurface surface = surface_of_hit(hit, origin, direction);
+#endif
 #ifdef KEEPS_WAY
   // Nor does light get in, however coarse its shadows are.
   if (is_enclosed && enclosing.z > 0.5 && abs(surface.mirror - enclosing.x) < 0.5) {
@@ -66,6 +98,9 @@ void main()
 #endif
   surface_normal = vec4(surface.normal, float(surface.material));
   surface_color_out = vec4(fetch_record(materials, MATERIAL_RECORDS * surface.material + 2).rgb, surface.mirror);
+#ifdef AT_ONCE
+  surface_color_out.w = hits > 1.5 ? 1.0 : 0.0;
+#endif
 #ifdef WITH_HITS
   hit_out = packed_hit(hit);
 #endif

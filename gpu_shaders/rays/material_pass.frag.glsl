@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What one program makes of the surfaces that rays have hit: base color, normal and the other buffers that the scene's
 // programs fill. Goes behind the program. `turn`: numbers of the sub-frame and of the bounce. With OF_PATHS of
-// a step of paths, with IS_GATHERED of rays for light between surfaces, else of rays from mirror to mirror.
+// a step of paths, with IS_GATHERED of rays for light between surfaces, else of rays from mirror to mirror; with
+// AT_ONCE each of these has met its own number of surfaces.
 #include "rays/ray_walk.glsl"
 #include "rays/ray_surface.glsl"
 #include "surfaces/material_at.glsl"
@@ -36,7 +37,8 @@ void main()
   vec3 direction = way_direction(path);
   float range = path.w;
 #else
-  vec3 way = place.xyz - texelFetch(before_position, pixel, 0).xyz;
+  vec4 before = texelFetch(before_position, pixel, 0);
+  vec3 way = place.xyz - before.xyz;
   float range = length(way);
 #endif
 #ifdef OF_PATHS
@@ -51,6 +53,7 @@ void main()
   vec3 ab = to_world_of(hit, fetch_record(rays, hit.triangle + 1).xyz);
   vec3 ac = to_world_of(hit, fetch_record(rays, hit.triangle + 2).xyz);
   ShadingPoint s;
+  ivec2 turn_here = turn;
   s.position = place.xyz;
   s.origin = fetch_record(program_records, 0).xyz;
   s.normal = surface.normal;
@@ -72,10 +75,13 @@ void main()
   s.more_depths = vec2(float(state.transmitted), float(state.passed));
 #else
   s.ray = RAY_IS_GLOSSY | RAY_IS_SINGULAR | RAY_IS_REFLECTION;
-  s.depths = vec3(float(turn.y), 0.0, float(turn.y));
+#ifdef AT_ONCE
+  turn_here.y = int(before.w + 0.5);
+#endif
+  s.depths = vec3(float(turn_here.y), 0.0, float(turn_here.y));
   s.more_depths = vec2(0.0);
 #endif
-  s.random = chance_at(uvec2(pixel), turn);
+  s.random = chance_at(uvec2(pixel), turn_here);
   s.records = int(held.z + 0.5);
   vec3 weights = vec3(1.0 - hit.place.x - hit.place.y, hit.place);
   s.attributes[ATTRIBUTES] = vec4(0.0);
@@ -104,7 +110,11 @@ void main()
   m.normal = s.normal;
   material_program(s, m);
   bool is_seen_through = fetch_record(materials, MATERIAL_RECORDS * surface.material + 6).w > 0.5;
+#ifdef AT_ONCE
+  float shows = before.w > 1.5 ? 1.0 : 0.0;
+#else
   float shows = surface.mirror;
+#endif
   float facing = 0.0;
 #ifdef OF_PATHS
   shows = shows > 0.5 ? shows : (is_seen_through ? SEEN_THROUGH : -1.0);

@@ -14,7 +14,7 @@ void main()
 #ifdef SHOWS_SURFACES
     shown = texelFetch(reflected_position, pixel, 0).w > 0.0 ? MIRROR_OF_SURFACE : MIRROR;
 #ifdef TELLS_MIRRORS
-    if (shown == MIRROR_OF_SURFACE && texelFetch(reflected_color, pixel, 0).w > 0.5) {
+    if (texelFetch(reflected_color, pixel, 0).w > 0.5) {
       shown = MIRROR_OF_MIRROR;
     }
 #endif

@@ -42,6 +42,8 @@ class Hits:
     """Of paths; None of rays from mirror to mirror"""
     is_gathered: bool = False
     """By rays for the light between surfaces: the last number of the way is how far they have gone"""
+    counts_hits: bool = False
+    """The last number of `before` is how many surfaces the ray has met"""
 
 
 class MaterialPass:
@@ -87,7 +89,9 @@ class MaterialPass:
         with drawing_state("EQUAL"), target.bind(), scissored(window):
             set_viewport(0, 0, *self._size)
             for number, shape in materials.programs.admitted:
-                shader = _pass_shader(shape, materials.programs.around, hits.way is not None, hits.is_gathered)
+                shader = _pass_shader(
+                    shape, materials.programs.around, hits.way is not None, hits.is_gathered, hits.counts_hits
+                )
                 shader.bind()
                 rays.bind(shader)
                 materials.bind_program(shader, shape, turn)
@@ -129,9 +133,9 @@ def _classes_shader() -> Any:
 
 
 @gpu_cache
-def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool, is_gathered: bool) -> Any:
+def _pass_shader(shape: Shape, around: Surroundings, of_paths: bool, is_gathered: bool, counts_hits: bool) -> Any:
     gathered = Piece(samplers={"path_way": "FLOAT_2D"}, defines=flags("IS_GATHERED"))
-    before = Piece(samplers={"before_position": "FLOAT_2D"})
+    before = Piece(samplers={"before_position": "FLOAT_2D"}, defines=flags("AT_ONCE") if counts_hits else {})
     paths = Piece(
         samplers=named("FLOAT_2D", "path_way", "path_throughput"),
         defines={**flags("OF_PATHS", "PATH_STEP"), "SEEN_THROUGH": SEEN_THROUGH},

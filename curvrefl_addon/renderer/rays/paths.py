@@ -44,11 +44,14 @@ class PathBuffer(SurfaceBuffer):
         """xyz unit direction of the ray, nodes of hierarchies that it met"""
         self.throughput = empty_texture(width, height, "RGBA16F")
         """Product of the mirrors' reflectance on the way"""
+        self.before: Any = None
+        """xyz where the ray set out to what it has met last, how many surfaces it has met; made for what goes on at
+        once"""
         self._mask = frame_buffer(depth=self.depth)
         self._hits: Any = None
         """What was hit, for programs of materials (`ray_surface.glsl`); made where there are some"""
-        self._frame_buffers: dict[bool, Any] = {}
-        """With direction and throughput, or without"""
+        self._frame_buffers: dict[tuple[bool, bool], Any] = {}
+        """With direction and throughput, or with `before` and throughput, or without"""
         self._pass = MaterialPass(width, height)
 
     def follow(
@@ -63,8 +66,13 @@ class PathBuffer(SurfaceBuffer):
         with_counts: bool = False,
         chosen: Any = None,
         turn: tuple[int, int] = (0, 0),
+        most_hits: int = 1,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
+
+        With `most_hits` above 1 rays go on from mirror to mirror at once, to the first surface that is none, or the
+        last of so many: `before` says from where, `throughput` has all mirrors but the first, and the number of `color`
+        is 1 where it was not the first surface. None of these mirrors has a program, and none holds the eye.
 
         `window` holds all of their pixels. `depth` is less than 1 where there was a ray to follow, and only there is
         anything in the other textures; in `direction` and `throughput` only if it `goes_on` from here, or has come from
@@ -81,8 +89,11 @@ class PathBuffer(SurfaceBuffer):
             return
         self._find_mirrors(mirrors, window, chosen)
         keeps_way = goes_on or with_counts or path is not None
-        shader = _exact_shader(path is not None, self._hits is not None, keeps_way, with_counts, materials.links)
-        with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way).bind(), scissored(window):
+        at_once = most_hits > 1
+        shader = _exact_shader(
+            path is not None, self._hits is not None, keeps_way, with_counts, materials.links, at_once
+        )
+        with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way, at_once).bind(), scissored(window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             rays.bind(shader)
@@ -91,6 +102,8 @@ class PathBuffer(SurfaceBuffer):
             shader.uniform_sampler("mirror_normal", mirrors.normal)
             shader.uniform_sampler("mirror_color", mirrors.color)
             shader.uniform_float("enclosing", (*enclosing, 0.0 if goes_on else 1.0))
+            if at_once:
+                shader.uniform_float("most_hits", float(most_hits))
             if path is None:
                 shader.uniform_block("view", view_uniforms)
             else:
@@ -99,16 +112,20 @@ class PathBuffer(SurfaceBuffer):
             full_screen_triangle().draw(shader)
         if materials.has_programs:
             followed = (self.depth, PATH_DEPTH)
-            hits = Hits(self.position, self.normal, self.color, self._hits, mirrors.position)
+            before = self.before if at_once else mirrors.position
+            hits = Hits(self.position, self.normal, self.color, self._hits, before, counts_hits=at_once)
             self._pass.draw(hits, self.made, followed, rays, materials, view_uniforms, window, turn)
 
-    def _frame_buffer_for(self, keeps_way: bool) -> Any:
-        if keeps_way not in self._frame_buffers:
+    def _frame_buffer_for(self, keeps_way: bool, at_once: bool) -> Any:
+        if at_once and self.before is None:
+            self.before = empty_texture(self.width, self.height)
+        if (keeps_way, at_once) not in self._frame_buffers:
             textures = [self.position, self.normal, self.color]
             textures += [self._hits] if self._hits is not None else []
             textures += [self.direction, self.throughput] if keeps_way else []
-            self._frame_buffers[keeps_way] = frame_buffer(*textures, depth=self.depth)
-        return self._frame_buffers[keeps_way]
+            textures += [self.before, self.throughput] if at_once else []
+            self._frame_buffers[keeps_way, at_once] = frame_buffer(*textures, depth=self.depth)
+        return self._frame_buffers[keeps_way, at_once]
 
     def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window, chosen: Any) -> None:
         on_path = isinstance(mirrors, PathBuffer)
@@ -144,6 +161,8 @@ ON_PATHS = Piece(
     inputs={"pos": "VEC2"}, defines={"PATH_DEPTH": PATH_DEPTH}, vertex="rays/full_screen_of_paths.vert.glsl"
 )
 """A full-screen triangle where PathBuffers have followed rays; test depth for equality"""
+AT_ONCE = Piece(constants={"most_hits": "FLOAT"}, defines=flags("AT_ONCE"))
+"""Rays go on from mirror to mirror in one pass"""
 
 
 @gpu_cache
@@ -164,10 +183,13 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
 
 
 @gpu_cache
-def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool, links: frozenset[str]) -> Any:
+def _exact_shader(
+    on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool, links: frozenset[str], at_once: bool
+) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
     hits = Piece(outputs={"hit_out": "VEC4"}, defines=flags("WITH_HITS"))
     kept = Piece(outputs=named("VEC4", "direction_out", "throughput_out"), defines=flags("KEEPS_WAY"))
+    whole = Piece(outputs=named("VEC4", "before_out", "throughput_out"))
     return build_shader(
         "exact",
         ON_PATHS,
@@ -183,4 +205,5 @@ def _exact_shader(on_path: bool, with_hits: bool, keeps_way: bool, with_counts: 
         SURFACE_OUTPUTS,
         *((hits,) if with_hits else ()),
         *((kept,) if keeps_way else ()),
+        *((AT_ONCE, whole) if at_once else ()),
     )

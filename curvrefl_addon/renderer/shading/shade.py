@@ -9,6 +9,7 @@ from typing import Any
 
 from ...scene.arrays import SceneArrays
 from ..device.batches import full_screen_triangle
+from ..device.shaders import knows
 from ..device.state import drawing_state, scissored, set_viewport
 from ..indirect.gather import (
     Gathering,
@@ -20,7 +21,7 @@ from ..indirect.gather import (
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import has_base
 from ..programs.buffers import NONE, MaterialBuffers
-from ..rays.paths import PATH_DEPTH, Bounce
+from ..rays.paths import PATH_DEPTH, Bounce, PathBuffer
 from ..rays.ray_scene import RayScene
 from ..surfaces.by_size import BySize
 from ..surfaces.canvas import Canvas
@@ -30,7 +31,17 @@ from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
 from .features import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, rays_of
 from .lookup import Environment
-from .shade_shaders import PATH, REFLECTED, SEEN, environment_shader, front_shader, path_shader, shade_shader
+from .shade_shaders import (
+    PATH,
+    REFLECTED,
+    SEEN,
+    WHOLE_PATH,
+    environment_shader,
+    front_shader,
+    path_shader,
+    shade_shader,
+    whole_path_shader,
+)
 
 MOST_SIZES = 4
 """Sizes of pictures whose targets are kept"""
@@ -55,12 +66,20 @@ class ShadePass:
             False: any(light.visible_glossy for light in bodies),
         }
         """Lamps that the camera sees, and those that mirrors do"""
-        self._has_base = any(
-            has_base(scene.materials[index])
+        mirrors = [
+            scene.materials[index]
             for instance in scene.instances
             if instance.object_id in scene.reflectors
             for index in instance.materials
+        ]
+        self._has_base = any(has_base(material) for material in mirrors)
+        self.knows_ways_at_once = not (
+            self._has_base
+            or self._has_bodies[False]
+            or self._materials.links
+            or any(material.program is not None for material in mirrors)
         )
+        """Of rays from mirror to mirror only their ends are to be lit, and mirrors need no pass of their own"""
 
     def add(
         self,
@@ -78,6 +97,7 @@ class ShadePass:
         by_camera: bool = True,
         shown_apart: Canvas | None = None,
         gathers: Gathering | None = None,
+        most_hits: int = 1,
     ) -> None:
         """Add the lit picture of `seen`, times `weight`, to a picture of its size.
 
@@ -88,22 +108,23 @@ class ShadePass:
         all; `with_others`: what is no mirror is, too. With `film_transparent` the eye itself sees no world.
         `by_camera`: what sees all this is the camera, else a mirror. `shown_apart`: gets what mirrors show, with a
         weight of 1, in place of the picture. `gathers`: rays find the light that surfaces send to each other, in place
-        of the light of patches.
+        of the light of patches. `most_hits`: what `reflected` was followed with, where it is a PathBuffer.
         """
         mirrors_only = mirrors is not None or not with_others
         if mirrors is not None and (mirrors[2] <= 0 or mirrors[3] <= 0):
             return
         classes = self._classes.of(seen.width, seen.height)
-        classes.sort(
-            seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, later is not None, chosen
-        )
+        tells_mirrors = later is not None or most_hits > 1
+        classes.sort(seen, reflected if isinstance(reflected, SurfaceBuffer) else None, mirrors, tells_mirrors, chosen)
         shared = None if gathers is None or mirrors_only else gathers.shared(seen)
         shown_rays = None if gathers is None else self._share_shown(gathers, classes.depth, seen, reflected, mirrors)
         shown, strength = (canvas, weight) if shown_apart is None else (shown_apart, 1.0)
         with drawing_state("EQUAL", blend="ADDITIVE_PREMULT"):
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
-                self._add_shown(seen, reflected, view_uniforms, strength, shadows, features_of(gathers), shown_rays)
+                self._add_shown(
+                    seen, reflected, view_uniforms, strength, shadows, features_of(gathers), shown_rays, most_hits
+                )
             with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
                 if not mirrors_only:
@@ -190,6 +211,7 @@ class ShadePass:
         shadows: RayShadows | None,
         gathered: Features,
         shared: SharedGather | None,
+        most_hits: int,
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
@@ -199,8 +221,18 @@ class ShadePass:
             for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
                 features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered)
                 is_shared = shared is not None and kind is PixelClass.MIRROR_OF_SURFACE
-                shader = shade_shader(kind, features, self._materials.buffers, True, is_shared)
-                shader.bind()
+                if kind is PixelClass.MIRROR_OF_MIRROR and most_hits > 1:
+                    assert isinstance(reflected, PathBuffer)
+                    shader = whole_path_shader(features, self._materials.buffers)
+                    shader.bind()
+                    if knows(shader, "most_hits"):
+                        # (Where nothing is lit all has its own light alone.)
+                        shader.uniform_float("most_hits", float(most_hits))
+                    for name, texture in zip(WHOLE_PATH, (reflected.before, reflected.throughput), strict=True):
+                        shader.uniform_sampler(name, texture)
+                else:
+                    shader = shade_shader(kind, features, self._materials.buffers, True, is_shared)
+                    shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
                 for name, texture in zip(REFLECTED, textures, strict=True):
                     shader.uniform_sampler(name, texture)

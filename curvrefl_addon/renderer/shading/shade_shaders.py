@@ -12,7 +12,7 @@ from ..indirect.gather import ASKS_EMITTERS
 from ..indirect.gather_shaders import shared_piece
 from ..lighting.lighting import Features, lighting_piece
 from ..programs.buffers import Buffers, reads
-from ..rays.paths import ON_PATHS
+from ..rays.paths import AT_ONCE, ON_PATHS
 from ..surfaces.materials import TABLE
 from ..surfaces.pixel_classes import CLASS, PixelClass
 from ..surfaces.view_block import VIEW
@@ -22,6 +22,7 @@ from .lookup import lookup_piece
 SEEN = ("seen_position", "seen_normal", "seen_color")
 REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
 PATH = ("mirror_position", "path_direction", "path_throughput")
+WHOLE_PATH = ("before_position", "path_throughput")
 _LIGHT = Piece(constants={"weight": "FLOAT"}, outputs={"color": "VEC4"})
 _OF_SEEN = (VIEW, CLASS, TABLE, Piece(samplers=named("FLOAT_2D", *SEEN)), _LIGHT)
 """Pieces of shaders that light a class of pixels of the buffers that the eye sees"""
@@ -72,6 +73,21 @@ def path_shader(goes_on: bool, features: Features, buffers: Buffers) -> Any:
         _LIGHT,
         *lighting_pieces(features),
         Piece(defines=flags("GOES_ON") if goes_on else {}, fragment="lighting/shade_path.frag.glsl"),
+    )
+
+
+@gpu_cache
+def whole_path_shader(features: Features, buffers: Buffers) -> Any:
+    """For pixels that show a mirror in a mirror, whose rays have gone on at once."""
+    return build_shader(
+        "shade whole path",
+        *_OF_SEEN,
+        reads(buffers),
+        AT_ONCE,
+        Piece(samplers=named("FLOAT_2D", *WHOLE_PATH)),
+        _OF_REFLECTED,
+        *lighting_pieces(features),
+        Piece(fragment="lighting/shade_path.frag.glsl"),
     )
 
 

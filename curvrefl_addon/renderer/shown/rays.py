@@ -35,7 +35,10 @@ class ShownRays(Shown):
         if stage.tracer is not None and light.calm is None:
             _trace(stage.tracer, members, sub_frame, light)
             return
-        bounces = _bounces(members, sub_frame, _most_bounces(members, sub_frame), chosen=light.chosen)
+        most = _most_bounces(members, sub_frame)
+        at_once = most > 1 and light.calm is None and sub_frame.gathers is None and _go_on_at_once(members, sub_frame)
+        most_hits = most if at_once else 1
+        bounces = _bounces(members, sub_frame, 1 if at_once else most, chosen=light.chosen, most_hits=most_hits)
         first = next(bounces)
         seen, uniforms = sub_frame.targets.seen, sub_frame.uniforms
         calm = None if light.calm is None else sub_frame.targets.calm_mirrors()
@@ -55,6 +58,7 @@ class ShownRays(Shown):
             film_transparent=light.film_transparent,
             shown_apart=None if calm is None else calm.sharp,
             gathers=sub_frame.gathers if calm is None else None,
+            most_hits=most_hits,
         )
         if calm is not None:
             history = light.calm if sub_frame.index == 0 else None
@@ -150,6 +154,11 @@ def _may_meet_another(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool
     )
 
 
+def _go_on_at_once(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool:
+    """Whether rays off mirrors need no pass for each mirror that they meet."""
+    return sub_frame.stage.shade.knows_ways_at_once and _enclosing(members, sub_frame) == IN_THE_OPEN
+
+
 def _followed(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:
     """Mirrors one after the other that show what they reflect, as far as the file goes."""
     return min(members[0].settings.bounces, sub_frame.stage.shade.mirror_bounces)
@@ -166,12 +175,18 @@ def _enclosing(members: Sequence[ShownRays], sub_frame: SubFrame) -> Enclosing:
 
 
 def _bounces(
-    members: Sequence[ShownRays], sub_frame: SubFrame, most: int, keeps_ways: bool = False, chosen: Any = None
+    members: Sequence[ShownRays],
+    sub_frame: SubFrame,
+    most: int,
+    keeps_ways: bool = False,
+    chosen: Any = None,
+    most_hits: int = 1,
 ) -> Iterator[Bounce]:
     """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
 
     Each is drawn when it is asked for, into buffers that the next but one uses again. With `keeps_ways` the buffers
-    tell all they can, also of the last step. `chosen`: see `Light`.
+    tell all they can, also of the last step. `chosen`: see `Light`; `most_hits`: as for `PathBuffer.follow`, where
+    there is one bounce.
     """
     stage, targets, view = sub_frame.stage, sub_frame.targets, sub_frame.view
     seen: SurfaceBuffer = targets.seen
@@ -190,6 +205,7 @@ def _bounces(
             goes_on or keeps_ways,
             chosen=chosen if number == 0 else None,
             turn=(sub_frame.index, number + 1),
+            most_hits=most_hits,
         )
         yield Bounce(seen, path, window, goes_on, number >= _followed(members, sub_frame))
         seen = path
