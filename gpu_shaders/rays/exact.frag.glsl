@@ -9,6 +9,26 @@
 #include "rays/ray_surface.glsl"
 #include "lighting/mirror_tint.glsl"
 
+#ifdef KNOWS_ESCAPES
+// Whether a ray off a mirror, by its number, cannot meet that mirror again, by the cones of renderer/rays/escapes.py:
+// records `escape_rows` of each mirror (0 where it has none: the first of all is no cone), and `escape_cones` of each
+// cell of its mesh (unit axis, least cosine to it).
+bool escapes(vec3 origin, vec3 direction, float own)
+{
+  int first = ESCAPE_ROW_RECORDS * int(own + 0.5);
+  vec4 x = fetch_record(escape_rows, first);
+  vec4 y = fetch_record(escape_rows, first + 1);
+  vec4 z = fetch_record(escape_rows, first + 2);
+  int cones = int(fetch_record(escape_rows, first + 3).x + 0.5);
+  vec4 start = vec4(origin, 1.0);
+  ivec3 cell = ivec3(floor(vec3(dot(x, start), dot(y, start), dot(z, start))));
+  cell = clamp(cell, ivec3(0), ivec3(ESCAPE_CELLS - 1));
+  vec4 cone = fetch_record(escape_cones, cones + cell.x + ESCAPE_CELLS * (cell.y + ESCAPE_CELLS * cell.z));
+  vec3 way = vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction));
+  return dot(cone.xyz, way) > cone.w * length(way);
+}
+#endif
+
 void main()
 {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -34,6 +54,9 @@ void main()
   float hits = 0.0;
   bool goes_on;
   do {
+#ifdef KNOWS_ESCAPES
+    walk_escapes = escapes(origin, direction, own);
+#endif
     hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, own, false);
     hits += 1.0;
     goes_on = false;
@@ -52,6 +75,9 @@ void main()
   before_out = vec4(origin, hits);
   throughput_out = vec4(min(tint, vec3(6e4)), 1.0);
 #else
+#ifdef KNOWS_ESCAPES
+  walk_escapes = escapes(origin, direction, own);
+#endif
   Hit hit = walk(origin, direction, 3e38, SEEN_IN_MIRRORS, is_enclosed ? 0.0 : own, false);
 #endif
 

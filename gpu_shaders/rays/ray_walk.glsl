@@ -35,6 +35,11 @@ vec3 off_surface(vec3 position, vec3 normal)
   return position + normal * (OFF_SURFACE * (max(size.x, max(size.y, size.z)) + 1e-4));
 }
 
+#ifdef KNOWS_ESCAPES
+// The ray does not meet again what it starts on.
+bool walk_escapes = false;
+#endif
+
 struct Ray {
   vec3 origin;
   vec3 direction;  // of any length, in object space; distances are in lengths of the world's unit vector
@@ -212,6 +217,9 @@ Hit walk(vec3 origin, vec3 direction, float farthest, int seen_by, float own, bo
 #else
       bool is_own = about.y > 0.5 && abs(about.y - own) < 0.5;
       bool never = (flags & NEVER_SEES_ITSELF) != 0;
+#ifdef KNOWS_ESCAPES
+      never = never || walk_escapes;
+#endif
 #endif
       link = NOWHERE;
       if ((flags & seen_by) != 0 && !(is_own && never)) {

@@ -82,6 +82,17 @@ class RecordRegions:
                 merged.append((begin, size))
         self._free = merged
 
+    def put_again(self, region: tuple[int, int], records: Float32Array) -> tuple[int, int]:
+        """Put records in the place of a `region`'s (first record, count; count 0: none yet), or where there is room for
+        them; returns the region."""
+        start, size = region
+        if 0 < len(records) <= size:
+            self.replace(start, records)
+            return region
+        if size:
+            self.drop(start, size)
+        return self.put([records])[0], len(records)
+
     def _grow(self, size: int) -> None:
         wanted = int((self._capacity + size) * SPARE)
         rows = -(-wanted // TEXTURE_WIDTH)

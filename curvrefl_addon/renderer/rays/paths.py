@@ -22,6 +22,7 @@ from ..surfaces.pixel_classes import CHOSEN_MIRRORS
 from ..surfaces.surface_buffer import SURFACE_OUTPUTS, SurfaceBuffer
 from ..surfaces.view_block import VIEW
 from ..surfaces.windows import Window
+from .escapes import ESCAPES
 from .material_pass import Hits, MaterialPass
 from .ray_scene import RAYS, RayScene
 
@@ -91,12 +92,20 @@ class PathBuffer(SurfaceBuffer):
         keeps_way = goes_on or with_counts or path is not None
         at_once = most_hits > 1
         shader = _exact_shader(
-            path is not None, self._hits is not None, keeps_way, with_counts, materials.links, at_once
+            path is not None,
+            self._hits is not None,
+            keeps_way,
+            with_counts,
+            materials.links,
+            at_once,
+            rays.escapes.are_known,
         )
         with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way, at_once).bind(), scissored(window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             rays.bind(shader)
+            if rays.escapes.are_known:
+                rays.escapes.bind(shader)
             shader.uniform_sampler("materials", materials.table)
             shader.uniform_sampler("mirror_position", mirrors.position)
             shader.uniform_sampler("mirror_normal", mirrors.normal)
@@ -184,7 +193,13 @@ def _mask_shader(on_path: bool, with_choice: bool) -> Any:
 
 @gpu_cache
 def _exact_shader(
-    on_path: bool, with_hits: bool, keeps_way: bool, with_counts: bool, links: frozenset[str], at_once: bool
+    on_path: bool,
+    with_hits: bool,
+    keeps_way: bool,
+    with_counts: bool,
+    links: frozenset[str],
+    at_once: bool,
+    knows_escapes: bool,
 ) -> Any:
     way = Piece(samplers=named("FLOAT_2D", "path_direction", "path_throughput"), defines=flags("ON_PATH"))
     hits = Piece(outputs={"hit_out": "VEC4"}, defines=flags("WITH_HITS"))
@@ -206,4 +221,5 @@ def _exact_shader(
         *((hits,) if with_hits else ()),
         *((kept,) if keeps_way else ()),
         *((AT_ONCE, whole) if at_once else ()),
+        *((ESCAPES,) if knows_escapes else ()),
     )

@@ -26,6 +26,7 @@ from ..geometry.mesh_facts import MeshFactsCache
 from ..geometry.vertex_uploads import VertexUploads
 from ..paths.features import lets_straight_on
 from .elsewhere import Elsewhere, things_elsewhere
+from .escapes import Escapes
 from .hierarchy import Hierarchy
 from .hierarchy_build import HierarchyBuild, build
 from .hierarchy_fit import HierarchyFit
@@ -78,6 +79,7 @@ class RayScene:
         self.build_ms = 0.0
         """Of the last time that meshes came"""
         self._facts, self._uploads = facts, uploads
+        self.escapes = Escapes(facts)
         self._left_out: list[MeshArrays] = []
         """Of which some triangles have no place"""
         self._meshes: dict[int, MeshRays] = {}
@@ -213,7 +215,8 @@ class RayScene:
     @property
     def can_improve(self) -> bool:
         """Whether `improve` would do anything."""
-        return self._build is not None or any(not item.is_best or item.is_judged for item in self._meshes.values())
+        waits = any(not item.is_best or item.is_judged for item in self._meshes.values())
+        return waits or self._build is not None or self.escapes.can_improve
 
     def improve(self) -> None:
         """Go on making the trees better: one step, about a third of a microsecond for each triangle of a mesh."""
@@ -224,6 +227,7 @@ class RayScene:
                     return
             waiting = [item for item in self._meshes.values() if not item.is_best]
             if not waiting:
+                self.escapes.improve()
                 return
             # What is seen most is unknown; what is large has most to gain.
             chosen = max(waiting, key=lambda item: len(item.kept))
@@ -336,13 +340,8 @@ class RayScene:
             raise InputError("The scene's objects are nested too deeply for ray walks: choose another method.")
         instances = self._records.reshape(-1, 4)
         joined = np.concatenate([self._top_nodes, instances, self._materials])
-        start, size = self._top_region
-        if size < len(joined) or size == 0:
-            if size:
-                self.regions.drop(start, size)
-            (start,) = self.regions.put([joined])
-            self._top_region = (start, len(joined))
-        else:
-            self.regions.replace(start, joined)
+        self._top_region = self.regions.put_again(self._top_region, joined)
+        start = self._top_region[0]
         start_of_instances = start + len(self._top_nodes)
         self._top_places = (start, start_of_instances, start_of_instances + len(instances), 0)
+        self.escapes.place(self._mirrors, self._mesh_of, self._instances)
