@@ -17,8 +17,9 @@ import numpy as np
 from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
+from .instances.alone import objects_alone
 from .instances.linking import LightLinks
-from .instances.parts import SHOWN, parts_of, uid_of_part
+from .instances.parts import parts_of, uid_of_part
 from .instances.values import comparable, values_of_instance
 from .materials.color_spaces import working_space
 from .materials.images import ImageReader
@@ -33,7 +34,6 @@ from .reads import (
     has_links,
     listing_of,
     needs_of,
-    object_of,
     oddities,
     only_of,
     require_reflectors,
@@ -149,12 +149,12 @@ class SceneReader:
             changes.world = True
         changes.materials |= self._materials.that_know(changes.objects)
         self._materials.forget(changes.materials)
-        self._meshes.forget(changes.geometry)
-        walk = changes.instances or changes.all_materials or bool(changes.materials or changes.geometry)
+        meshes = self._meshes.forget(changes.geometry)
+        walk = changes.instances or changes.all_materials or bool(changes.materials)
         if not walk and changes.listing:
             listing = listing_of(depsgraph, view_layer)
             walk = listing != self._listing
-        objects = self._plain_objects(changes) if not walk else None
+        objects = None if walk else objects_alone(changes, self._shown, self._instancers, meshes)
         if objects is None:
             self._listing = listing_of(depsgraph, view_layer)
             self._walk(depsgraph, view_layer)
@@ -163,6 +163,7 @@ class SceneReader:
                 evaluated = obj.evaluated_get(depsgraph)
                 placed = PlainObject(evaluated, evaluated.matrix_world)
                 self._shown[uid, 0, 0] = self._read_instance(placed, uid, 0, view_layer, self._shown[uid, 0, 0])
+            self._meshes.settle()
         world = (view_layer.world_override or scene.world) if view_layer.use_sky else None
         if changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
@@ -180,22 +181,6 @@ class SceneReader:
     def _id(self, uid: int) -> int:
         """The number of an object, from 1; it stays the same in all that is read."""
         return self._ids.setdefault(uid, len(self._ids) + 1)
-
-    def _plain_objects(self, changes: Changes) -> list[tuple[int, bpy.types.Object]] | None:
-        """The changed objects, where it is enough to look at them alone."""
-        if not changes.objects.isdisjoint(self._instancers):
-            return None
-        found = []
-        for uid in changes.objects:
-            shown = self._shown.get((uid, 0, 0))
-            obj = object_of(uid, "" if shown is None else shown.name)
-            if obj is None:
-                return None
-            if shown is not None:
-                found.append((uid, obj))
-            elif uid in changes.shading and obj.type in SHOWN:
-                return None
-        return found
 
     def _walk(self, depsgraph: bpy.types.Depsgraph, view_layer: bpy.types.ViewLayer) -> None:
         self.counters["walks"] += 1

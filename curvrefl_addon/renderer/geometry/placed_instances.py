@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import compress
 from operator import is_not
 
@@ -14,6 +14,7 @@ import numpy as np
 from ...memory import require_memory
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from .chunk import Placed
+from .mesh_facts import MeshFactsCache
 from .split import split_mesh
 from .vertex_uploads import is_deformed
 
@@ -121,19 +122,75 @@ type Numbered = tuple[SceneArrays, dict[int, int]]
 """A scene, and its mirrors' numbers by their instances"""
 
 
-def moved_alone(placed: Sequence[Placed], before: Numbered, after: Numbered) -> list[int] | None:
-    """Indices of instances that have other matrices, where nothing else differs from what was `placed` before."""
+@dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """What is not where it was."""
+
+    moved: list[int]
+    """Indices of instances whose matrices are others, unless `deformed`"""
+    deformed: list[int]
+    """And of those that show a mesh which has deformed"""
+    meshes: list[tuple[MeshArrays, MeshArrays]]
+    """These meshes as they were and as they are"""
+
+
+def things_elsewhere(before: Numbered, after: Numbered) -> Elsewhere | None:
+    """None where more than places has changed."""
     (old, old_numbers), (new, numbers) = before, after
-    if old.meshes is not new.meshes or len(old.instances) != len(new.instances) or old_numbers != numbers:
+    if len(old.instances) != len(new.instances) or len(old.meshes) != len(new.meshes) or old_numbers != numbers:
         return None
+    shapes: dict[int, tuple[MeshArrays, MeshArrays]] = {}
+    if old.meshes is not new.meshes:
+        pairs = enumerate(zip(old.meshes, new.meshes, strict=True))
+        shapes = {index: (one, other) for index, (one, other) in pairs if one is not other}
     found = others(old.instances, new.instances)
-    for index in found:
-        known, instance = placed[index], new.instances[index]
-        if (known.instance.object_id, known.instance.mesh) != (instance.object_id, instance.mesh):
-            return None
-        if not differs_in_place_only(known, instance, known.mirror):
-            return None
-    return found
+    if any(not is_deformed(*pair) for pair in shapes.values()) or any(
+        _all_but_place(old.instances[index]) != _all_but_place(new.instances[index]) for index in found
+    ):
+        return None
+    deformed = [index for index, item in enumerate(new.instances) if item.mesh in shapes] if shapes else []
+    return Elsewhere(
+        [index for index in found if new.instances[index].mesh not in shapes], deformed, [*shapes.values()]
+    )
+
+
+def _all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
+    """What its records and batches are made of beside its matrix."""
+    return (
+        instance.object_id,
+        instance.mesh,
+        instance.materials,
+        instance.visible_camera,
+        instance.visible_glossy,
+        instance.visible_shadow,
+        instance.visible_transmission,
+        instance.holdout,
+        instance.shadow_set,
+    )
+
+
+def placed_elsewhere(
+    placed: Sequence[Placed], before: Numbered, after: Numbered, facts: MeshFactsCache
+) -> tuple[list[Placed], Difference] | None:
+    """What was `placed` before, at other places; None where more has changed, or parts of split edges would have to
+    follow a mesh that deforms."""
+    found = things_elsewhere(before, after)
+    if found is None or any(placed[index].drawn is not placed[index].mesh for index in found.deformed):
+        return None
+    scene, result = after[0], [*placed]
+    for index in found.moved:
+        result[index] = replace(placed[index], instance=scene.instances[index])
+    for index in found.deformed:
+        result[index] = deformed_item(placed[index], scene, index, placed[index].mirror, facts)
+    return result, Difference(found.moved, found.deformed)
+
+
+def deformed_item(known: Placed, scene: SceneArrays, index: int, number: int, facts: MeshFactsCache) -> Placed:
+    """The instance `index` of a scene, which was `known` before its mesh had the vertices elsewhere; its mirror's
+    `number`."""
+    instance = scene.instances[index]
+    mesh = scene.meshes[instance.mesh]
+    return Placed(instance, mesh, mesh, facts.deform(known.mesh, mesh).pieces.triangle_piece, number)
 
 
 def matched(placed: Sequence[Placed], instances: Sequence[InstanceArrays]) -> list[int | None]:

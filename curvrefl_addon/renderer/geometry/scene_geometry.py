@@ -25,10 +25,11 @@ from .mesh_facts import MeshFactsCache
 from .placed_instances import (
     Difference,
     Sight,
+    deformed_item,
     differs_in_place_only,
     differs_in_vertices_only,
     matched,
-    moved_alone,
+    placed_elsewhere,
     relative_positions,
     require_room,
     split_for,
@@ -80,11 +81,8 @@ class SceneGeometry:
         `anew`: in other chunks than before, so that those of an earlier picture stay where they are.
         """
         before, self._followed = self._followed, (scene, dict(mirrors))
-        if before and not anew and (moved := moved_alone(self.placed, before, self._followed)) is not None:
-            placed = self.placed.copy()
-            for index in moved:
-                placed[index] = replace(placed[index], instance=scene.instances[index])
-            return self._follow_moved(placed, Difference(moved))
+        if before and not anew and (followed := placed_elsewhere(self.placed, before, self._followed, self.facts)):
+            return self._follow_moved(*followed)
         old = matched(self.placed, scene.instances)
         known = [None if before is None else self.placed[before] for before in old]
         difference = Difference(structure=old != list(range(len(self.placed))))
@@ -101,8 +99,7 @@ class SceneGeometry:
                     difference.moved.append(index)
                 continue
             if item is not None and not anew and differs_in_vertices_only(item, instance, mesh, number):
-                pieces = self.facts.deform(item.mesh, mesh).pieces.triangle_piece
-                known[index] = Placed(instance, mesh, mesh, pieces, number)
+                known[index] = deformed_item(item, scene, index, number, self.facts)
                 difference.deformed.append(index)
                 continue
             dirty.append(index)
@@ -266,7 +263,9 @@ class SceneGeometry:
 
     def _forget_meshes(self) -> None:
         """What is known of meshes that are gone."""
-        meshes = [mesh for item in self.placed for mesh in (item.mesh, item.drawn)]
+        assert self._followed is not None
+        split = [item.drawn for item in self.placed if item.drawn is not item.mesh]
+        meshes = [*self._followed[0].meshes, *split]
         self.facts.keep(meshes)
         self.uploads.keep(meshes)
 

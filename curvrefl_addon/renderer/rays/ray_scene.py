@@ -23,9 +23,9 @@ from ..device.records import set_records
 from ..device.shaders import Piece
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
+from ..geometry.placed_instances import Elsewhere, things_elsewhere
 from ..geometry.vertex_uploads import VertexUploads
 from ..paths.features import lets_straight_on
-from .elsewhere import Elsewhere, things_elsewhere
 from .escapes import Escapes
 from .hierarchy import Hierarchy
 from .hierarchy_build import HierarchyBuild, build
@@ -147,7 +147,7 @@ class RayScene:
         """What is not where it was; None where more has changed, or a tree cannot be fitted where it is."""
         if self._followed is None:
             return None
-        found = things_elsewhere(*self._followed, scene, numbers)
+        found = things_elsewhere(self._followed, (scene, dict(numbers)))
         if found is None or not all(self._can_deform(*pair) for pair in found.meshes):
             return None
         return found
@@ -161,10 +161,10 @@ class RayScene:
 
     def _follow_places(self, scene: SceneArrays, found: Elsewhere) -> None:
         """Where nothing else has changed."""
-        places = [self._place_of[index] for index in found.instances if index in self._place_of]
-        for index in found.instances:
-            if index in self._place_of:
-                self._instances[self._place_of[index]] = scene.instances[index]
+        seen = [index for index in (*found.moved, *found.deformed) if index in self._place_of]
+        places = [self._place_of[index] for index in seen]
+        for place, index in zip(places, seen, strict=True):
+            self._instances[place] = scene.instances[index]
         if found.meshes:
             self._mesh_of = [scene.meshes[instance.mesh] for instance in self._instances]
         if self._deform(found.meshes):

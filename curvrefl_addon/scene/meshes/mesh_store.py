@@ -87,22 +87,28 @@ class MeshStore:
         """After it: what no instance shows is let go."""
         for key in set(self._stored) - self._used:
             self._drop(key)
-        self._replaced.clear()
-        self._shapes.clear()
+        self.settle()
         if self._topologies:
             shapes = {stored.shape for stored in self._stored.values()}
             self._topologies = {key: item for key, item in self._topologies.items() if key in shapes}
+
+    def settle(self) -> None:
+        """All that was dropped has been read again."""
+        self._replaced.clear()
+        self._shapes.clear()
 
     def forget_all(self) -> None:
         """Any may have changed; those whose arrays come out the same stay the same objects all the same."""
         for key in list(self._stored):
             self._drop(key)
 
-    def forget(self, owners: set[int]) -> None:
-        """The geometry of these data-blocks changed."""
-        for key, stored in list(self._stored.items()):
-            if not stored.owners.isdisjoint(owners):
-                self._drop(key)
+    def forget(self, owners: set[int]) -> set[int]:
+        """The geometry of these data-blocks changed; returns the numbers of meshes that are to be read again."""
+        keys = [key for key, stored in self._stored.items() if not stored.owners.isdisjoint(owners)] if owners else []
+        numbers = {self._stored[key].number for key in keys}
+        for key in keys:
+            self._drop(key)
+        return numbers
 
     def read(self, source: Source, owner: int, needs: MeshNeeds, is_mirrored: bool) -> StoredMesh:
         """The mesh of an evaluated object or of its hair, which the data-block `owner` (session_uid) makes or
