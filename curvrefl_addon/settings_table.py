@@ -331,7 +331,7 @@ class OwnPreferences:
     measures_devices: bool = setting(
         True,
         label="Measure New Devices",
-        text="Find out what rays and reflection points cost at a device's or driver's first use, while the view rests",
+        text="Find out what is right and what it costs at a device's or driver's first use, while the view rests",
         preference=True,
     )
 

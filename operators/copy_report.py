@@ -21,17 +21,17 @@ class CURVREFL_OT_copy_report(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         from ..curvrefl_addon.renderer.device.context import GpuUnavailableError, require_gpu
         from ..curvrefl_addon.renderer.proofs.report import device_report, summary
-        from ..curvrefl_addon.viewport.device import prove_device
+        from ..curvrefl_addon.viewport.device_run import prove_now
 
         try:
             require_gpu()
         except GpuUnavailableError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        proving = prove_device()
+        proving = prove_now()
         assert context.window_manager is not None
         context.window_manager.clipboard = device_report(proving)
-        self.report({"INFO"}, f"The report is in the clipboard: {summary(proving)}")
+        self.report({"INFO"}, f"The report is in the clipboard: {summary(proving.verdict)}")
         return {"FINISHED"}
 
 

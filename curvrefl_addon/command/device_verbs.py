@@ -41,6 +41,8 @@ def _calibrate(output: Path) -> int:
     """Measure the costs of this device, keep them where the extension is installed, and write them to a file too."""
     from ..renderer.costs.table import SHIPPED, costs_in_use
     from ..renderer.device.context import platform_facts
+    from ..renderer.proofs.report import summary
+    from ..renderer.proofs.verdict import known_verdict
     from ..viewport import device_run
 
     with dropped(STDOUT):
@@ -51,11 +53,12 @@ def _calibrate(output: Path) -> int:
     warn_of([problem] if problem else [])
     facts = platform_facts()
     print(f"{facts['renderer']} ({facts['vendor']}), {facts['version']}, {facts['backend']}")
+    print(f"{summary(known_verdict())}.")
     print(f"{'microseconds':28}{'here':>12}{'shipped':>12}")
     for name, cost in asdict(costs_in_use()).items():
         print(f"{name:28}{cost:>12.4g}{getattr(SHIPPED, name):>12.4g}")
     with folder_to_publish(output) as folder:
-        content = {"device": facts, "costs": asdict(measured)}
+        content = {"device": facts, "costs": asdict(measured), **known_verdict().as_json()}
         (folder / "costs.json").write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
     print(f"Costs: {output / 'costs.json'}")
     return 0

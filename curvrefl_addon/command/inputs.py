@@ -165,6 +165,11 @@ def start_gpu() -> None:
         message = str(error).rstrip(".")
         raise InputError(f"{message[:1].upper()}{message[1:]}.") from error
 
+    from ..viewport.device_run import take_what_is_known
+
+    if problem := take_what_is_known():
+        warn_of([problem])
+
 
 def repository_tool(name: str, verb: str) -> ModuleType:
     """`tools/<name>.py`, which is there in a copy of the source and not in the installed extension."""

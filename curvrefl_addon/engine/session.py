@@ -25,6 +25,7 @@ from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors, view_of_camera
+from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
 from .job import Job
 from .passes import COMBINED, MIRROR, OF_MIRRORS, Pass
@@ -142,6 +143,7 @@ class RenderSession:
     def _up_to_date(self, arrays: SceneArrays) -> Renderer:
         require_gpu()
         if self._renderer is None:
+            take_what_is_known()
             self._renderer = Renderer(arrays, self._settings, current_options().image_memory << 20)
             return self._renderer
         try:

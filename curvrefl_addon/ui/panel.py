@@ -45,7 +45,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         self.layout.prop(context.window_manager, "curvrefl_enabled", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..viewport import device
+        from ..renderer.proofs.verdict import known_verdict
         from ..viewport import handlers as viewport
 
         layout = self.layout
@@ -73,7 +73,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
         for message in dict.fromkeys([*([newer] if newer else []), *viewport.messages()]):
             if message not in told:
                 draw_message(layout, message, context)
-        if sentence := device.message():
+        if sentence := known_verdict().sentence:
             draw_message(layout, sentence, context)
             layout.operator("curvrefl.copy_report", icon="COPYDOWN")
         draw_looks(layout, of_materials, context)

@@ -62,6 +62,7 @@ class CurvreflPreferences(bpy.types.AddonPreferences):
         row = box.row()
         row.operator("curvrefl.measure_device")
         row.operator("curvrefl.forget_device")
+        row.operator("curvrefl.copy_report")
         column = layout.column(heading="Diagnostic Views")
         for name in ("color_converged", "color_hidden", "color_failed", "color_low", "color_high"):
             column.prop(self, name)

@@ -9,7 +9,7 @@ defines.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -132,6 +132,17 @@ def knows(shader: Any, constant: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def compiled[Result](act: Callable[[], Result]) -> Generator[None, None, Result]:
+    """`yield from compiled(act)`: what `act` returns, which is called anew until all of its shaders are there, one of
+    which compiles in each slice."""
+    while True:
+        try:
+            with compiling_one():
+                return act()
+        except ShaderPendingError:
+            yield
 
 
 def build_shader(label: str, *pieces: Piece) -> Any:

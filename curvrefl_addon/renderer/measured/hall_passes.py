@@ -10,6 +10,7 @@ import numpy as np
 
 from ..choice import VERTICES
 from ..costs.model import layers_around
+from ..device.shaders import compiled
 from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, PathBuffer
 from ..reflection import Reflection
@@ -25,7 +26,6 @@ from ..vertices.reflected import draw_reflected
 from ..vertices.solution import SolvedChunk, VertexSolution
 from ..vertices.solve import PreparedSolve, prepare_solve
 from .hall import hall, view_of_mirror
-from .spread_run import compiled
 
 THINGS = 12
 """Objects of a hall"""

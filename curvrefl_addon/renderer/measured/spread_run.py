@@ -5,11 +5,10 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
-from ..device.shaders import ShaderPendingError, compiling_one
 from ..device.state import kept_state
 
 LEAST_SECONDS = 0.01
@@ -24,19 +23,9 @@ class Task:
     """What is being done, for the panel: "Measuring this device" """
     work: Callable[[], Iterator[None]]
     """Makes a generator when its turn has come. A `yield` ends a slice, unless there was hardly anything in it: between
-    two of them at most 50 ms of work belong, but for a shader that compiles (`compiled`). Nothing may be bound at a
-    `yield`; what the generator made goes in its `finally`, which runs too when the run is canceled."""
-
-
-def compiled[Result](act: Callable[[], Result]) -> Generator[None, None, Result]:
-    """`yield from compiled(act)`: what `act` returns, which is called anew until all of its shaders are there, one of
-    which compiles in each slice."""
-    while True:
-        try:
-            with compiling_one():
-                return act()
-        except ShaderPendingError:
-            yield
+    two of them at most 50 ms of work belong, but for a shader that compiles (`compiled`, in `device/shaders.py`).
+    Nothing may be bound at a `yield`; what the generator made goes in its `finally`, which runs too when the run is
+    canceled."""
 
 
 class SpreadRun:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator
 from statistics import median
 from time import perf_counter
 
-from .spread_run import compiled
+from ..device.shaders import compiled
 
 ENOUGH_MS = 6.0
 """Between two waits there should be so much work, which a wait for nothing is little beside"""

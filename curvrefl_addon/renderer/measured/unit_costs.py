@@ -21,12 +21,12 @@ from ...scene.arrays import Float32Array, InstanceArrays
 from ..choice import RAYS
 from ..costs.table import Costs
 from ..device.records import record_texture
+from ..device.shaders import compiled
 from ..geometry.chunk import Chunk, Placed
 from ..surfaces.canvas import Canvas
 from ..vertices.solution import SolvedChunk
 from .hall import radial_mesh
 from .hall_passes import TURN, HallPasses
-from .spread_run import compiled
 from .timing import ENOUGH_MS, Stopwatch
 
 FEW, MANY = 400, 8000

@@ -17,6 +17,7 @@ from ...scene.arrays import (
     WorldArrays,
 )
 from ...scene.programs.program import Program, Shape
+from ..device.shaders import compiled
 from ..lighting.ggx import ggx_table
 from ..renderer import Renderer
 from ..settings import Settings
@@ -53,13 +54,15 @@ def prove_pictures() -> Work:
     renderer = Renderer(scene, Settings(method="exact", samples=1))
     try:
         yield
-        reflection = renderer.reflect(view, is_still=True)
-        yield
-        # (For its shaders alone, half of all: the rest is compiled in the next slice.)
-        renderer.surfaces_of(reflection)
+        reflection = yield from compiled(lambda: renderer.reflect(view, is_still=True))
         yield
         canvas = Canvas.of_size(*PIXELS)
-        renderer.add_sub_frame(canvas, reflection, 0, 1.0)
+
+        def draw() -> None:
+            canvas.clear()
+            renderer.add_sub_frame(canvas, reflection, 0, 1.0)
+
+        yield from compiled(draw)
         yield
         found = canvas.pixels()[..., :3].reshape(-1, 3)
     finally:

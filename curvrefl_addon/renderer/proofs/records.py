@@ -13,6 +13,7 @@ from ...optics import status
 from ...scene.arrays import Float32Array, InstanceArrays
 from ..device.record_regions import RecordRegions
 from ..device.records import TEXTURE_WIDTH, read_records, record_texture
+from ..device.shaders import compiled
 from ..device.textures import read_texture
 from ..geometry.chunk import Chunk, Placed
 from ..geometry.vertex_uploads import VertexUploads
@@ -40,9 +41,14 @@ def prove_records() -> Work:
         Placed(InstanceArrays("", 7 + k, 0, matrix, (0,)), mesh, mesh, np.zeros(len(mesh.triangles), np.int8), mirror=k)
         for k, matrix in enumerate(matrices)
     ]
-    chunk = Chunk([placed[0], placed[0]])
-    chunk.move({1: placed[1]})
-    chunk.deform({1: replace(placed[1], mesh=meshes[1], drawn=meshes[1])}, VertexUploads())
+
+    def place() -> Chunk:
+        chunk = Chunk([placed[0], placed[0]])
+        chunk.move({1: placed[1]})
+        chunk.deform({1: replace(placed[1], mesh=meshes[1], drawn=meshes[1])}, VertexUploads())
+        return chunk
+
+    chunk = yield from compiled(place)
     yield
     count = len(mesh.positions)
     positions = read_records(chunk.positions, 2 * count).astype(np.float64).reshape(2, count, 4)

@@ -15,7 +15,7 @@ from ..device.context import device_limits, platform_facts
 from ..device.ways.features import FEATURES
 from .proving import Proving
 from .table import PROOFS
-from .verdict import joined
+from .verdict import Verdict, joined
 
 _MANIFEST = Path(__file__).resolve().parents[3] / "blender_manifest.toml"
 
@@ -25,8 +25,7 @@ def device_report(proving: Proving) -> str:
     facts, failures = platform_facts(), {item.name: item for item in proving.verdict.failures}
     used = proving.verdict.features
     lines = [
-        f"Curvrefl {extension_version()}, Blender {bpy.app.version_string} ({_text(bpy.app.build_hash)}), "
-        f"{platform.platform()}",
+        f"{versions()} ({_text(bpy.app.build_hash)}), {platform.platform()}",
         f"Device: {facts['renderer']} ({facts['vendor']}), {facts['kind']}",
         f"Driver: {facts['version']}, {facts['backend']}",
         f"Limits: {', '.join(f'{name} {value:,}' for name, value in device_limits().items())}",
@@ -47,11 +46,16 @@ def device_report(proving: Proving) -> str:
     return "\n".join(lines) + "\n"
 
 
-def summary(proving: Proving) -> str:
+def summary(verdict: Verdict) -> str:
     """In one line: how many proofs came out right, and which did not."""
-    wrong = [item.name for item in proving.verdict.failures]
-    right = len(proving.found) - len(wrong)
-    return f"{right} of {len(proving.found)} proofs are right" + (f", but not {joined(wrong)}" if wrong else "")
+    wrong = [item.name for item in verdict.failures]
+    right = f"{len(verdict.proven) - len(wrong)} of {len(verdict.proven)} proofs are right"
+    return right + (f", but not {joined(wrong)}" if wrong else "")
+
+
+def versions() -> str:
+    """What proofs hold for, beside device and driver: shaders are the extension's, and Blender runs them."""
+    return f"Curvrefl {extension_version()}, Blender {bpy.app.version_string}"
 
 
 @cache

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from ...scene.arrays import Float32Array, Float64Array
 from ...scene.camera.view import View
 from ..device.cubes import cube_texture
 from ..device.records import record_texture
+from ..device.shaders import compiled
 from ..vertices.solution import VertexSolution
 from ..vertices.solve import Reflector, RegionTextures, solve_region, solve_vertices
 from .cases import EYE, as_stored, directions, radial_map, records_of, vertices_around, view_of_origin
@@ -112,7 +114,8 @@ def prove_search(method: str) -> Work:
     case, view = CASES[method], view_of_origin(EYE, *PIXELS)
     steps = FEW_STEPS if entry_of(method).stragglers else 0
     positions = record_texture(records_of(case.vertices))
-    solution = solve_vertices(method, view, case.reflector, positions, VERTICES, steps=steps)
+    search = partial(solve_vertices, method, view, case.reflector, positions, VERTICES, steps=steps)
+    solution = yield from compiled(search)
     yield
     expected = case.reference(case.map, Screen(view.eye, view.focal_pixels), case.vertices)
     yield
@@ -132,7 +135,8 @@ def prove_refraction() -> Work:
     yield
     reflector = Reflector(np.eye(4), surface.bound, {"radial": cube_texture(faces)}, index=INDEX)
     positions = record_texture(records_of(vertices))
-    solution = solve_vertices("newton_refraction", view, reflector, positions, len(seen), steps=FEW_STEPS)
+    search = partial(solve_vertices, "newton_refraction", view, reflector, positions, len(seen), steps=FEW_STEPS)
+    solution = yield from compiled(search)
     yield
     expected = points, np.full(len(seen), status.REFLECTED)
     # (Farther back a vertex may be seen at another place, too.)

@@ -51,7 +51,7 @@ def measure_benchmark(
     """
     proving = prove_all()
     take_verdict(proving.verdict)
-    say(f"{summary(proving)}.")
+    say(f"{summary(proving.verdict)}.")
     report: dict[str, Any] = {"device": platform_facts(), "limits": asdict(limits), "proofs": proving.found}
     report |= {"failures": proving.verdict.as_json()["failures"], "solves": [], "rays": []}
     solves = measure_solves(_up_to(VERTEX_COUNTS, vertices), say)

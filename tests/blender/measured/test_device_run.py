@@ -15,11 +15,25 @@ import pytest
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.renderer.costs.table import NAMES, SHIPPED, Costs, costs_in_use
 from curvrefl.curvrefl_addon.renderer.measured import timing, unit_costs
+from curvrefl.curvrefl_addon.renderer.proofs.proof import Found, Proof, Work
 from curvrefl.curvrefl_addon.viewport import device_run
 
 pytestmark = pytest.mark.usefixtures("gpu")
 FOUND = replace(SHIPPED, pixel_by_ray=0.5)
 SLICES = 3
+"""Of measuring"""
+PROVEN = 2
+"""Slices of proofs before that, and of those after it"""
+
+
+def right() -> Work:
+    yield
+    return Found(0.0, 1.0, "units")
+
+
+FIRST = (Proof("list", "lists", right, ("atomics",)),)
+OTHERS = (Proof("planar", "points", right, ("compute",), ("planar",)),)
+ALL = PROVEN + SLICES + PROVEN
 
 
 class Device:
@@ -46,6 +60,8 @@ def device(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Device]:
     monkeypatch.setattr("curvrefl.curvrefl_addon.renderer.measured.spread_run.LEAST_SECONDS", 0.0)
     monkeypatch.setattr(device_run, "platform_facts", lambda: dict(made.facts))
     monkeypatch.setattr(device_run, "measure_costs", made.measure)
+    monkeypatch.setattr(device_run, "FIRST", FIRST)
+    monkeypatch.setattr(device_run, "OTHERS", OTHERS)
     monkeypatch.setattr(device_run, "PACKAGE", "bl_ext.user_default.curvrefl")
     monkeypatch.setattr(bpy.utils, "extension_path_user", lambda _package: str(tmp_path / "user"))
     device_run.end_session()
@@ -69,7 +85,7 @@ def new_session() -> None:
 
 
 def test_the_first_use_measures_and_the_next_session_does_not(device: Device) -> None:
-    assert redraws() == SLICES
+    assert redraws() == ALL
     assert costs_in_use() == FOUND and device_run.messages() == []
     assert redraws() == 1 and device.measured == 1
     new_session()
@@ -91,7 +107,7 @@ def test_another_device_or_driver_is_measured(device: Device, name: str) -> None
 def test_nothing_is_done_while_the_view_moves(device: Device) -> None:
     assert redraws(is_resting=False) > 20
     assert device.measured == 0 and costs_in_use() == SHIPPED
-    assert redraws() == SLICES
+    assert redraws() == ALL
 
 
 def test_a_user_who_does_not_want_it_is_not_measured(device: Device) -> None:
@@ -106,8 +122,9 @@ def test_looking_at_the_preferences_before_does_not_keep_it_from_being_measured(
     device: Device, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(device_run, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), utils=bpy.utils))
-    assert dict(device_run.rows()) == {"Device": "Card", "Driver": "driver 1", "Measured": "Not yet"}
-    assert redraws() == SLICES and device.measured == 1
+    rows = {"Device": "Card", "Driver": "driver 1", "Measured": "Not yet", "Results": "Not proven yet"}
+    assert dict(device_run.rows()) == rows
+    assert redraws() == ALL and device.measured == 1
 
 
 def test_another_file_begins_it_anew(device: Device) -> None:
@@ -115,7 +132,7 @@ def test_another_file_begins_it_anew(device: Device) -> None:
     device_run.advance()
     device_run.cancel()
     assert not device_run.is_running() and device.measured == 0
-    assert redraws() == SLICES and device.measured == 1
+    assert redraws() == ALL and device.measured == 1
     # Once it is known, another file changes nothing.
     device_run.cancel()
     assert redraws() == 1 and costs_in_use() == FOUND
@@ -166,7 +183,7 @@ def test_forgetting_brings_the_shipped_costs_back(device: Device) -> None:
     assert device_run.forget_device() == "" and costs_in_use() == SHIPPED
     assert redraws() == 1, "not again in this session"
     new_session()
-    assert redraws() == SLICES and device.measured == 2
+    assert redraws() == ALL and device.measured == 2
 
 
 def test_without_an_installed_extension_nothing_is_kept(

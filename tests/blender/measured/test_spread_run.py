@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader
+from curvrefl.curvrefl_addon.renderer.device.shaders import FULL_SCREEN, Piece, build_shader, compiled
 from curvrefl.curvrefl_addon.renderer.measured import spread_run
-from curvrefl.curvrefl_addon.renderer.measured.spread_run import SpreadRun, Task, compiled
+from curvrefl.curvrefl_addon.renderer.measured.spread_run import SpreadRun, Task
 from curvrefl.gpu_shaders.loader import Snippet
 
 pytestmark = pytest.mark.usefixtures("gpu")

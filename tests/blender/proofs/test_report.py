@@ -19,7 +19,7 @@ from curvrefl.curvrefl_addon.renderer.proofs.report import device_report, summar
 from curvrefl.curvrefl_addon.renderer.proofs.table import PROOFS
 from curvrefl.curvrefl_addon.renderer.proofs.verdict import Verdict, known_verdict, take_verdict
 from curvrefl.curvrefl_addon.ui.panel import CURVREFL_PT_main
-from curvrefl.curvrefl_addon.viewport import device, handlers
+from curvrefl.curvrefl_addon.viewport import device_run
 from proofs.broken import broken
 from viewport.layouts import context, draw
 
@@ -64,13 +64,16 @@ def test_it_says_which_proofs_failed() -> None:
     text = device_report(proving)
     assert "WRONG rays off by" in " ".join(text.split())
     assert "Not taken by Automatic: exact" in text
-    assert "are right, but not rays" in summary(proving)
+    assert "are right, but not rays" in summary(proving.verdict)
 
 
 def test_the_operator_copies_it_and_the_panel_says_it(monkeypatch: pytest.MonkeyPatch) -> None:
     copied = []
     forgotten = []
-    monkeypatch.setattr(handlers, "forget_scenes", lambda: forgotten.append(True))
+    monkeypatch.setattr(device_run, "_let_go", lambda: forgotten.append(True))
+    timers = SimpleNamespace(register=lambda act: act())
+    app = SimpleNamespace(background=False, timers=timers)
+    monkeypatch.setattr(device_run, "bpy", SimpleNamespace(app=app, utils=bpy.utils))
     from curvrefl.operators import copy_report
 
     window_manager = SimpleNamespace()
@@ -80,7 +83,7 @@ def test_the_operator_copies_it_and_the_panel_says_it(monkeypatch: pytest.Monkey
     asked = SimpleNamespace(window_manager=window_manager)
     assert run(operator, asked) == {"FINISHED"}  # type: ignore[arg-type]
     copied.append(window_manager.clipboard)
-    assert device.message() == "" and not forgotten
+    assert known_verdict().sentence == "" and not forgotten
     with broken(*NO_ATOMICS):
         assert run(operator, asked) == {"FINISHED"}  # type: ignore[arg-type]
         copied.append(window_manager.clipboard)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from curvrefl.curvrefl_addon.renderer.costs.table import SHIPPED, Costs
+from curvrefl.curvrefl_addon.renderer.proofs.table import PROOFS
 from small_scene import saved
 from window import Session, run_session
 from window_blender import WindowBlender
@@ -37,6 +38,10 @@ def test_it_is_spread_over_redraws_and_kept(session: Session) -> None:
     assert not measured["running"] and measured["messages"] == [] and measured["enabled"]
     (content,) = seen["kept"]
     (entry,) = content["devices"]
+    # Before and after that all results have been proven.
+    (proofs,) = content["proofs"]
+    assert proofs["proven"] == [proof.name for proof in PROOFS] and proofs["failures"] == {}
+    assert f"{len(PROOFS)} of {len(PROOFS)} proofs are right" == measured["rows"]["Results"]
     assert Costs(**entry["costs"]).pixel_by_ray == measured["costs"] != SHIPPED.pixel_by_ray
     assert entry["device"]["renderer"] == measured["rows"]["Device"]
     assert entry["measured"][:10] == measured["rows"]["Measured"][:10]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside a Blender window: proofs of the device, as it is and as it would be without what it has.
+"""Runs inside a Blender window: proofs of the device as it would be without what it has, and of a wrong one.
 
 Arguments after `--`: the zip, the folder for what was seen.
 """
@@ -39,6 +39,7 @@ def without_atomics() -> dict[str, Any]:
     """What the operator makes of a driver whose image atomics do nothing, and what it copies."""
     shaders = extension("curvrefl_addon.renderer.device.shaders")
     features = extension("curvrefl_addon.renderer.device.ways.features")
+    verdict = extension("curvrefl_addon.renderer.proofs.verdict")
     load: Callable[..., Any] = shaders.load
 
     def wrongly(*parts: Any) -> Any:
@@ -53,7 +54,7 @@ def without_atomics() -> dict[str, Any]:
     clear()
     missing = features.features().missing
     copied = bpy.context.window_manager.clipboard
-    message = extension("curvrefl_addon.viewport.device").message()
+    message = verdict.known_verdict().sentence
     bpy.ops.curvrefl.copy_report()
     return {"missing": missing, "report": copied, "message": message, "after": features.features().missing}
 
@@ -61,9 +62,7 @@ def without_atomics() -> dict[str, Any]:
 def script() -> Script:
     install(ARCHIVE)
     yield 1.0
-    seen["as it is"] = proofs_without()
-    yield 0.1
-    seen["without all"] = proofs_without("compute", "quads")
+    seen["without all"] = proofs_without("compute", "quads", "fits")
     yield 0.1
     seen["without atomics"] = proofs_without("atomics")
     yield 0.1

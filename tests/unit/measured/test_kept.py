@@ -15,7 +15,15 @@ import pytest
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.renderer.costs.table import NAMES, SHIPPED, Costs
 from curvrefl.curvrefl_addon.renderer.measured import kept
-from curvrefl.curvrefl_addon.renderer.measured.kept import Measured, forget, keep, read_kept
+from curvrefl.curvrefl_addon.renderer.measured.kept import (
+    Measured,
+    forget,
+    keep,
+    keep_verdict,
+    read_kept,
+    read_verdict,
+)
+from curvrefl.curvrefl_addon.renderer.proofs.verdict import Failure, Verdict
 
 CARD = {"vendor": "Maker", "renderer": "Card 1", "version": "4.6 driver 10", "backend": "OPENGL", "more": "facts"}
 FAST = Measured(replace(SHIPPED, pixel_by_ray=1e-4), "2026-01-02T03:04:05+00:00")
@@ -53,6 +61,41 @@ def test_devices_are_kept_beside_each_other_and_drivers_are_not(path: Path) -> N
     forget(path, other)
     assert read_kept(path, other) is None and read_kept(path, newer) == SLOW
     assert len(json.loads(path.read_text())["devices"]) == 1
+
+
+def test_verdicts_are_kept_beside_costs(path: Path) -> None:
+    """Neither takes the other's place; those of another version of Blender or of the extension count for nothing."""
+    wrong = Verdict(("list", "planar"), (Failure("list", "off", "atomics"),))
+    assert read_verdict(path, CARD, "5.2") is None
+    keep_verdict(path, CARD, "5.2", wrong)
+    assert read_kept(path, CARD) is None
+    keep(path, CARD, FAST)
+    assert read_verdict(path, CARD, "5.2") == wrong and read_kept(path, CARD) == FAST
+    assert read_verdict(path, CARD, "5.3") is None
+    assert read_verdict(path, CARD | {"version": "another"}, "5.2") is None
+    keep_verdict(path, CARD, "5.3", Verdict(("list",)))
+    assert read_verdict(path, CARD, "5.2") is None and read_verdict(path, CARD, "5.3") == Verdict(("list",))
+    assert read_kept(path, CARD) == FAST
+    forget(path, CARD)
+    assert read_verdict(path, CARD, "5.3") is None and read_kept(path, CARD) is None
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda entry: entry.pop("versions"),
+        lambda entry: entry.update(failures=3),
+        lambda entry: entry.update(failures={"list": {"words": "off", "without": "luck"}}),
+        lambda entry: entry.pop("proven"),
+    ],
+)
+def test_a_damaged_verdict_is_a_sentence(path: Path, change: Callable[[Any], Any]) -> None:
+    keep_verdict(path, CARD, "5.2", Verdict(("list",)))
+    content = json.loads(path.read_text())
+    change(content["proofs"][0])
+    path.write_text(json.dumps(content))
+    with pytest.raises(InputError, match="is damaged"):
+        read_verdict(path, CARD, "5.2")
 
 
 def test_nothing_is_written_to_forget_nothing(path: Path) -> None:
