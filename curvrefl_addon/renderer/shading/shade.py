@@ -123,7 +123,15 @@ class ShadePass:
             with shown.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
                 self._add_shown(
-                    seen, reflected, view_uniforms, strength, shadows, features_of(gathers), shown_rays, most_hits
+                    seen,
+                    reflected,
+                    view_uniforms,
+                    strength,
+                    shadows,
+                    features_of(gathers),
+                    shown_rays,
+                    most_hits,
+                    tells_mirrors,
                 )
             with canvas.with_depth(classes.depth).bind(), scissored(mirrors):
                 set_viewport(0, 0, seen.width, seen.height)
@@ -212,13 +220,15 @@ class ShadePass:
         gathered: Features,
         shared: SharedGather | None,
         most_hits: int,
+        tells_mirrors: bool,
     ) -> None:
         """Background and surfaces, seen in mirrors."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
             shader = shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
-            for kind in (PixelClass.MIRROR_OF_SURFACE, PixelClass.MIRROR_OF_MIRROR):
+            others = (PixelClass.MIRROR_OF_MIRROR,) if tells_mirrors else ()
+            for kind in (PixelClass.MIRROR_OF_SURFACE, *others):
                 features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered)
                 is_shared = shared is not None and kind is PixelClass.MIRROR_OF_SURFACE
                 if kind is PixelClass.MIRROR_OF_MIRROR and most_hits > 1:
