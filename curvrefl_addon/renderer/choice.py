@@ -212,10 +212,11 @@ def _choose(
         return rays(f'"{name}" is too thin for a map that reflection points could be found on')
     if VERTICES in features().distrusted:
         return rays("This graphics driver gets reflection points wrong")
-    share, cost = cost_share(settings, view, mirror, scenery, unseen, is_still, costs_in_use())
     was_solved = last is not None and last.method == VERTICES
     kept = 1.0 if last is None or last.method == NOTHING else KEPT_SHARE if was_solved else 1.0 / KEPT_SHARE
-    if share > MOST_SHARE * kept:
+    most_share = MOST_SHARE * kept
+    share, cost = cost_share(settings, view, mirror, scenery, unseen, is_still, most_share, costs_in_use())
+    if share > most_share:
         return rays(cost)
     tolerance = settings.pixel_tolerance
     most = MAP_SHARE * tolerance * (KEPT_FIT if was_solved else 1.0)

@@ -108,7 +108,7 @@ def print_costs(first: int, cases: int, most_pixels: int) -> None:
         ratio, medians, why = ratio_to_best(case)
         ratios.append(ratio)
         if ratio > 1.1:
-            is_bound = " cost about " not in why
+            is_bound = " vertices to solve cost " not in why
             bound += is_bound
             print(
                 f"{seed:5} {case.text}: {ratio:.2f} "

@@ -14,6 +14,7 @@ from ...scene.camera.view import View
 from ..geometry.split import split_angle
 from ..mirrors.mirror import Mirror
 from ..settings import Settings
+from ..surfaces.windows import Window
 from .table import Costs
 
 SAMPLED_VERTICES, SILHOUETTE_SIDES, PIXELS_PROBED = 2000, 16, 16
@@ -62,20 +63,34 @@ def cost_share(
     scenery: Scenery,
     unseen: NDArray[np.bool_],
     is_still: bool,
+    most: float,
     costs: Costs,
 ) -> tuple[float, str]:
-    """What solving costs over what following rays does, and that in words."""
-    pixels = mirror_pixels(mirror, view, scenery)
+    """What solving costs over what following rays does, and that in words.
+
+    Where it is more than `most` even if the mirror had all pixels of its window they are not counted, and it is at least
+    so much.
+    """
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
     added = split_triangles(settings, view, mirror, scenery, unseen, is_still)
     by_ray = costs.pixel_by_ray + costs.pixel_by_ray_per_doubling * np.log2(max(triangles, 2))
     vertex = costs.vertex_solved + (costs.edges_asked if is_still else 0.0)
     once = costs.solve_begun + vertex * (vertices + 0.5 * added)
     layers = layers_around(mirror.shape().center, scenery.centers[~unseen], scenery.radii[~unseen])
-    by_points = pixels * costs.layer_drawn * layers + costs.triangle_drawn * (triangles + added)
-    by_points += costs.pixel_cleared * view.width * view.height + once / (settings.samples if is_still else 1)
-    # (Of one pixel at least, where all may be hidden.)
-    share = by_points / (max(pixels, 1.0) * by_ray)
+    whatever_pixels = costs.triangle_drawn * (triangles + added) + costs.pixel_cleared * view.width * view.height
+    whatever_pixels += once / (settings.samples if is_still else 1)
+
+    def share_of(pixels: float) -> float:
+        """The more pixels, the less."""
+        # (Of one pixel at least, where all may be hidden.)
+        return float((costs.layer_drawn * layers + whatever_pixels / max(pixels, 1.0)) / by_ray)
+
+    window = mirror.window(view)
+    least = share_of(window[2] * window[3])
+    if least > most:
+        return least, f"{vertices:,} vertices to solve cost at least {least:.2f} times what rays do"
+    pixels = mirror_pixels(mirror, view, scenery, window)
+    share = share_of(pixels)
     return share, f"{vertices:,} vertices to solve cost about {share:.2f} times what {pixels:,.0f} rays do"
 
 
@@ -100,9 +115,10 @@ def layers_around(center: Float64Array, centers: Float64Array, radii: Float64Arr
     return float(np.where(distance <= radii, 1.0, 0.5 - 0.5 * np.sqrt(1.0 - sine * sine)).sum())
 
 
-def mirror_pixels(mirror: Mirror, view: View, scenery: Scenery) -> float:
-    """About how many pixels of a view a mirror covers; of one that is not convex, those of its hull."""
-    x, y, width, height = mirror.window(view)
+def mirror_pixels(mirror: Mirror, view: View, scenery: Scenery, window: Window) -> float:
+    """About how many pixels of a view a mirror covers in its window there; of one that is not convex, those of its
+    hull."""
+    x, y, width, height = window
     if width <= 0 or height <= 0:
         return 0.0
     positions = mirror.mesh.positions

@@ -146,19 +146,18 @@ class MapFit:
         """(seen,) distance to the farthest point of the balls that each point's reflected ray meets, 0 where none."""
         points = self._points[seen]
         balls = centers @ world_to_map[:3, :3].T + world_to_map[:3, 3]
-        farthest = np.zeros(len(seen))
         if len(balls) > MOST_BALLS:
             # As if every ray met the farthest.
-            reach = float((np.linalg.norm(balls, axis=1) + radii).max())
-            return reach + np.linalg.norm(points, axis=1)
+            most = float((np.linalg.norm(balls, axis=1) + radii).max())
+            return most + np.linalg.norm(points, axis=1)
         rays = 2.0 * cosine[seen, None] * self._normals[seen] - to_eye[seen]
-        for center, radius in zip(balls, radii.tolist(), strict=True):
-            to_ball = center - points
-            along = np.einsum("ni,ni->n", to_ball, rays)
-            square = np.einsum("ni,ni->n", to_ball, to_ball)
-            meets = (square - along * along < radius * radius) & (along > -radius)
-            farthest[meets] = np.maximum(farthest[meets], np.sqrt(square[meets]) + radius)
-        return farthest
+        # (balls, seen), of all at once: a loop takes three times as long.
+        along = balls @ rays.T - np.einsum("ni,ni->n", points, rays)
+        square = (balls**2).sum(axis=1)[:, None] - 2.0 * (balls @ points.T) + (points**2).sum(axis=1)
+        reach = radii[:, None]
+        meets = (square - along * along < reach * reach) & (along > -reach)
+        farthest = np.where(meets, np.sqrt(np.maximum(square, 0.0)) + reach, 0.0)
+        return np.asarray(farthest.max(axis=0, initial=0.0))
 
 
 def _normals(surface: CubeMapSurface, directions: Float64Array) -> tuple[Float64Array, Float64Array]:
