@@ -66,7 +66,7 @@ def proofs(_found: dict[str, Any]) -> dict[str, Any]:
     """What the device gets right, and use what it says."""
     proving = prove_all()
     take_verdict(proving.verdict)
-    print(summary(proving))
+    print(summary(proving.verdict))
     return {"proofs": proving.found, **proving.verdict.as_json()}
 
 
