@@ -68,7 +68,7 @@ def cost_share(
 ) -> tuple[float, str]:
     """What solving costs over what following rays does, and that in words.
 
-    Where it is more than `most` even if the mirror had all pixels of its window they are not counted, and it is at
+    Where it is more than `most` even if the mirror had all pixels of its window, they are not counted, and it is at
     least so much.
     """
     vertices, triangles = int(scenery.vertices[~unseen].sum()), int(scenery.triangles[~unseen].sum())
