@@ -4,55 +4,82 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from importlib import import_module
 
-from .other_searches import prove_grid, prove_parametric, prove_planar, prove_screen
-from .paths import prove_paths
-from .pictures import prove_pictures
-from .proof import Proof
-from .quads import prove_quads
-from .records import prove_list, prove_records
-from .searches import prove_refraction, prove_regions, prove_search
-from .walk import prove_fits, prove_walk
+from .proof import Proof, Work
+
+
+def _by(module: str, function: str, *arguments: str) -> Callable[[], Work]:
+    """Imported when it is tried: a session whose device is known needs none of it."""
+
+    def work() -> Work:
+        found: Work = getattr(import_module(f".{module}", __package__), function)(*arguments)
+        return found
+
+    return work
+
 
 BY_COMPUTE = ("compute",)
 BY_LIST = ("atomics", "compute")
 
 FIRST = (
-    Proof("records", "records that compute shaders write", prove_records, BY_COMPUTE),
-    Proof("list", "lists by image atomics", prove_list, BY_LIST),
-    Proof("newton", 'reflection points by "Newton"', partial(prove_search, "newton"), BY_LIST, ("newton",)),
-    Proof("rays", "rays", prove_walk, (), ("exact",)),
-    Proof("fits", "rays at what deforms", prove_fits, ("fits",)),
-    Proof("quads", "derivatives between pixels", prove_quads, ("quads",)),
-    Proof("pictures", "surfaces, materials and light", prove_pictures),
+    Proof("records", "records that compute shaders write", _by("records", "prove_records"), BY_COMPUTE),
+    Proof("list", "lists by image atomics", _by("records", "prove_list"), BY_LIST),
+    Proof("newton", 'reflection points by "Newton"', _by("searches", "prove_search", "newton"), BY_LIST, ("newton",)),
+    Proof("rays", "rays", _by("walk", "prove_walk"), (), ("exact",)),
+    Proof("fits", "rays at what deforms", _by("walk", "prove_fits"), ("fits",)),
+    Proof("quads", "derivatives between pixels", _by("quads", "prove_quads"), ("quads",)),
+    Proof("pictures", "surfaces, materials and light", _by("pictures", "prove_pictures")),
 )
 """Of what `auto` draws by"""
 OTHERS = (
-    Proof("paths", "rough, layered and glassy surfaces", prove_paths),
-    Proof("regions", 'further images by "Newton"', prove_regions, BY_COMPUTE, ("newton",)),
+    Proof("paths", "rough, layered and glassy surfaces", _by("paths", "prove_paths")),
+    Proof("regions", 'further images by "Newton"', _by("searches", "prove_regions"), BY_COMPUTE, ("newton",)),
     Proof(
         "secant_star",
         'reflection points by "Secant Search"',
-        partial(prove_search, "secant_star"),
+        _by("searches", "prove_search", "secant_star"),
         BY_COMPUTE,
         ("secant_star",),
     ),
-    Proof("secant_uv", 'reflection points by "Secant Search in UV"', prove_parametric, BY_COMPUTE, ("secant_uv",)),
+    Proof(
+        "secant_uv",
+        'reflection points by "Secant Search in UV"',
+        _by("other_searches", "prove_parametric"),
+        BY_COMPUTE,
+        ("secant_uv",),
+    ),
     Proof(
         "bisector_cube",
         'reflection points by "Bisector Field"',
-        partial(prove_search, "bisector_cube"),
+        _by("searches", "prove_search", "bisector_cube"),
         BY_COMPUTE,
         ("bisector_cube", "bisector_grid"),
     ),
     Proof(
-        "bisector_grid", 'reflection points by "Bisector Field on Grids"', prove_grid, BY_COMPUTE, ("bisector_grid",)
+        "bisector_grid",
+        'reflection points by "Bisector Field on Grids"',
+        _by("other_searches", "prove_grid"),
+        BY_COMPUTE,
+        ("bisector_grid",),
     ),
     Proof(
-        "bisector_screen", 'reflection points by "Bisector on Screen"', prove_screen, BY_COMPUTE, ("bisector_screen",)
+        "bisector_screen",
+        'reflection points by "Bisector on Screen"',
+        _by("other_searches", "prove_screen"),
+        BY_COMPUTE,
+        ("bisector_screen",),
     ),
-    Proof("planar", 'reflection points by "Planar Mirror"', prove_planar, BY_COMPUTE, ("planar",)),
-    Proof("newton_refraction", 'points by "Newton through Glass"', prove_refraction, BY_LIST, ("newton_refraction",)),
+    Proof(
+        "planar", 'reflection points by "Planar Mirror"', _by("other_searches", "prove_planar"), BY_COMPUTE, ("planar",)
+    ),
+    Proof(
+        "newton_refraction",
+        'points by "Newton through Glass"',
+        _by("searches", "prove_refraction"),
+        BY_LIST,
+        ("newton_refraction",),
+    ),
 )
 PROOFS = FIRST + OTHERS

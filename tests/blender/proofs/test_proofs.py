@@ -4,7 +4,11 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from ast import literal_eval
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -215,3 +219,14 @@ def test_what_was_not_kept_by_us_is_refused(kept: dict[str, object]) -> None:
         Verdict.from_json({"proven": [], "failures": {"list": {"words": "", "without": "luck"}}})
     gone = {"proven": ["gone", "list"], "failures": {"gone": {"words": "", "without": ""}}}
     assert Verdict.from_json(gone) == Verdict(("list",))
+
+
+def test_a_session_whose_device_is_known_imports_no_proof() -> None:
+    code = (
+        "import sys; sys.path.insert(0, 'tools'); import bootstrap; bootstrap.load_package(); import bpy;"
+        "import curvrefl.curvrefl_addon.viewport.device_run;"
+        "print([name.rpartition('.')[2] for name in sys.modules if 'renderer.proofs.' in name])"
+    )
+    root = Path(__file__).resolve().parents[3]
+    found = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
+    assert set(literal_eval(found.stdout.splitlines()[-1])) == {"proof", "proving", "report", "table", "verdict"}
