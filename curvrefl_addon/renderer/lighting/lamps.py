@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +36,16 @@ class LampSample:
     """One point (homogeneous, w = 0: direction to the sun) of a lamp."""
 
     place: Float64Array
+
+
+def reach_into(lights: Iterable[LightArrays], low: Float64Array, high: Float64Array) -> bool:
+    """Whether the body of a lamp, none of which is a sun, may be in a box from (3,) to (3,): by balls around them."""
+    for light in lights:
+        place = light.matrix[:3, 3]
+        reach = 0.5 * float(np.hypot(*light.size)) if light.kind == "AREA" else light.radius
+        if np.linalg.norm(np.maximum(low - place, place - high).clip(0.0)) <= reach:
+            return True
+    return False
 
 
 def is_soft(light: LightArrays) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...scene.arrays import SceneArrays
+from ...scene.arrays import Float64Array, SceneArrays
 from ..device.batches import full_screen_triangle
 from ..device.shaders import knows
 from ..device.state import drawing_state, scissored, set_viewport
@@ -18,6 +18,7 @@ from ..indirect.gather import (
     Source,
     features_of,
 )
+from ..lighting.lamps import reach_into
 from ..lighting.lighting import Features, Lighting
 from ..paths.features import has_base
 from ..programs.buffers import NONE, MaterialBuffers
@@ -73,13 +74,17 @@ class ShadePass:
             for index in instance.materials
         ]
         self._has_base = any(has_base(material) for material in mirrors)
-        self.knows_ways_at_once = not (
-            self._has_base
-            or self._has_bodies[False]
-            or self._materials.links
-            or any(material.program is not None for material in mirrors)
+        self._seen_bodies = [light for light in bodies if light.visible_glossy]
+        self._mirrors_need_passes = bool(
+            self._has_base or self._materials.links or any(material.program is not None for material in mirrors)
         )
-        """Of rays from mirror to mirror only their ends are to be lit, and mirrors need no pass of their own"""
+
+    def lights_ends_alone(self, low: Float64Array, high: Float64Array) -> bool:
+        """Whether of rays from mirror to mirror only their ends are to be lit; all mirrors are in the box (3,), (3,).
+
+        Mirrors need no pass of their own then, and no ray meets a lamp on its way between two of them.
+        """
+        return not (self._mirrors_need_passes or reach_into(self._seen_bodies, low, high))
 
     def add(
         self,

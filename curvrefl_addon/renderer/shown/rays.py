@@ -156,7 +156,11 @@ def _may_meet_another(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool
 
 def _go_on_at_once(members: Sequence[ShownRays], sub_frame: SubFrame) -> bool:
     """Whether rays off mirrors need no pass for each mirror that they meet."""
-    return sub_frame.stage.shade.knows_ways_at_once and _enclosing(members, sub_frame) == IN_THE_OPEN
+    if _enclosing(members, sub_frame) != IN_THE_OPEN:
+        return False
+    stage = sub_frame.stage
+    corners = stage.geometry.box_corners([mirror.index for mirror in stage.mirrors])
+    return stage.shade.lights_ends_alone(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
 
 
 def _followed(members: Sequence[ShownRays], sub_frame: SubFrame) -> int:

@@ -60,6 +60,22 @@ def pictures(scene: SceneArrays, monkeypatch: pytest.MonkeyPatch, bounces: int) 
     return found[0], found[1], max(most)
 
 
+def test_lamps_that_no_ray_meets_between_mirrors_are_seen_at_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = scene_of("bowl")
+    above = np.eye(4)
+    above[:3, 3] = (0.3, 0.2, 2.4)
+    for lamp in (
+        LightArrays("ball", "POINT", (90.0, 90.0, 90.0), above, radius=0.9),
+        LightArrays("area", "AREA", (90.0, 90.0, 90.0), above, size=(2.0, 1.5)),
+    ):
+        by_passes, at_once, most = pictures(replace(scene, lights=(lamp,)), monkeypatch, bounces=2)
+        assert most == 3
+        unlit, _, _ = pictures(replace(scene, lights=(replace(lamp, visible_glossy=False),)), monkeypatch, bounces=2)
+        assert (np.abs(by_passes - unlit).max(axis=-1) > 1.0).sum() > 50, "mirrors show the lamp"
+        difference = np.abs(at_once - by_passes).max(axis=-1)
+        assert (difference <= 2.0 * HALF_STEP * np.maximum(by_passes.max(axis=-1), 1e-3)).all()
+
+
 @pytest.mark.parametrize("bounces", [1, 2, 4])
 @pytest.mark.parametrize(("mirror", "mirrors"), [("bowl", 1), ("torus", 1), ("sphere", 2)])
 def test_both_ways_show_the_same(mirror: str, mirrors: int, bounces: int, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,15 +89,15 @@ def test_both_ways_show_the_same(mirror: str, mirrors: int, bounces: int, monkey
 def test_where_mirrors_show_more_than_they_reflect_each_has_its_pass(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = scene_of("bowl")
     gold = scene.materials[1]
-    above = np.eye(4)
-    above[2, 3] = 2.0
-    lamp = LightArrays("lamp", "POINT", (90.0, 90.0, 90.0), above, radius=0.3)
+    inside = np.eye(4)
+    inside[2, 3] = -0.3
+    lamp = LightArrays("lamp", "POINT", (90.0, 90.0, 90.0), inside, radius=0.1)
     others = {
         "shines": replace(scene, materials=(scene.materials[0], replace(gold, emission=(0.1, 0.0, 0.0)))),
         "has a program": replace(
             scene, materials=(scene.materials[0], replace(gold, program=scene.materials[0].program))
         ),
-        "shows a lamp": replace(scene, lights=(lamp,)),
+        "holds a lamp": replace(scene, lights=(lamp,)),
     }
     for name, other in others.items():
         by_passes, at_once, most = pictures(other, monkeypatch, bounces=2)
