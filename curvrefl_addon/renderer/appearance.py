@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import Any
 
 from ..optics.catalog import Method
@@ -23,6 +23,7 @@ from .shown.shown import Stage
 from .surfaces.materials import Materials
 from .tracing.tracer import PathTracer
 
+MATERIALS = "materials and images"
 LIGHT_SECONDS = 0.03
 """In each redraw of a viewport, for light between surfaces"""
 
@@ -88,6 +89,18 @@ class Appearance:
             # (What of it casts no shadow can be told only now.)
             self.lighting.follow(self._scene, Difference())
         return is_changed
+
+    def loading(self, is_drawn: bool) -> str:
+        """What is not there yet, for a panel; `is_drawn`: light can be looked for."""
+        if self.materials.is_loading:
+            return MATERIALS
+        return "light between surfaces" if is_drawn and not self.indirect.is_settled else ""
+
+    @property
+    def ingredients(self) -> tuple[Hashable, ...]:
+        """What decides which shaders the pictures take."""
+        programs = tuple(self.materials.programs.admitted) if self.materials.has_programs else ()
+        return (self.lighting.features, programs, self.needs.features, self.indirect.is_gathered)
 
     def resample(self, samples: int) -> None:
         """For pictures of so many sub-frames."""

@@ -5,14 +5,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Hashable, Sequence
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
+from ..pacing.pieces import outcome, unpaced
 from ..scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
@@ -30,6 +31,7 @@ from .placement import Placement, wanted_origin, with_depths_that_fit
 from .preparation import Preparation
 from .programs.image_pages import DEFAULT_CAP
 from .rays.ray_scene import RayScene
+from .rays.rays_on_demand import RaysOnDemand
 from .reflection import Diagnostic, Reflection
 from .seen import draw_seen
 from .settings import Settings, check_settings
@@ -63,8 +65,18 @@ class Renderer:
         Raises InputError for settings out of range and for reflectors that no map can hold, GpuUnavailableError
         without a GPU context.
         """
-        self.settings = settings or Settings()
-        """What was asked for"""
+        for _ in self._open(scene, settings or Settings(), image_memory, is_gradual):
+            pass
+
+    @classmethod
+    def opened_in_steps(cls, scene: SceneArrays, settings: Settings, image_memory: int) -> Generator[str, None, Self]:
+        """A gradual one, made in steps, each of which yields what comes next. Raises as the constructor."""
+        renderer = cls.__new__(cls)
+        yield from renderer._open(scene, settings, image_memory, is_gradual=True)
+        return renderer
+
+    def _open(self, scene: SceneArrays, settings: Settings, image_memory: int, is_gradual: bool) -> Generator[str]:
+        self.settings = settings
         check_settings(self.settings)
         require_gpu()
         self.counters = Counter({"maps baked": 0})
@@ -75,14 +87,16 @@ class Renderer:
         self.geometry = SceneGeometry()
         self._targets = target_pool()
         self._preparation = Preparation()
-        self._rays: RayScene | None = None
+        self.hierarchies = RaysOnDemand(self.geometry.facts, self.geometry.uploads)
         self._diagnostics: DiagnosticPass | None = None
-        self._is_gradual = is_gradual
+        self.is_gradual = is_gradual
         self._view_uniforms: Any = None
         self._jitter = offsets(self.settings.samples)
         self._placement = Placement(self.geometry.facts)
         self._given = scene
-        self._follow_scene(self._placement.placed(scene))
+        for _ in self._following_scene(self._placement.placed(scene)):
+            yield "meshes"
+        yield "lights and materials"
         self._appearance = Appearance(
             self.scene, self.geometry, self._numbers, self.settings.samples, image_memory, is_gradual
         )
@@ -102,12 +116,12 @@ class Renderer:
         """Have the scene's origin at another point (3,) of the world."""
         if not np.array_equal(origin, self._placement.origin):
             self._placement.move_to(origin)
-            self._follow(self._placement.placed(self._given), anew=True)
+            with unpaced():
+                self._follow(self._placement.placed(self._given), anew=True)
 
     def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
-        self._appearance.follow(scene, self._follow_scene(scene, anew), self._numbers)
-        if self._rays is not None:
-            self._rays.follow(scene, self._numbers)
+        self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers)
+        self.hierarchies.follow(scene, self._numbers)
 
     def configure(self, settings: Settings) -> None:
         """Render otherwise from now on. Raises as the constructor; then nothing has changed."""
@@ -129,15 +143,16 @@ class Renderer:
         self.geometry = SceneGeometry()
         self._targets = target_pool()
         self._preparation = Preparation()
-        self._diagnostics = self._rays = None
+        self.hierarchies.free()
+        self._diagnostics = None
 
-    def _follow_scene(self, scene: SceneArrays, anew: bool = False) -> Difference:
-        """Mirrors and geometry."""
+    def _following_scene(self, scene: SceneArrays, anew: bool = False) -> Generator[None, None, Difference]:
+        """Mirrors and geometry, in steps."""
         mirrors = mirrors_of(scene, self.mirrors, self.geometry.facts, self.counters)
         self._require(mirrors, self.settings)
         self.mirrors, self.scene = mirrors, scene
         self._preparation.follow(scene, mirrors)
-        return self.geometry.update(scene, self._numbers, anew)
+        return (yield from self.geometry.updating(scene, self._numbers, anew))
 
     @staticmethod
     def _require(mirrors: Sequence[Mirror], settings: Settings) -> None:
@@ -169,8 +184,7 @@ class Renderer:
         if self.mirrors and not any(self.geometry.scenery(mirror.index) for mirror in self.mirrors):
             found.append("There is nothing to reflect: no other object is visible to glossy rays.")
         found += self._appearance.warnings(self.settings.entry)
-        if self._rays is not None:
-            found += self._rays.warnings
+        found += self.hierarchies.warnings
         return tuple(found)
 
     def render(
@@ -196,13 +210,9 @@ class Renderer:
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
-        times = {
-            "bake": baked + (self._rays.build_ms if self._rays else 0.0),
-            "solve": 1e3 * (solved - start),
-            "draw": 1e3 * (done - solved),
-            "frame": 1e3 * (done - start),
-            "light": self._appearance.indirect.prepare_ms,
-        }
+        spans = {"solve": solved - start, "draw": done - solved, "frame": done - start}
+        times = {"bake": baked + self.hierarchies.build_ms, **{name: 1e3 * span for name, span in spans.items()}}
+        times["light"] = self._appearance.indirect.prepare_ms
         surfaces = partial(self._surfaces_while, self.revision, reflection)
         return Frame(reflection, canvas.texture, times, surfaces, convergence, self.bounced_light)
 
@@ -229,7 +239,7 @@ class Renderer:
         view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
         origin = self._placement.origin
         self._view_uniforms = view_block(view)
-        if self.settings.entry.is_environment and not self._is_gradual:
+        if self.settings.entry.is_environment and not self.is_gradual:
             self._find_light()
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
@@ -260,7 +270,7 @@ class Renderer:
         reflection = through_lens(self, reflection, index)
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
-        if diagnostic is None and not self._is_gradual:
+        if diagnostic is None and not self.is_gradual:
             self._find_light()
         jittered = replace(reflection, view=view)
         everywhere = diagnostic is not None
@@ -289,21 +299,26 @@ class Renderer:
 
     def rays(self) -> RayScene:
         """The scene as rays need it, made when first asked for."""
-        if self._rays is None:
-            self._rays = RayScene(self.geometry.facts, self.geometry.uploads)
-            self._rays.follow(self.scene, self._numbers)
-        return self._rays
+        return self.hierarchies.of(self.scene, self._numbers)
 
     def settle(self) -> None:
-        """Do at once all that `improve` would do."""
-        if self._rays is not None:
-            self._rays.finish()
+        """Make all hierarchies as good as they get."""
+        self.hierarchies.finish()
+
+    @property
+    def ingredients(self) -> Hashable:
+        """Others when pictures may need shaders that they did not need before."""
+        return (self.settings, *self._appearance.ingredients)
+
+    @property
+    def loading(self) -> str:
+        """What is not there yet, for a panel; nothing once all is."""
+        return self._appearance.loading(is_drawn=self._view_uniforms is not None)
 
     @property
     def is_loading(self) -> bool:
         """Materials or images are not drawn as they are yet, or light between what was drawn is not all found."""
-        is_drawn = self._view_uniforms is not None
-        return self._appearance.materials.is_loading or (is_drawn and not self._appearance.indirect.is_settled)
+        return bool(self.loading)
 
     def load_some(self, seconds: float) -> None:
         """Go on with that: a program, images for about so long, light."""
@@ -320,24 +335,9 @@ class Renderer:
         return True
 
     @property
-    def ray_counters(self) -> dict[str, int]:
-        """How often hierarchies were made, since the start."""
-        return {} if self._rays is None else self._rays.counters
-
-    @property
     def bounced_light(self) -> str:
         """See `IndirectLight.state`."""
         return self._appearance.indirect.state
-
-    @property
-    def can_improve(self) -> bool:
-        """Whether `improve` would do anything."""
-        return self._rays is not None and self._rays.can_improve
-
-    def improve(self) -> None:
-        """Do a little work that makes later pictures faster, and no different."""
-        if self._rays is not None:
-            self._rays.improve()
 
     def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
         if revision != self.revision:

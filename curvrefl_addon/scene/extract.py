@@ -14,7 +14,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .arrays import InstanceArrays, MaterialArrays, SceneArrays, WorldArrays
+from ..pacing.reading_time import ReadingTime
+from .arrays import MaterialArrays, SceneArrays, WorldArrays
 from .changes import Changes
 from .finite import problem_of_place
 from .instances.alone import objects_alone
@@ -36,6 +37,7 @@ from .reads import (
     needs_of,
     oddities,
     only_of,
+    placed_instance,
     require_reflectors,
     shown_light,
     slot_materials,
@@ -49,6 +51,9 @@ from .strands.reading import has_no_faces
 from .unseen import of_view_layer, unseen
 from .visibility import rays_of
 from .world import read_world
+
+UNREAD = -1
+"""In place of a world's `session_uid`"""
 
 
 def extract_scene(
@@ -92,6 +97,12 @@ class SceneReader:
         self._space = working_space()
         """Of the colors in the last scene"""
         self._last: SceneArrays | None = None
+        self._time = ReadingTime()
+
+    @property
+    def unread(self) -> int:
+        """Objects that the last state lacks, as there was no time for them: the next `read` goes on with them."""
+        return self._time.unread
 
     @property
     def sequences(self) -> set[int]:
@@ -115,11 +126,15 @@ class SceneReader:
         reflectors: Sequence[bpy.types.Object],
         changes: Changes,
         overrides: Mapping[int, MaterialArrays] | None = None,
+        seconds: float | None = None,
     ) -> SceneArrays:
         """The scene's present state, of which only the `changes` are looked at; errors as in `extract_scene`.
 
-        `overrides`: materials in place of all of an object's own, by its session_uid.
+        `overrides`: materials in place of all of an object's own, by its session_uid. With `seconds` the reflectors are
+        read, and of what has not been read before about as much as that takes, one object at least; without the world
+        as long as others are `unread`.
         """
+        left, self._time = self.unread, ReadingTime.of(seconds)
         view_layer = depsgraph.view_layer
         assert view_layer is not None
         if dict(overrides or {}) != self._overrides:
@@ -150,7 +165,7 @@ class SceneReader:
         changes.materials |= self._materials.that_know(changes.objects)
         self._materials.forget(changes.materials)
         meshes = self._meshes.forget(changes.geometry)
-        walk = changes.instances or changes.all_materials or bool(changes.materials)
+        walk = left > 0 or changes.instances or changes.all_materials or bool(changes.materials)
         if not walk and changes.listing:
             listing = listing_of(depsgraph, view_layer)
             walk = listing != self._listing
@@ -165,7 +180,9 @@ class SceneReader:
                 self._shown[uid, 0, 0] = self._read_instance(placed, uid, 0, view_layer, self._shown[uid, 0, 0])
             self._meshes.settle()
         world = (view_layer.world_override or scene.world) if view_layer.use_sky else None
-        if changes.world or uid_of_block(world) != self._world_uid:
+        if self.unread:
+            self._world_uid = UNREAD
+        elif changes.world or uid_of_block(world) != self._world_uid:
             self._read_world(world)
         self._last = self._arrays(reflectors, bounces_of(scene))
         return self._last
@@ -234,6 +251,9 @@ class SceneReader:
         matrix = np.array(instance.matrix_world, dtype=np.float64)
         if (nowhere := unplaced(name, matrix, rays.any)) is not None:
             return nowhere
+        is_known = uid in self._mapped or (before is not None and before.instance is not None)
+        if not (is_known or self._time.is_left_for_another()):
+            return ShownInstance()
         slots = self._slots(obj, uid, view_layer.material_override)
         if hair is not None:
             slots = [slots[min(hair.slot, len(slots) - 1)]]
@@ -263,20 +283,7 @@ class SceneReader:
         made_of = (name, stored.number, matrix.tobytes(), materials, rays, comparable(asked))
         made = before.instance if before is not None and before.made_of == made_of else None
         if made is None:
-            made = InstanceArrays(
-                object_name=name,
-                object_id=self._id(uid),
-                mesh=stored.number,
-                matrix=matrix,
-                materials=materials,
-                visible_camera=rays.camera,
-                visible_diffuse=rays.diffuse,
-                visible_glossy=rays.glossy,
-                visible_shadow=rays.shadow,
-                visible_transmission=rays.transmission,
-                holdout=rays.holdout,
-                **asked,
-            )
+            made = placed_instance(name, self._id(uid), stored.number, matrix, materials, rays, asked)
         return ShownInstance(
             made, None, tuple(warnings), True, made_of, error, rays.any, name, materials, has_links(obj)
         )

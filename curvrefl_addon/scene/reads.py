@@ -21,7 +21,7 @@ from .programs.looks import NO_UV_MAP, UV_MAP
 from .programs.material_reader import ReadMaterial
 from .programs.program import UV, Attribute, Program
 from .remarks import Remark
-from .visibility import rays_of
+from .visibility import RayVisibility, rays_of
 
 SMALLEST_STRETCH = 1e-6
 """Of a matrix: least over greatest stretch, under which it counts as singular in single precision"""
@@ -75,6 +75,32 @@ class ShownInstance:
     """Of the instance, whatever light linking makes of them"""
     has_links: bool = False
     """The object has collections for its light (`instances/linking.py`)"""
+
+
+def placed_instance(
+    name: str,
+    object_id: int,
+    mesh: int,
+    matrix: Float64Array,
+    materials: tuple[int, ...],
+    rays: RayVisibility,
+    values: Mapping[str, Any],
+) -> InstanceArrays:
+    """Of an object that these rays see; `values`: what programs ask of it."""
+    return InstanceArrays(
+        object_name=name,
+        object_id=object_id,
+        mesh=mesh,
+        matrix=matrix,
+        materials=materials,
+        visible_camera=rays.camera,
+        visible_diffuse=rays.diffuse,
+        visible_glossy=rays.glossy,
+        visible_shadow=rays.shadow,
+        visible_transmission=rays.transmission,
+        holdout=rays.holdout,
+        **values,
+    )
 
 
 def unplaced(name: str, matrix: Float64Array, is_seen: bool) -> ShownInstance | None:

@@ -65,6 +65,8 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
             _draw_list(layout, mirrors, context)
         else:
             draw_message(layout, "No object is marked as a mirror", context, "INFO")
+        if waited_for := viewport.progress():
+            layout.label(text=f"Preparing: {waited_for}", icon="TIME")
         newer = newer_settings(scene)
         of_materials = viewport.material_remarks()
         # (Each once: with the material that it concerns.)

@@ -16,7 +16,6 @@ from __future__ import annotations
 import traceback
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from time import monotonic
 from types import MappingProxyType
 from typing import Any
@@ -30,8 +29,10 @@ from ..renderer.device.frame_buffers import active_frame_buffer
 from ..renderer.device.state import viewport
 from ..renderer.shading.diagnostic_legend import draw_legend
 from . import device_run
+from .opening import SLICE_SECONDS
 from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
 from .shown_scene import ViewportScene, look_of
+from .state import State
 
 IDLE_SECONDS = 0.02
 """Between the sub-frames of a view that rests"""
@@ -40,25 +41,7 @@ ASKED_SECONDS = 5.0
 SHOWN_IN = {"SOLID", "MATERIAL", "RENDERED"}
 
 
-@dataclass
-class _State:
-    """All that lives while the switch is on."""
-
-    handlers: list[Any] = field(default_factory=list)
-    scenes: dict[tuple[int, str], ViewportScene] = field(default_factory=dict)
-    """By the scene's session_uid and the view layer's name"""
-    pictures: dict[int, RegionPicture] = field(default_factory=dict)
-    """Per region; the one drawn last comes last"""
-    frame_buffers: dict[int, Any] = field(default_factory=dict)
-    """Per region, captured before its engine draws; of this redraw only"""
-    failure: str = ""
-    asked_at: float = -1e9
-    """When the statistics were last asked for, on a monotonic clock"""
-    counters: Counter[str] = field(default_factory=Counter)
-    """Of scenes that are gone, and of pictures"""
-
-
-_state = _State()
+_state = State()
 
 
 def switch(on: bool) -> None:
@@ -121,6 +104,13 @@ def statistics() -> list[tuple[str, str]]:
 def reason() -> str:
     """Why `auto` has chosen as it has in the view drawn last, one sentence, or nothing."""
     return next((picture.reason for picture in reversed(_state.pictures.values())), "")
+
+
+def progress() -> str:
+    """What is still being made for pictures, in a few words for the panel; nothing once all is there."""
+    found = [scene.progress for scene in _state.scenes.values()]
+    found += [picture.progress for picture in _state.pictures.values()]
+    return next(filter(None, found), "")
 
 
 def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
@@ -305,17 +295,21 @@ def _draw(context: bpy.types.Context) -> None:
     options = current_options()
     device_run.begin_session(options.measures_devices)
     memory, images = options.memory_cap << 20, options.image_memory << 20
-    renderer = shown.renderer(context, look_of(space, chosen), settings_of(chosen), memory, images)
+    view, look = view_of(context), look_of(space, chosen)
+    renderer = shown.renderer_soon(context, look, settings_of(chosen), memory, images, view, SLICE_SECONDS)
     picture = _state.pictures.pop(region, None)
-    if renderer is None:
-        return
     pixels = viewport()
+    if renderer is None:
+        if shown.sketch is not None:
+            shown.sketch.show(view, frame_buffer or active_frame_buffer(), pixels)
+            _draw_soon()
+        return
     if picture is None or picture.renderer is not renderer:
         picture = RegionPicture(shown, renderer)
     _state.pictures[region] = picture
     now = monotonic()
     is_timed = now - _state.asked_at < ASKED_SECONDS
-    picture.advance(view_of(context), chosen, options, now, is_timed, _state.counters)
+    picture.advance(view, chosen, options, now, is_timed, _state.counters)
     # Diagnostic colors must come out as they are in their legend: not through the view transform.
     if chosen.show in MODES or frame_buffer is None:
         frame_buffer = active_frame_buffer()
@@ -339,10 +333,15 @@ def _draw_legend(context: bpy.types.Context) -> None:
 
 def _draw_again(picture: RegionPicture) -> None:
     """While the view rests its picture gets finer."""
-    if picture.is_coarse:
-        if not bpy.app.timers.is_registered(_redraw_settled):
-            bpy.app.timers.register(_redraw_settled, first_interval=SETTLED_SECONDS)
-    elif (picture.has_work or device_run.is_running()) and not bpy.app.timers.is_registered(redraw_all):
+    if picture.is_coarse and not bpy.app.timers.is_registered(_redraw_settled):
+        bpy.app.timers.register(_redraw_settled, first_interval=SETTLED_SECONDS)
+    is_waited_for = picture.has_work or device_run.is_running()
+    if is_waited_for and (not picture.is_coarse or picture.progress):
+        _draw_soon()
+
+
+def _draw_soon() -> None:
+    if not bpy.app.timers.is_registered(redraw_all):
         bpy.app.timers.register(redraw_all, first_interval=IDLE_SECONDS)
 
 

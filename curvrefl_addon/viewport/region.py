@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import replace
-from functools import cache
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -14,10 +14,8 @@ import numpy as np
 
 from ..diagnostic_colors import MODES, DiagnosticOptions
 from ..optics.catalog import label_of
+from ..renderer.appearance import MATERIALS
 from ..renderer.choice import RAYS
-from ..renderer.device.batches import full_screen_triangle
-from ..renderer.device.shaders import FULL_SCREEN, Piece, build_shader
-from ..renderer.device.state import drawing_state, set_viewport, write_depth_again
 from ..renderer.device.textures import read_texture
 from ..renderer.noise import Convergence, NoiseMeter
 from ..renderer.reflection import Diagnostic, Reflection
@@ -26,13 +24,18 @@ from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
 from ..scene.camera.lens import Lens, lens_of
 from ..scene.camera.view import View
+from .composite import composite
 from .motion_resolution import FIXED, MotionResolution
+from .opening import SLICE_SECONDS
+from .rehearsal import Rehearsal
 
 if TYPE_CHECKING:
     from .shown_scene import ViewportScene
 
 LOADING_SECONDS = 0.05
 """In each redraw, for images of materials that are not there yet"""
+REFRESH_SECONDS = 0.5
+"""Pictures without all of their images are shown for so long"""
 SETTLED_SECONDS = 0.15
 """After the last change the full resolution is drawn again"""
 
@@ -59,6 +62,15 @@ class RegionPicture:
         self._changed_at = 0.0
         self._rows: list[tuple[str, str]] = []
         self._solve_ms = self._draw_ms = 0.0
+        self._rehearsal: Rehearsal | None = None
+        """Of the next picture, while this one is shown"""
+        self._rehearsed: dict[bool, Hashable] = {}
+        """For pictures at rest and others, with which of the renderer's ingredients"""
+
+    @property
+    def progress(self) -> str:
+        """What the next pictures wait for, in a few words; nothing once all is there."""
+        return self.renderer.loading if self._rehearsal is None else self._rehearsal.left
 
     @property
     def is_coarse(self) -> bool:
@@ -81,7 +93,7 @@ class RegionPicture:
     @property
     def has_work(self) -> bool:
         """There is something left to do while the view rests."""
-        return not self.is_complete or self.renderer.can_improve or self.renderer.is_loading
+        return not self.is_complete or self.renderer.hierarchies.can_improve or bool(self.progress)
 
     def advance(
         self, view: View, settings: Any, options: Any, now: float, is_timed: bool, counters: dict[str, int]
@@ -94,24 +106,34 @@ class RegionPicture:
         diagnostic = diagnostic_of(settings, options)
         if diagnostic is not None:
             view = replace(view, lens=None)
-        # (A shader compiles in a tenth of a second, which an orbit can wait for, but not for many.)
-        self.renderer.load_some(LOADING_SECONDS)
+        if self._rehearsal is None:
+            self.renderer.load_some(LOADING_SECONDS)
         state = (self.renderer.revision, diagnostic)
         divisor, at_rest = 0, False
-        if self._view is None or state != self._state or not _is_same(self._view, view):
-            self._changed_at = now
+        is_another = self._view is None or diagnostic != self._state[1] or not _is_same(self._view, view)
+        # (While images come in, one in each redraw, the picture is not begun again for each.)
+        waits = self.renderer.loading == MATERIALS and now - self._changed_at < REFRESH_SECONDS
+        if is_another or (state != self._state and not waits):
             divisor = FIXED.get(settings.motion_resolution, self._motion.divisor)
-        elif self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
+        elif state == self._state and self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
             divisor, at_rest = 1, True
+        if is_another or diagnostic is not None:
+            self._rehearsal = None
+        elif divisor and not self._is_rehearsed(view, at_rest):
+            return
+        if divisor and not at_rest:
+            self._changed_at = now
         follows_time = bool(divisor) and not at_rest and settings.motion_resolution not in FIXED
         is_measured = follows_time and self._motion.wants_time()
         begun = perf_counter()
         if divisor:
             self._start(view, divisor, diagnostic, is_timed, counters, at_rest)
         else:
-            self.renderer.improve()
-        self._view, self._state = view, state
-        if not self.is_complete:
+            self.renderer.hierarchies.improve()
+        if divisor:
+            self._view, self._state = view, state
+        # (What is not whole yet is begun again soon: one sub-frame of it is enough.)
+        if not self.is_complete and not (self._sub_frames and self.renderer.is_loading):
             assert self._reflection is not None and self._canvas is not None
             start = perf_counter()
             self.renderer.add_sub_frame(
@@ -128,19 +150,23 @@ class RegionPicture:
                 self._meter.look(self._sub_frames)
             counters["sub-frames"] = counters.get("sub-frames", 0) + 1
 
+    def _is_rehearsed(self, view: View, at_rest: bool) -> bool:
+        """Whether all that pictures of a view need is made; goes on with that."""
+        wanted = self.renderer.ingredients
+        if not self.renderer.is_gradual or self._rehearsed.get(at_rest) == wanted:
+            return True
+        if self._rehearsal is None or self._rehearsal.made_for != (wanted, at_rest):
+            self._rehearsal = Rehearsal(self.renderer, at_rest)
+        if not self._rehearsal.advance(view, SLICE_SECONDS):
+            return False
+        self._rehearsal = None
+        self._rehearsed[at_rest] = wanted
+        return True
+
     def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
         """Put the picture over the viewport's own."""
         assert self._canvas is not None
-        shader = _composite_shader()
-        with frame_buffer.bind():
-            set_viewport(*viewport)
-            with drawing_state(blend="ALPHA_PREMULT"):
-                shader.bind()
-                shader.uniform_float("sub_frames", float(max(self._sub_frames, 1)))
-                shader.uniform_float("region", tuple(float(number) for number in viewport))
-                shader.uniform_sampler("picture", self._canvas.texture)
-                full_screen_triangle().draw(shader)
-        write_depth_again()
+        composite(self._canvas, self._sub_frames, frame_buffer, viewport)
 
     def pixels(self) -> np.ndarray:
         """Mean of the sub-frames drawn so far, read from the GPU: (height, width, 4), scene-linear, premultiplied."""
@@ -269,18 +295,4 @@ def _is_same(one: View, other: View) -> bool:
         and np.array_equal(one.world_to_view, other.world_to_view)
         and np.array_equal(one.view_to_clip, other.view_to_clip)
         and one.lens == other.lens
-    )
-
-
-@cache
-def _composite_shader() -> Any:
-    return build_shader(
-        "composite",
-        FULL_SCREEN,
-        Piece(
-            samplers={"picture": "FLOAT_2D"},
-            constants={"sub_frames": "FLOAT", "region": "VEC4"},
-            outputs={"color": "VEC4"},
-            fragment="common/composite.frag.glsl",
-        ),
     )

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from time import perf_counter
 from typing import Any
 
 import bpy
@@ -17,10 +18,13 @@ from ..renderer.geometry.placed_instances import estimated_bytes
 from ..renderer.renderer import Renderer
 from ..renderer.settings import Settings
 from ..scene.arrays import SceneArrays
+from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
 from ..scene.remarks import Remark
 from .light import LightReader, ViewportLight, light_of
+from .opening import FORGOTTEN_SECONDS, Opening
+from .sketch import Sketch
 
 MOST_RENDERERS = 3
 """Ways of lighting, and local views, of one scene whose pictures are kept"""
@@ -54,6 +58,10 @@ class ViewportScene:
         self._shown: dict[Look, SceneArrays] = {}
         self._dropped: Counter[str] = Counter()
         """Counts of renderers that are gone"""
+        self._openings: dict[Look, Opening] = {}
+        """Renderers on their way"""
+        self.sketch: Sketch | None = None
+        """What is shown until they are there"""
 
     @property
     def material_remarks(self) -> tuple[Remark, ...]:
@@ -91,12 +99,60 @@ class ViewportScene:
 
         `memory_cap`: bytes of GPU memory that meshes may take; `image_memory`: those that images of materials may.
         """
-        if self.changes or self._mirrors is None:
-            self._read(context, memory_cap)
+        return self._renderer(context, look, settings, memory_cap, image_memory, None)
+
+    def renderer_soon(
+        self,
+        context: bpy.types.Context,
+        look: Look,
+        settings: Settings,
+        memory_cap: int,
+        image_memory: int,
+        view: View,
+        seconds: float,
+    ) -> Renderer | None:
+        """The same; where there is none yet it is worked on for about `seconds`, and None until pictures of the view
+        can be drawn: then there is a `sketch`, and `progress` to be told."""
+        return self._renderer(context, look, settings, memory_cap, image_memory, (view, seconds))
+
+    @property
+    def progress(self) -> str:
+        """What renderers on their way wait for, for a panel; nothing where none is."""
+        if self._arrays is not None and self._reader.unread:
+            return f"{self._reader.unread} objects to read"
+        begun = "" if self.sketch is None else "meshes"
+        return next((opening.progress for opening in self._openings.values()), begun)
+
+    def _renderer(
+        self,
+        context: bpy.types.Context,
+        look: Look,
+        settings: Settings,
+        memory_cap: int,
+        image_memory: int,
+        soon: tuple[View, float] | None,
+    ) -> Renderer | None:
+        # (A scene that is shown already is not seen without a part of it.)
+        seconds = None if soon is None or self.renderers else soon[1]
+        begun = perf_counter()
+        for other, opening in list(self._openings.items()):
+            if other != look and begun - opening.asked_at > FORGOTTEN_SECONDS:
+                self._drop(other)
+        has_read = bool(self.changes) or self._mirrors is None or (self._arrays is not None and self._reader.unread > 0)
+        if has_read:
+            self._read(context, memory_cap, seconds)
         if self._arrays is None:
+            self._leave_sketch()
             return None
         try:
-            return self._up_to_date(context, look, settings, image_memory)
+            if soon is None or look in self.renderers:
+                return self._up_to_date(context, look, settings, image_memory)
+            view, seconds = soon
+            left = seconds - (perf_counter() - begun)
+            if self._reader.unread or (left <= 0.0 and has_read):
+                self._draw_sketch(context)
+                return None
+            return self._opened(context, look, settings, image_memory, view, left)
         except InputError as error:
             self._drop(look)
             uid = self._culprit(error)
@@ -107,14 +163,54 @@ class ViewportScene:
             self._refused[uid] = str(error)
             self.changes.listing = True
             self._mirrors = None
-            return self.renderer(context, look, settings, memory_cap, image_memory)
+            return self._renderer(context, look, settings, memory_cap, image_memory, soon)
 
     def free(self) -> None:
         """Let go of everything."""
-        for look in list(self.renderers):
+        for look in [*self.renderers, *self._openings]:
             self._drop(look)
+        self._leave_sketch()
 
-    def _read(self, context: bpy.types.Context, memory_cap: int) -> None:
+    def _opened(
+        self,
+        context: bpy.types.Context,
+        look: Look,
+        settings: Settings,
+        image_memory: int,
+        view: View,
+        seconds: float,
+    ) -> Renderer | None:
+        """Go on with the renderer for a look; None while it cannot draw."""
+        arrays = self._arrays_for(context, look)
+        opening = self._openings.get(look)
+        if opening is None:
+            opening = self._openings[look] = Opening(arrays, settings, image_memory)
+        is_same = opening.scene is arrays and opening.settings == settings
+        if is_same and not opening.advance(view, seconds):
+            self._draw_sketch(context)
+            return None
+        # (What changes meanwhile ends the waiting: it may change in every redraw.)
+        self.renderers[look] = opening.finish()
+        del self._openings[look]
+        self._dropped["renderers made"] += 1
+        if not self._openings:
+            self._leave_sketch()
+        return self._up_to_date(context, look, settings, image_memory)
+
+    def _draw_sketch(self, context: bpy.types.Context) -> None:
+        assert self._arrays is not None and context.scene is not None
+        if self.sketch is None:
+            world = context.scene.world
+            red, green, blue = (0.05, 0.05, 0.05) if world is None else world.color
+            self.sketch = Sketch(self._arrays, (red, green, blue))
+        self.sketch.follow(self._arrays)
+
+    def _leave_sketch(self) -> None:
+        if self.sketch is not None:
+            self.sketch.free()
+            self.sketch = None
+
+    def _read(self, context: bpy.types.Context, memory_cap: int, seconds: float | None) -> None:
         scene = context.scene
         assert scene is not None
         if self._mirrors is None:
@@ -125,7 +221,7 @@ class ViewportScene:
         if len(seen) < len(self._mirrors):
             # The others may be instanced, and seen for all that.
             seen = mirrors_in(context.evaluated_depsgraph_get())
-        arrays = self._arrays_of(context, scene, seen)
+        arrays = self._arrays_of(context, scene, seen, seconds)
         newer = newer_settings(scene)
         self.messages = [*([newer] if newer else []), *self._refused.values()]
         self._shown.clear()
@@ -143,7 +239,11 @@ class ViewportScene:
             )
 
     def _arrays_of(
-        self, context: bpy.types.Context, scene: bpy.types.Scene, seen: list[bpy.types.Object]
+        self,
+        context: bpy.types.Context,
+        scene: bpy.types.Scene,
+        seen: list[bpy.types.Object],
+        seconds: float | None,
     ) -> SceneArrays | None:
         """The scene with those of the mirrors that can be ones. Changes stay until there is something to show."""
         while usable := [mirror for mirror in seen if mirror.session_uid not in self._refused]:
@@ -151,7 +251,7 @@ class ViewportScene:
             changes, self.changes = self.changes, Changes()
             try:
                 return self._reader.read(
-                    context.evaluated_depsgraph_get(), scene, usable, changes, overrides_of(usable)
+                    context.evaluated_depsgraph_get(), scene, usable, changes, overrides_of(usable), seconds
                 )
             except InputError as error:
                 uid = self._culprit(error)
@@ -161,21 +261,25 @@ class ViewportScene:
         return None
 
     def _up_to_date(self, context: bpy.types.Context, look: Look, settings: Settings, image_memory: int) -> Renderer:
-        if look not in self._shown:
-            assert self._arrays is not None
-            self._shown[look] = self._lights.lit(self._local(context, look), look.light)
-        arrays = self._shown[look]
+        arrays = self._arrays_for(context, look)
         renderer = self.renderers.pop(look, None)
         if renderer is None:
-            while len(self.renderers) >= MOST_RENDERERS:
-                self._drop(next(iter(self.renderers)))
             renderer = Renderer(arrays, settings, image_memory, is_gradual=True)
             self._dropped["renderers made"] += 1
+        while len(self.renderers) >= MOST_RENDERERS:
+            self._drop(next(iter(self.renderers)))
         self.renderers[look] = renderer
         renderer.update(arrays)
         if renderer.settings != settings:
             renderer.configure(settings)
         return renderer
+
+    def _arrays_for(self, context: bpy.types.Context, look: Look) -> SceneArrays:
+        """The scene in a look's light, or what a local view leaves of it."""
+        if look not in self._shown:
+            assert self._arrays is not None
+            self._shown[look] = self._lights.lit(self._local(context, look), look.light)
+        return self._shown[look]
 
     def _local(self, context: bpy.types.Context, look: Look) -> SceneArrays:
         """What a local view leaves of the scene."""
@@ -199,11 +303,14 @@ class ViewportScene:
         if renderer is not None:
             self._dropped.update(_made(renderer))
             renderer.free()
-        self._lights.keep({kept.light for kept in self.renderers})
+        opening = self._openings.pop(look, None)
+        if opening is not None:
+            opening.free()
+        self._lights.keep({kept.light for kept in (*self.renderers, *self._openings)})
 
 
 def _made(renderer: Renderer) -> dict[str, int]:
-    return {**renderer.counters, **renderer.geometry.counters, **renderer.ray_counters}
+    return {**renderer.counters, **renderer.geometry.counters, **renderer.hierarchies.counters}
 
 
 def look_of(space: bpy.types.SpaceView3D, settings: Any) -> Look:

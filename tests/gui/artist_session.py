@@ -114,8 +114,11 @@ def script() -> Script:
     start = time.perf_counter()
     bpy.context.window_manager.curvrefl_enabled = True
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+    # (Of a coarse sketch; what is said belongs to what is still being made.)
+    seen["first redraw seconds"] = time.perf_counter() - start
+    assert viewport().progress()
+    yield lambda: viewport().counters().get("sub-frames", 0) > 0
     seen["first picture seconds"] = time.perf_counter() - start
-    assert viewport().counters()["sub-frames"] == 1
     yield rests
     yield 1.0
     note("enabled")

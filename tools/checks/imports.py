@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "streams", "supervised", "written_files", "gpu_shaders"),
+    ("errors", "pacing", "streams", "supervised", "written_files", "gpu_shaders"),
     ("memory", "output", "optics", "setting"),
     ("settings_choices",),
     ("settings_table",),

@@ -88,7 +88,7 @@ def ratio_to_best(case: Case, rounds: int = 5) -> tuple[float, dict[str, float],
     for name, renderer in ways.items():
         choice = renderer.render(case.view).choice
         why = str(choice["why"]) if name == "auto" and choice is not None else why
-        renderer.settle()
+        renderer.hierarchies.finish()
     for _ in range(rounds):
         for name, renderer in ways.items():
             start = process_time()

@@ -206,7 +206,7 @@ def started(arrays: SceneArrays, view: View, settings: Settings) -> Measured:
     watch = Stopwatch()
     with taken_apart(watch):
         first = renderer.render(view).times_ms["frame"]
-    renderer.settle()
+    renderer.hierarchies.finish()
     bake = sum(shape.bake_ms for mirror in renderer.mirrors for shape in mirror.baked)
     text = f"made {made:.0f} (bake {bake:.0f}), frame {first:.0f}, shadows {watch.times.get('shadows', 0.0):.0f}"
     return Measured(settings.method, settings.samples, renderer, text)

@@ -69,7 +69,7 @@ def main() -> None:
     for method in ("exact", "auto"):
         renderer = Renderer(scene, Settings(method=method, samples=1))
         frame = renderer.render(view)
-        renderer.settle()
+        renderer.hierarchies.finish()
         runs = [frame_and_steps(renderer, view) for _ in range(options.repeats)]
         total = min(run[0] for run in runs)
         steps = np.min([run[1] for run in runs], axis=0) if runs[0][1] else np.zeros(1)

@@ -45,16 +45,7 @@ class RecordRegions:
             joined[source + len(part) : source + size] = 0.0
             source += size
         joined[source:] = 0.0
-        # (Once for all that find no room: a texture that grows is copied.)
-        free = self._free.copy()
-        lacking = sum(size for size in sizes if _take(free, size) is None)
-        if lacking:
-            self._grow(lacking)
-        starts = []
-        for size in sizes:
-            start = _take(self._free, size)
-            assert start is not None, "it has grown by what lacked room"
-            starts.append(start)
+        starts = self.reserve(sizes)
         if sizes:
             staged = record_texture(joined)
             source = 0
@@ -66,6 +57,21 @@ class RecordRegions:
                     source += length
                     first, length = start, 0
                 length += size
+        return starts
+
+    def reserve(self, sizes: list[int]) -> list[int]:
+        """Regions for so many records each, unfilled; returns their first records. Raises as `put`."""
+        sizes = [_rounded(size) for size in sizes]
+        # (Once for all that find no room: a texture that grows is copied.)
+        free = self._free.copy()
+        lacking = sum(size for size in sizes if _take(free, size) is None)
+        if lacking:
+            self._grow(lacking)
+        starts = []
+        for size in sizes:
+            start = _take(self._free, size)
+            assert start is not None, "it has grown by what lacked room"
+            starts.append(start)
         return starts
 
     def replace(self, start: int, records: Float32Array) -> None:

@@ -9,9 +9,7 @@ defines.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,6 +17,7 @@ import gpu
 import numpy as np
 
 from ....gpu_shaders.loader import Part, Source, load
+from ...pacing.pieces import OutOfTime, paced, piece_of_work
 from .compile_log import captured_output, explain
 from .context import gpu_cache
 from .records import RECORD_FORMAT, ROW_BITS, records_are_images
@@ -31,25 +30,6 @@ type Kinds = Mapping[str, str]
 
 class ShaderError(RuntimeError):
     """A shader does not compile; the message has the GLSL file and line, and the driver's words."""
-
-
-class ShaderPendingError(RuntimeError):
-    """A shader is left for later: see `compiling_one`."""
-
-
-_may_compile: ContextVar[int | None] = ContextVar("may_compile", default=None)
-"""Shaders of this thread; None: any number"""
-
-
-@contextmanager
-def compiling_one() -> Iterator[None]:
-    """Let at most one shader be compiled: the next one raises ShaderPendingError. What was compiled is kept, so that
-    the same done again gets one shader further."""
-    token = _may_compile.set(1)
-    try:
-        yield
-    finally:
-        _may_compile.reset(token)
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,9 +119,9 @@ def compiled[Result](act: Callable[[], Result]) -> Generator[None, None, Result]
     which compiles in each slice."""
     while True:
         try:
-            with compiling_one():
+            with paced(0.0):
                 return act()
-        except ShaderPendingError:
+        except OutOfTime:
             yield
 
 
@@ -150,12 +130,13 @@ def build_shader(label: str, *pieces: Piece) -> Any:
 
     Not inside of a frame's drawing loop: keep what is built with `functools.cache`, which `clear_gpu_caches` empties.
     Raises ShaderError when it does not compile, ValueError when two pieces mean different things by one name,
-    ShaderPendingError within `compiling_one`.
+    OutOfTime within `paced`.
     """
-    if (left := _may_compile.get()) is not None:
-        if left == 0:
-            raise ShaderPendingError(f"the shader {label} is to be compiled")
-        _may_compile.set(left - 1)
+    with piece_of_work(f"the shader {label}"):
+        return _built(label, pieces)
+
+
+def _built(label: str, pieces: tuple[Piece, ...]) -> Any:
     info = gpu.types.GPUShaderCreateInfo()
     # (Held until it is compiled.)
     interface = _add_declarations(info, label, pieces)

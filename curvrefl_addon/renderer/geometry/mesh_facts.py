@@ -82,6 +82,10 @@ class MeshFactsCache:
             facts = self._facts[id(mesh)] = MeshFacts(mesh)
         return facts
 
+    def knows(self, mesh: MeshArrays) -> bool:
+        """Whether it has been asked for."""
+        return id(mesh) in self._facts
+
     def deform(self, before: MeshArrays, mesh: MeshArrays) -> MeshFacts:
         """Know a mesh as another one with its vertices elsewhere (`is_deformed`)."""
         loose = self.of(before).loose

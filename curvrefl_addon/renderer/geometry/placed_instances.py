@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress
 from operator import is_not
@@ -223,3 +223,17 @@ def differs_in_vertices_only(known: Placed, instance: InstanceArrays, mesh: Mesh
     follow.)"""
     is_whole = known.drawn is known.mesh and is_deformed(known.mesh, mesh)
     return is_whole and differs_in_place_only(known, instance, number)
+
+
+def in_groups(items: Sequence[int], sizes: Sequence[int], enough: int) -> Iterator[list[int]]:
+    """The items in turn, each group as soon as its sizes add up to `enough`."""
+    group: list[int] = []
+    total = 0
+    for item, size in zip(items, sizes, strict=True):
+        group.append(item)
+        total += size
+        if total >= enough:
+            yield group
+            group, total = [], 0
+    if group:
+        yield group

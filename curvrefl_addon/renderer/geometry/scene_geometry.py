@@ -9,7 +9,7 @@ the scenery of a mirror is a list of whole chunks.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...pacing.pieces import outcome
 from ...scene.arrays import Float64Array, Int32Array, SceneArrays
 from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
@@ -28,6 +29,7 @@ from .placed_instances import (
     deformed_item,
     differs_in_place_only,
     differs_in_vertices_only,
+    in_groups,
     matched,
     placed_elsewhere,
     relative_positions,
@@ -80,6 +82,12 @@ class SceneGeometry:
 
         `anew`: in other chunks than before, so that those of an earlier picture stay where they are.
         """
+        return outcome(self.updating(scene, mirrors, anew))
+
+    def updating(
+        self, scene: SceneArrays, mirrors: Mapping[int, int], anew: bool = False
+    ) -> Generator[None, None, Difference]:
+        """The same in steps: a chunk in each, or a mesh that nothing is known of."""
         before, self._followed = self._followed, (scene, dict(mirrors))
         if before and not anew and (followed := placed_elsewhere(self.placed, before, self._followed, self.facts)):
             return self._follow_moved(*followed)
@@ -106,6 +114,8 @@ class SceneGeometry:
             if same is not None:
                 known[index] = Placed(instance, mesh, same.drawn, same.pieces, number)
             else:
+                if not self.facts.knows(mesh):
+                    yield
                 known[index] = Placed(instance, mesh, mesh, self.facts.of(mesh).pieces.triangle_piece, number)
         placed = [item for item in known if item is not None]
         if not difference.structure and not dirty:
@@ -125,7 +135,7 @@ class SceneGeometry:
         self._unchecked = set(range(len(placed)))
         self._move(difference.moved)
         self._deform(difference.deformed)
-        self._build(dirty, stale)
+        yield from self._build(dirty, stale)
         self._forget_meshes()
         return difference
 
@@ -146,7 +156,7 @@ class SceneGeometry:
             needed = [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
             if self._split(index, needed, finest):
                 dirty.append(index)
-        self._build(dirty, set())
+        outcome(self._build(dirty, set()))
 
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
         """All that a mirror, the instance `own`, may show."""
@@ -269,7 +279,7 @@ class SceneGeometry:
         self.facts.keep(meshes)
         self.uploads.keep(meshes)
 
-    def _build(self, dirty: Iterable[int], stale: set[int]) -> None:
+    def _build(self, dirty: Iterable[int], stale: set[int]) -> Generator[None]:
         """Build the chunks of `dirty` instances anew, and those whose id is in `stale`."""
         dirty = set(dirty)
         stale = stale | {id(found[0]) for index in dirty if (found := self._where[index]) is not None}
@@ -283,14 +293,14 @@ class SceneGeometry:
         self.chunks = [chunk for chunk in self.chunks if id(chunk) not in stale]
         loose = [index for index, found in enumerate(self._where) if found is None or id(found[0]) in stale]
         for kind in {self._kind(index) for index in loose}:
-            self._pack([index for index in loose if self._kind(index) == kind], kind)
+            yield from self._pack([index for index in loose if self._kind(index) == kind], kind)
 
     def _kind(self, index: int) -> tuple[int, bool]:
         """What may share a chunk."""
         item = self.placed[index]
         return (index + 1 if item.mirror else 0, item.instance.visible_glossy)
 
-    def _pack(self, indices: list[int], kind: tuple[int, bool]) -> None:
+    def _pack(self, indices: list[int], kind: tuple[int, bool]) -> Generator[None]:
         """Put instances of one kind into new chunks, with those of a chunk that is half empty."""
         wanted = sum(len(self.placed[index].drawn.triangles) for index in indices)
         members: dict[int, list[int]] = {}
@@ -303,23 +313,14 @@ class SceneGeometry:
                 self.chunks.remove(chunk)
                 indices = sorted(indices + members[id(chunk)])
                 break
-        group: list[int] = []
-        size = 0
-        for index in indices:
-            group.append(index)
-            size += len(self.placed[index].drawn.triangles)
-            if size >= CHUNK_TRIANGLES:
-                self._add_chunk(group)
-                group, size = [], 0
-        if group:
-            self._add_chunk(group)
-
-    def _add_chunk(self, indices: list[int]) -> None:
-        chunk = Chunk([self.placed[index] for index in indices])
-        self.chunks.append(chunk)
-        for local, index in enumerate(indices):
-            self._where[index] = (chunk, local)
-        self.counters["chunks built"] += 1
+        sizes = [len(self.placed[index].drawn.triangles) for index in indices]
+        for group in in_groups(indices, sizes, CHUNK_TRIANGLES):
+            yield
+            chunk = Chunk([self.placed[index] for index in group])
+            self.chunks.append(chunk)
+            for local, index in enumerate(group):
+                self._where[index] = (chunk, local)
+            self.counters["chunks built"] += 1
 
     def _may_be_coarse(self, sight: Sight, chosen: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Which may have an edge that is too long for a mirror, or are far too fine: by balls and longest edges."""

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...pacing.pieces import OutOfTime, paced
 from ...scene.arrays import Float32Array
 from ..cells.lookup import WALLS, At
 from ..device.batches import full_screen_triangle
@@ -46,6 +47,8 @@ from .points import POINTS, Patches
 
 MOST_SWEEPS = 8
 """Surfaces that light bounces off at most"""
+PART_SECONDS, MOST_PARTS = 0.03, 64
+"""Of a step that draws shadow maps, and steps in which a sub-frame's have to be there"""
 
 
 class Irradiance:
@@ -247,7 +250,13 @@ class Irradiance:
         for records in (self._of_lamps, self._of_sky):
             records.clear()
         for index in range(sub_frames):
-            lighting.prepare(index)
+            for _ in range(MOST_PARTS):
+                try:
+                    with paced(PART_SECONDS):
+                        lighting.prepare(index)
+                    break
+                except OutOfTime:
+                    yield
             yield
             # (What is drawn between steps may have prepared another.)
             lighting.prepare(index)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...pacing.pieces import piece_of_work
 from ...scene.arrays import EVERY_SET, Float64Array
 from ..device.context import gpu_cache
 from ..device.frame_buffers import frame_buffer, layer_of
@@ -112,6 +113,7 @@ class ShadowMaps:
         self.views: list[ShadowView] = []
         self._bias_texels = bias_texels
         self.texture: Any = None
+        """Once something has been drawn: it is large"""
         self.layers: Sequence[int] = ()
         """Of the texture, by view"""
         self._size = (0, 0)
@@ -124,10 +126,8 @@ class ShadowMaps:
         self.layers = range(len(views)) if layers is None else layers
         self.resolution = resolution or self.resolution
         size = (self.resolution if views else 1, max(self.layers, default=0) + 1)
-        if self.texture is None or size != self._size:
-            self._size = size
-            self.texture = depth_layers(*size)
-            self.texture.filter_mode(False)
+        if size != self._size:
+            self._size, self.texture = size, None
         self.forget()
 
     def forget(self) -> None:
@@ -140,6 +140,10 @@ class ShadowMaps:
         `visit`: which of how many times each view is looked at; each time it holds something else of what is there by
         chance.
         """
+        if self.texture is None:
+            with piece_of_work("room for shadows"):
+                self.texture = depth_layers(*self._size)
+                self.texture.filter_mode(False)
         number, count = visit
         missing = [index for index in needed if self._held[self.layers[index]] != (index, number)]
         if not missing:
@@ -149,7 +153,7 @@ class ShadowMaps:
             if count > 1:
                 view = replace(view, turn=(view.turn[0] * count + number, count))
             target = frame_buffer(depth=layer_of(self.texture, layer))
-            with target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
+            with piece_of_work("shadows"), target.bind(), drawing_state("LESS_EQUAL", depth_write=True):
                 set_viewport(0, 0, self.resolution, self.resolution)
                 target.clear(depth=1.0)
                 set_viewport(BORDER, BORDER, self.resolution - 2 * BORDER, self.resolution - 2 * BORDER)

@@ -59,9 +59,9 @@ class HallPasses:
     def build_trees(self) -> Generator[None]:
         """Hierarchies as a viewport at rest has them."""
         yield from compiled(self.renderer.rays)
-        while self.renderer.can_improve:
+        while self.renderer.hierarchies.can_improve:
             yield
-            self.renderer.improve()
+            self.renderer.hierarchies.improve()
 
     def look(self, size: int) -> None:
         """At the mirror, in pictures so wide and high."""

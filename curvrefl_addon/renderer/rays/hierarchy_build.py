@@ -16,6 +16,7 @@ from collections.abc import Generator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...pacing.pieces import outcome
 from ...scene.arrays import Float32Array
 from .hierarchy import Boxes, Hierarchy, IntArray, fit, fit_rows
 
@@ -118,15 +119,6 @@ def quick_steps(boxes: Sequence[Boxes], leaf: int = LEAF) -> Generator[None, Non
     forest = growth.tree(rows)
     yield
     return _apart(forest, counts)
-
-
-def outcome[Result](steps: Generator[None, None, Result]) -> Result:
-    """What comes of steps, all done at once."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value
 
 
 def _clusters(rows: Float32Array) -> Generator[None, None, tuple[IntArray, IntArray]]:

@@ -4,25 +4,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Generator, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...pacing.pieces import outcome
 from ...scene.arrays import (
     LARGEST_COORDINATE,
     Float32Array,
     Float64Array,
     MeshArrays,
 )
+from ..device.record_regions import RecordRegions
 from .hierarchy import Boxes, Hierarchy
 from .hierarchy_fit import HierarchyFit
-from .ray_records import attribute_records, corner_records, node_records, triangle_corners, triangle_records
+from .ray_records import (
+    NODE_RECORDS,
+    TRIANGLE_RECORDS,
+    attribute_records,
+    corner_records,
+    node_records,
+    triangle_corners,
+    triangle_records,
+)
 
-REGIONS = 4
-"""Of a mesh: nodes, triangles, corners, attributes"""
+BOXES_AT_ONCE = 1 << 18
 AT_ONCE = 500_000
 """Triangles of meshes that are built or uploaded together: more would gain nothing and take memory"""
 
@@ -57,6 +66,13 @@ class MeshRays:
         """With boxes of the mesh as it is."""
         return self.hierarchy if self.fit is None else self.hierarchy.fitted(*triangle_boxes(self.mesh, self.kept))
 
+    def leave(self, regions: RecordRegions) -> None:
+        """Free the room that its records take there."""
+        for start, size in zip(self.starts, self.sizes, strict=True):
+            if size:
+                regions.drop(start, size)
+        self.sizes = [0] * len(self.sizes)
+
     @cached_property
     def topology(self) -> tuple[int, int]:
         """See `topology_of`."""
@@ -73,8 +89,21 @@ class MeshTree:
     cost: float
     is_best: bool
 
+    @property
+    def record_sizes(self) -> list[int]:
+        """Records of each of its regions, in the order of `MeshRays.starts`."""
+        inner = int(np.count_nonzero(self.hierarchy.count == 0))
+        triangles = len(self.hierarchy.order) * TRIANGLE_RECORDS
+        attributes = 0 if self.mesh.corner_attributes is None else self.mesh.corner_attributes.size // 4
+        return [max(inner, 1) * NODE_RECORDS, triangles, len(self.mesh.corner_vertex), attributes]
+
+    def arrived(self, starts: list[int], sizes: list[int]) -> MeshRays:
+        """Once its records are there."""
+        box = self.hierarchy.low[0], self.hierarchy.high[0]
+        return MeshRays(self.mesh, self.hierarchy, self.kept, starts, sizes, self.cost, self.is_best, box)
+
     def records(self) -> tuple[Float32Array, ...]:
-        """What each of its REGIONS holds."""
+        """What each of its regions holds."""
         return (
             node_records(self.hierarchy, self.hierarchy.link, self.hierarchy.count),
             triangle_records(self.mesh, self.kept[self.hierarchy.order]),
@@ -125,10 +154,22 @@ def triangles_with_a_place(mesh: MeshArrays) -> tuple[NDArray[np.int64], bool]:
     return kept, len(kept) < int(np.isfinite(places).all(axis=(1, 2)).sum())
 
 
-def triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> tuple[Float32Array, Float32Array]:
+def triangle_boxes(mesh: MeshArrays, kept: NDArray[np.int64]) -> Boxes:
+    """About these triangles."""
+    return outcome(box_steps(mesh, kept))
+
+
+def box_steps(mesh: MeshArrays, kept: NDArray[np.int64]) -> Generator[None, None, Boxes]:
+    """The same, some triangles in each step."""
+    low, high = np.empty((len(kept), 3), np.float32), np.empty((len(kept), 3), np.float32)
     is_all = len(kept) == len(mesh.triangles)
-    a, b, c = triangle_corners(mesh, mesh.triangles if is_all else mesh.triangles[kept])
-    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    for first in range(0, len(kept), BOXES_AT_ONCE):
+        some = slice(first, first + BOXES_AT_ONCE)
+        a, b, c = triangle_corners(mesh, mesh.triangles[some] if is_all else mesh.triangles[kept[some]])
+        np.minimum(np.minimum(a, b), c, out=low[some])
+        np.maximum(np.maximum(a, b), c, out=high[some])
+        yield
+    return low, high
 
 
 def world_boxes(items: list[MeshRays], matrices: Float64Array) -> tuple[Float32Array, Float32Array]:

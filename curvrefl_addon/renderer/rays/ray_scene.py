@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ...pacing.pieces import outcome
 from ...scene.arrays import LARGEST_COORDINATE, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
@@ -31,7 +32,6 @@ from .hierarchy import Hierarchy
 from .hierarchy_build import HierarchyBuild, build
 from .hierarchy_fit import HierarchyFit
 from .mesh_rays import (
-    REGIONS,
     MeshRays,
     MeshTree,
     batches_of,
@@ -40,7 +40,7 @@ from .mesh_rays import (
     triangles_with_a_place,
     world_boxes,
 )
-from .mesh_trees import WORSE, trees_of
+from .mesh_trees import WORSE, Arrivals, Fresh, tree_steps
 from .ray_instances import INSTANCE_RECORDS, fill_records
 from .ray_records import (
     NODE_RECORDS,
@@ -80,9 +80,12 @@ class RayScene:
         """Of the last time that meshes came"""
         self._facts, self._uploads = facts, uploads
         self.escapes = Escapes(facts)
+        self._arrivals = Arrivals(self.regions, self.counters)
         self._left_out: list[MeshArrays] = []
         """Of which some triangles have no place"""
         self._meshes: dict[int, MeshRays] = {}
+        self._leaving: list[MeshRays] = []
+        """Whose successors, the same with their vertices elsewhere, are on their way"""
         self._instances: list[InstanceArrays] = []
         """Those that have triangles"""
         self._mesh_of: list[MeshArrays] = []
@@ -117,7 +120,8 @@ class RayScene:
     def follow(self, scene: SceneArrays, numbers: Mapping[int, int]) -> None:
         """Show a state of the scene; `numbers`: mirrors (1, 2, ...) by the index of their instance.
 
-        Raises InputError where the triangles do not fit into the graphics driver's largest texture.
+        Raises InputError where the triangles do not fit into the graphics driver's largest texture, OutOfTime within
+        `paced`: the next call goes on.
         """
         seen_through = frozenset(index for index, item in enumerate(scene.materials) if item.is_seen_through)
         clear = frozenset(index for index in seen_through if lets_straight_on(scene.materials[index]))
@@ -125,7 +129,8 @@ class RayScene:
         is_same = (seen_through, clear, attributes) == (self._seen_through, self._clear, self._attributes)
         found = self._elsewhere(scene, numbers) if is_same else None
         self._seen_through, self._clear, self._attributes = seen_through, clear, attributes
-        self._followed = (scene, dict(numbers))
+        # (Not followed before all is there: what runs out of time on the way is asked again.)
+        self._followed = (scene, dict(numbers)) if found is not None else None
         if found is not None:
             self._follow_places(scene, found)
             return
@@ -142,6 +147,7 @@ class RayScene:
         self._place_of = {index: place for place, index in enumerate(known)}
         if instances:
             self._place(is_same)
+        self._followed = (scene, dict(numbers))
 
     def _elsewhere(self, scene: SceneArrays, numbers: Mapping[int, int]) -> Elsewhere | None:
         """What is not where it was; None where more has changed, or a tree cannot be fitted where it is."""
@@ -192,17 +198,17 @@ class RayScene:
         """Build the tree of a mesh that deforms anew where it has been found to be bad; returns whether it has."""
         if item.fit is None or not item.is_judged or item.fit.cost() < WORSE * item.cost:
             return False
-        return self._replace(item, trees_of([(item.mesh, item.kept, None)], self.counters))
+        return self._replace(item, outcome(tree_steps([Fresh(item.mesh, item.kept)], self.counters)))
 
     def _replace(self, item: MeshRays, trees: list[MeshTree]) -> bool:
         """Put another tree in the place of a mesh's own; False where there is no room for both."""
         try:
             # (The regions of the other are free only then.)
-            self._store(trees)
+            self._meshes |= {id(stored.mesh): stored for stored in self._arrivals.store(trees)}
         except InputError:
             # What is there serves as well, only slower.
             return False
-        self._free(item)
+        item.leave(self.regions)
         return True
 
     @property
@@ -256,46 +262,27 @@ class RayScene:
         self._left_out = [mesh for mesh in self._left_out if any(mesh is other for other in scene.meshes)]
         used = {instance.mesh for instance in scene.instances}
         meshes = {id(mesh): mesh for index, mesh in enumerate(scene.meshes) if index in used}
-        gone = {key: item for key, item in self._meshes.items() if key not in meshes}
+        self._leaving += [self._meshes.pop(key) for key in list(self._meshes) if key not in meshes]
         fresh = []
         for key, mesh in meshes.items():
             if key in self._meshes:
                 continue
             kept, some_too_far = triangles_with_a_place(mesh)
-            if some_too_far:
+            if some_too_far and not any(mesh is other for other in self._left_out):
                 self._left_out.append(mesh)
             if len(kept):
-                fresh.append((mesh, kept, of_same_topology(mesh, gone.values())))
-        trees = trees_of(fresh, self.counters)
-        for item in gone.values():
-            self._forget(item)
-        for batch in batches_of(trees, [len(tree.kept) for tree in trees]):
-            self._store(batch)
+                fresh.append(Fresh(mesh, kept, of_same_topology(mesh, self._leaving)))
+        wanted = {id(item.before) for item in fresh}
+        for item in self._leaving:
+            if id(item) not in wanted:
+                item.leave(self.regions)
+        self._leaving = [item for item in self._leaving if id(item) in wanted]
+        for batch in batches_of(fresh, [len(item.kept) for item in fresh]):
+            self._meshes |= {id(item.mesh): item for item in self._arrivals.bring(batch)}
+            taken = {id(item.before) for item in batch}
+            self._leaving = [item for item in self._leaving if id(item) not in taken]
         if fresh:
             self.build_ms = 1e3 * (perf_counter() - start)
-
-    def _store(self, trees: list[MeshTree]) -> None:
-        """All at once: each would be an upload, and make the texture grow, of its own."""
-        parts = [part for tree in trees for part in tree.records()]
-        sizes = [len(part) for part in parts]
-        # (What has no records gets no region.)
-        stored = iter(self.regions.put([part for part in parts if len(part)]))
-        starts = [next(stored) if size else 0 for size in sizes]
-        for index, tree in enumerate(trees):
-            own = slice(REGIONS * index, REGIONS * (index + 1))
-            box = tree.hierarchy.low[0], tree.hierarchy.high[0]
-            self._meshes[id(tree.mesh)] = MeshRays(
-                tree.mesh, tree.hierarchy, tree.kept, starts[own], sizes[own], tree.cost, tree.is_best, box
-            )
-
-    def _forget(self, item: MeshRays) -> None:
-        del self._meshes[id(item.mesh)]
-        self._free(item)
-
-    def _free(self, item: MeshRays) -> None:
-        for start, size in zip(item.starts, item.sizes, strict=True):
-            if size:
-                self.regions.drop(start, size)
 
     def _place(self, is_same: bool) -> None:
         """The top level; the tree over the instances may be kept where they are the `same`."""

@@ -227,7 +227,7 @@ class ShadePass:
         most_hits: int,
         tells_mirrors: bool,
     ) -> None:
-        """Background and surfaces, seen in mirrors."""
+        """Background and surfaces, seen in mirrors; `tells_mirrors`: mirrors are a class of their own among them."""
         if isinstance(reflected, SurfaceBuffer) or not reflected:
             shader = shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)

@@ -195,9 +195,9 @@ def test_following_a_scene_ends_in_the_picture_of_a_fresh_renderer(monkeypatch: 
         expected = fresh.render(view)
         assert same(renderer.render(view), expected)
         fresh.free()
-    assert renderer.ray_counters["hierarchies fitted"] >= 1
-    renderer.settle()
-    assert renderer.ray_counters["hierarchies improved"] >= 1
+    assert renderer.hierarchies.counters["hierarchies fitted"] >= 1
+    renderer.hierarchies.finish()
+    assert renderer.hierarchies.counters["hierarchies improved"] >= 1
     assert same(renderer.render(view), first)
     renderer.free()
 
@@ -287,7 +287,7 @@ def test_what_has_moved_is_seen_where_it_is_now() -> None:
     view = look_at(np.array(EYES[0]), np.zeros(3), 80, 60, 0.6)
     renderer = Renderer(scene, Settings(method="exact", samples=1))
     renderer.render(view)
-    before = dict(renderer.ray_counters)
+    before = dict(renderer.hierarchies.counters)
     turned = list(scene.instances)
     for index in (0, 2, 5, 9):
         matrix = turned[index].matrix.copy()
@@ -299,7 +299,7 @@ def test_what_has_moved_is_seen_where_it_is_now() -> None:
     renderer.update(moved)
     verdict = judge(moved, view, renderer.render(view))
     assert verdict.pixels > 500 and verdict.wrong == 0
-    assert renderer.ray_counters["hierarchies built"] == before["hierarchies built"]
+    assert renderer.hierarchies.counters["hierarchies built"] == before["hierarchies built"]
     hidden = replace(turned[2], visible_glossy=False, matrix=scene.instances[2].matrix)
     rest = replace(moved, instances=(*turned[:2], hidden, *turned[3:]))
     renderer.update(rest)

@@ -224,7 +224,7 @@ def measure(triangles: int, options: argparse.Namespace) -> None:
     print(f"{triangles} triangles, {options.normals}{', sun' if options.sun else ''}: first {first:.0f} ms, then")
     print("  " + "  ".join(f"{name} {watch.median(name):.1f}" for name in names), flush=True)
     assert session.renderer is not None
-    counters = {**session.reader.reads, **session.renderer.geometry.counters, **session.renderer.ray_counters}
+    counters = {**session.reader.reads, **session.renderer.geometry.counters, **session.renderer.hierarchies.counters}
     print("  " + ", ".join(f"{name} {count}" for name, count in counters.items() if count))
     if options.profile:
         pstats.Stats(profile).sort_stats("tottime").print_stats(25)

@@ -16,6 +16,7 @@ import argparse
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from inspect import isgeneratorfunction
 from pathlib import Path
 from time import perf_counter, process_time, sleep
 from typing import Any
@@ -46,6 +47,7 @@ from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
 from curvrefl.curvrefl_addon.scene.opened.blend_file import find_reflectors, view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.viewport.light import LightReader, ViewportLight  # noqa: E402
+from curvrefl.curvrefl_addon.viewport.opening import SLICE_SECONDS  # noqa: E402
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture  # noqa: E402
 from curvrefl.curvrefl_addon.viewport.shown_scene import Look, ViewportScene  # noqa: E402
 from redraws.measure_viewport import HEIGHT, WIDTH, build, orbit  # noqa: E402
@@ -53,7 +55,7 @@ from redraws.measure_viewport import HEIGHT, WIDTH, build, orbit  # noqa: E402
 STAGES: tuple[tuple[type, str, str], ...] = (
     (SceneReader, "read", "reading"),
     (LightReader, "lit", "viewport's light"),
-    (SceneGeometry, "update", "chunks"),
+    (SceneGeometry, "updating", "chunks"),
     (Lighting, "__init__", "planning lights"),
     (Lighting, "follow", "planning lights"),
     (RayScene, "follow", "hierarchies"),
@@ -99,7 +101,17 @@ class Clock:
             with self.stage(f"shader {arguments[0]}" if name == "shader" else name):
                 return function(*arguments, **named)
 
-        return call
+        def steps(*arguments: Any, **named: Any) -> Any:
+            made = function(*arguments, **named)
+            while True:
+                try:
+                    with self.stage(name):
+                        step = next(made)
+                except StopIteration as end:
+                    return end.value
+                yield step
+
+        return steps if isgeneratorfunction(function) else call
 
     @contextmanager
     def listening(self) -> Iterator[None]:
@@ -121,6 +133,7 @@ class Viewport:
         self._view, self._look = view, look
         self.scene = ViewportScene()
         self.picture: RegionPicture | None = None
+        self.has_pixels = False
         self._texture = empty_texture(view.width, view.height)
         self._buffer = frame_buffer(self._texture)
 
@@ -128,9 +141,16 @@ class Viewport:
         """Once."""
         chosen, options = bpy.context.scene.curvrefl, current_options()
         memory, images = options.memory_cap << 20, options.image_memory << 20
-        renderer = self.scene.renderer(bpy.context, self._look, settings_of(chosen), memory, images)
+        renderer = self.scene.renderer_soon(
+            bpy.context, self._look, settings_of(chosen), memory, images, self._view, SLICE_SECONDS
+        )
         if renderer is None:
+            if self.scene.sketch is not None:
+                self.has_pixels = True
+                self.scene.sketch.show(self._view, self._buffer, (0, 0, self._view.width, self._view.height))
+                wait_for(self._buffer)
             return
+        self.has_pixels = True
         if self.picture is None or self.picture.renderer is not renderer:
             self.picture = RegionPicture(self.scene, renderer)
         self.picture.advance(self._view, chosen, options, perf_counter(), False, {})
@@ -140,12 +160,12 @@ class Viewport:
     @property
     def is_complete(self) -> bool:
         """All that the scene needs is there, and a picture at full resolution has begun."""
-        return self.picture is not None and not self.picture.is_coarse and not self.picture.renderer.is_loading
+        return self.picture is not None and not self.picture.is_coarse and not self.picture.progress
 
     @property
     def can_improve(self) -> bool:
         """Hierarchies are being built better, which changes no picture."""
-        return self.picture is None or self.picture.renderer.can_improve
+        return self.picture is None or self.picture.renderer.hierarchies.can_improve
 
 
 def measure(viewport: Viewport, clock: Clock, most_told: int) -> None:
@@ -164,14 +184,14 @@ def measure(viewport: Viewport, clock: Clock, most_told: int) -> None:
             longest = max(longest, (end - start, number, told))
             if number < most_told or end - start > 0.1:
                 print(f"{number:4} at {end - begun:6.2f} s {1e3 * (end - start):7.1f} ms: {told}")
-            if first_pixels is None and viewport.picture is not None:
+            if first_pixels is None and viewport.has_pixels:
                 first_pixels = end - begun
             if complete is None and viewport.is_complete:
                 complete = end - begun
             if complete is not None and not viewport.can_improve:
                 break
-            if viewport.picture is not None and viewport.picture.is_coarse:
-                sleep(SETTLED_SECONDS if not viewport.picture.renderer.is_loading else 0.0)
+            if viewport.picture is not None and viewport.picture.is_coarse and not viewport.picture.progress:
+                sleep(SETTLED_SECONDS)
     whole = "never" if complete is None else f"{complete:.2f} s"
     print(f"first mirror pixels after {first_pixels:.2f} s, all there after {whole}, ", end="")
     print(f"at rest after {clock.now() - begun:.2f} s and {number + 1} redraws")

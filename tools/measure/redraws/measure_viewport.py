@@ -85,8 +85,8 @@ class Session:
         """Redraw until nothing is left to do: what the first redraws of a session do is not what an orbit does."""
         self.redraw(angle, settings)
         assert self.renderer is not None
-        while self.renderer.is_loading or self.renderer.can_improve:
-            self.renderer.improve()
+        while self.renderer.is_loading or self.renderer.hierarchies.can_improve:
+            self.renderer.hierarchies.improve()
             self.redraw(angle, settings)
 
 
@@ -115,7 +115,13 @@ def mesh_of(vertices: int) -> bpy.types.Mesh:
     first = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
     quads = np.column_stack([first, first + 1, first + side + 1, first + side])
     mesh = bpy.data.meshes.new("grid")
-    mesh.from_pydata(places.tolist(), [], quads.tolist())
+    mesh.vertices.add(len(places))
+    mesh.vertices.foreach_set("co", places.ravel().astype(np.float32))
+    mesh.loops.add(quads.size)
+    mesh.loops.foreach_set("vertex_index", quads.ravel().astype(np.int32))
+    mesh.polygons.add(len(quads))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, quads.size, 4, dtype=np.int32))
+    mesh.update(calc_edges=True)
     mesh.shade_smooth()
     return mesh
 
