@@ -63,7 +63,7 @@ def test_the_picture_stays_and_fewer_boxes_are_looked_at() -> None:
     assert not renderer.rays().escapes.are_known
     renderer.settle()
     after, few = drawn(renderer)
-    assert renderer.rays().escapes.are_known and not renderer.can_improve
+    assert renderer.rays().escapes.are_known and not renderer.hierarchies.can_improve
     assert np.array_equal(before, after)
     assert few < 0.9 * many
     for change_of in (moved, deformed):
