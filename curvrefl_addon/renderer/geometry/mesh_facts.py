@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable
 from functools import cached_property
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...scene.arrays import Float32Array, MeshArrays
 from .convexity import is_convex
 from .mesh_inside import is_closed
-from .mesh_pieces import MeshPieces, box_of, mesh_pieces, pieces_of_box
+from .mesh_pieces import MeshPieces, box_of, mesh_pieces, piece_steps, pieces_of_box
 from .solid import solid_side
 from .split import longest_edge
 from .split_normals import sharpest_bend, sharpest_split
@@ -64,6 +64,12 @@ class MeshFacts:
         """See `solid.solid_side`."""
         return solid_side(self.mesh)
 
+    def piece_steps(self) -> Generator[None, None, MeshPieces]:
+        """`pieces`, found in steps."""
+        if self.loose is None and "pieces" not in self.__dict__:
+            self.__dict__["pieces"] = yield from piece_steps(self.mesh)
+        return self.pieces
+
     @cached_property
     def pieces(self) -> MeshPieces:
         """Planes on its hull and outlines, for shadow maps."""
@@ -81,10 +87,6 @@ class MeshFactsCache:
         if facts is None:
             facts = self._facts[id(mesh)] = MeshFacts(mesh)
         return facts
-
-    def knows(self, mesh: MeshArrays) -> bool:
-        """Whether it has been asked for."""
-        return id(mesh) in self._facts
 
     def deform(self, before: MeshArrays, mesh: MeshArrays) -> MeshFacts:
         """Know a mesh as another one with its vertices elsewhere (`is_deformed`)."""

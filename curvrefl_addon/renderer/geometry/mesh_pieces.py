@@ -8,12 +8,14 @@ mesh, in object space, and a scene only has to test those of its meshes.
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...pacing.pieces import outcome
 from ...scene.arrays import Float64Array, Int32Array, MeshArrays
 
 MOST_PLANES = 12
@@ -72,6 +74,11 @@ def pieces_of_box(
 
 def mesh_pieces(mesh: MeshArrays) -> MeshPieces:
     """Find the planes and outlines of a mesh."""
+    return outcome(piece_steps(mesh))
+
+
+def piece_steps(mesh: MeshArrays) -> Generator[None, None, MeshPieces]:
+    """The same in steps."""
     positions = mesh.positions
     triangles = mesh.triangles if is_count(mesh.corner_vertex) else mesh.corner_vertex[mesh.triangles]
     if len(triangles) == 0:
@@ -82,6 +89,7 @@ def mesh_pieces(mesh: MeshArrays) -> MeshPieces:
         found = _box_sides(positions, triangles, size)
     else:
         found = _hull_planes(positions.astype(np.float64), triangles, size)
+    yield
     piece = np.zeros(len(triangles), np.int8)
     for number, (_, _, members) in enumerate(found, 1):
         piece[members] = number
@@ -92,6 +100,7 @@ def mesh_pieces(mesh: MeshArrays) -> MeshPieces:
             used = np.zeros(len(positions), bool)
             used[triangles[piece == number].ravel()] = True
             points = positions[used]
+            yield
         outlines.append(outline(points))
     normals = np.array([normal for normal, _, _ in found], np.float64).reshape(-1, 3)
     return MeshPieces(piece, normals, np.array([area for _, area, _ in found], np.float64), tuple(outlines))

@@ -114,9 +114,8 @@ class SceneGeometry:
             if same is not None:
                 known[index] = Placed(instance, mesh, same.drawn, same.pieces, number)
             else:
-                if not self.facts.knows(mesh):
-                    yield
-                known[index] = Placed(instance, mesh, mesh, self.facts.of(mesh).pieces.triangle_piece, number)
+                pieces = yield from self.facts.of(mesh).piece_steps()
+                known[index] = Placed(instance, mesh, mesh, pieces.triangle_piece, number)
         placed = [item for item in known if item is not None]
         if not difference.structure and not dirty:
             return self._follow_moved(placed, difference)
