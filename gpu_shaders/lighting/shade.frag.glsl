@@ -93,8 +93,12 @@ void main()
   vec3 radiance = shade_under_mirror(shown, -direction);
 #else
 #ifdef QUADS
-  world_is_shared =
-    quad_is_one_surface(shown.position, shown.normal, vec3(position.w, normal.w, seen_mirror + 0.25 * base.w));
+  float shown_by = seen_mirror;
+#ifdef WHOLE_PATHS
+  // Pixels beside may show it by way of another mirror.
+  shown_by += 0.25 * base.w;
+#endif
+  world_is_shared = quad_is_one_surface(shown.position, shown.normal, vec3(position.w, normal.w, shown_by));
 #endif
   vec3 radiance = shade_surface(shown, -direction);
 #ifdef GATHER_SHARED

@@ -30,6 +30,9 @@ def require_gpu() -> None:
     import bpy
 
     if not bpy.app.background:
+        # (Blender asks for them itself. What has them and gets them wrong goes another way: `device/ways`.)
+        if not gpu.capabilities.compute_shader_support_get():
+            raise GpuUnavailableError("the graphics driver has no compute shaders: update it")
         return
     reason = _why_no_headless_gpu()
     if not reason:

@@ -18,6 +18,8 @@ RAY_SHADOWS, WORLD_RAYS = "RAY_SHADOWS", "WORLD_RAYS"
 """Beside the features of lighting: lamps' shadows by rays, and the world's"""
 FILM_TRANSPARENT = "FILM_TRANSPARENT"
 """Of the background: lamps alone are seen there, and they cover nothing"""
+WHOLE_PATHS = "WHOLE_PATHS"
+"""Of what mirrors show: rays have gone on from mirror to mirror, which the number of the surface's color tells"""
 NO_QUADS = "NO_QUADS"
 """Beside the features of lighting: each pixel looks up all directions of the sky, as the device has no `quads`"""
 LAMPS = frozenset({"LIGHTING_SUN", "LIGHTING_POINT", "LIGHTING_SPOT", "LIGHTING_AREA"})

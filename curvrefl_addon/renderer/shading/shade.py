@@ -30,7 +30,7 @@ from ..surfaces.materials import Materials
 from ..surfaces.pixel_classes import CLASS_COUNT, PixelClass, PixelClasses
 from ..surfaces.surface_buffer import SurfaceBuffer
 from ..surfaces.windows import Window
-from .features import FILM_TRANSPARENT, LAMPS, RayShadows, features_for, rays_of
+from .features import FILM_TRANSPARENT, LAMPS, WHOLE_PATHS, RayShadows, features_for, rays_of
 from .lookup import Environment
 from .shade_shaders import (
     PATH,
@@ -232,8 +232,7 @@ class ShadePass:
             shader = shade_shader(PixelClass.MIRROR, self._lighting.features, NONE)
             self._draw(shader, PixelClass.MIRROR, seen, view_uniforms, weight)
         if isinstance(reflected, SurfaceBuffer):
-            others = (PixelClass.MIRROR_OF_MIRROR,) if tells_mirrors else ()
-            for kind in (PixelClass.MIRROR_OF_SURFACE, *others):
+            for kind in (PixelClass.MIRROR_OF_SURFACE, *([PixelClass.MIRROR_OF_MIRROR] if tells_mirrors else [])):
                 features = features_for(self._lighting, shadows, ends=self.mirror_bounces == 0, gathered=gathered)
                 is_shared = shared is not None and kind is PixelClass.MIRROR_OF_SURFACE
                 if kind is PixelClass.MIRROR_OF_MIRROR and most_hits > 1:
@@ -246,6 +245,7 @@ class ShadePass:
                     for name, texture in zip(WHOLE_PATH, (reflected.before, reflected.throughput), strict=True):
                         shader.uniform_sampler(name, texture)
                 else:
+                    features |= {WHOLE_PATHS} if most_hits > 1 else frozenset()
                     shader = shade_shader(kind, features, self._materials.buffers, True, is_shared)
                     shader.bind()
                 textures = (reflected.position, reflected.normal, reflected.color)
