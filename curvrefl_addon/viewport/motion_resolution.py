@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many pixels are drawn while something moves: as many as the time that a picture takes leaves room for.
 
-Pure Python. `FOLLOWS` of `Scene.curvrefl.motion_resolution` asks for this; `FIXED` has the others.
+Pure Python. All choices of `Scene.curvrefl.motion_resolution` ask for this but those in `FIXED`.
 """
 
 from __future__ import annotations
 
 FIXED = {"FULL": 1, "HALF": 2, "QUARTER": 4}
 """What width and height are divided by"""
-FOLLOWS = "AUTO"
 STEPS = (1, 2, 3, 4, 6, 8)
 """Divisors to choose from"""
 FIRST = 2

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from window import InWindow, Session, run_session
 from window_blender import NoWindowBlenderError, WindowBlender, find_or_make
 
 
@@ -30,3 +32,13 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     import build_extension
 
     return build_extension.build(tmp_path_factory.mktemp("zip"))
+
+
+@pytest.fixture(scope="session")
+def in_window(window_blender: WindowBlender, archive: Path) -> InWindow:
+    """Runs a script of a session, which gets the zip before the other arguments."""
+
+    def run(script: Path, folder: Path, *arguments: str | Path, **chosen: Any) -> Session:
+        return run_session(window_blender, script, folder, archive, *arguments, **chosen)
+
+    return run

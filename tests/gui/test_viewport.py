@@ -8,24 +8,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "artist_session.py"
 
 
 @pytest.fixture(scope="module", params=["opengl", "vulkan"])
-def session(
-    request: pytest.FixtureRequest,
-    tmp_path_factory: pytest.TempPathFactory,
-    window_blender: WindowBlender,
-    archive: Path,
-) -> Session:
+def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     from curvrefl.curvrefl_addon.demo.scene import build_demo
 
     folder = tmp_path_factory.mktemp(request.param)
     build_demo(folder / "demo.blend")
-    found = run_session(window_blender, SCRIPT, folder, archive, folder / "demo.blend", folder, backend=request.param)
+    found = in_window(SCRIPT, folder, folder / "demo.blend", folder, backend=request.param)
     assert "Traceback" not in found.printed, found.printed[-3000:]
     return found
 

@@ -8,25 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "views_session.py"
 
 
 @pytest.fixture(scope="module", params=["opengl", "vulkan"])
-def session(
-    request: pytest.FixtureRequest,
-    tmp_path_factory: pytest.TempPathFactory,
-    window_blender: WindowBlender,
-    archive: Path,
-) -> Session:
+def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     from small_scene import saved
 
     folder = tmp_path_factory.mktemp(f"views_{request.param}")
-    return run_session(
-        window_blender, SCRIPT, folder, archive, saved(folder), folder, backend=request.param, size=(640, 480)
-    )
+    return in_window(SCRIPT, folder, saved(folder), folder, backend=request.param, size=(640, 480))
 
 
 def test_session_comes_to_its_end(session: Session) -> None:

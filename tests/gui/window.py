@@ -32,6 +32,10 @@ class Session:
     """By Blender and Python together"""
 
 
+type InWindow = Callable[..., Session]
+"""`run_session` of the Blender and the extension's zip that tests have: `in_window(script, folder, *more, ..)`"""
+
+
 def run_session(
     blender: WindowBlender,
     script: Path,

@@ -10,23 +10,11 @@ import numpy as np
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, RadialSurface, unit
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
+from curvrefl.curvrefl_addon.scene.meshes.made import smooth_mesh
 from scenes.views import lines_of_sight
 
 MIRROR = 1
 """object_id of the mirror ball: radius 1 about the origin"""
-
-
-def mesh(name: str, positions: np.ndarray, normals: np.ndarray, triangles: np.ndarray) -> MeshArrays:
-    """A smooth mesh whose corners are its vertices."""
-    return MeshArrays(
-        name,
-        positions.astype(np.float32),
-        np.arange(len(positions), dtype=np.int32),
-        normals.astype(np.float32),
-        None,
-        triangles.astype(np.int32),
-        np.zeros(len(triangles), np.int32),
-    )
 
 
 def radial_mesh(surface: RadialSurface, segments: int = 128) -> MeshArrays:
@@ -42,7 +30,7 @@ def radial_mesh(surface: RadialSurface, segments: int = 128) -> MeshArrays:
     lower = np.column_stack([a, a + segments, b + segments])
     upper = np.column_stack([a, b + segments, b])
     triangles = np.concatenate([lower[:-segments], upper[segments:]])
-    return mesh("radial", radius[:, None] * u, unit(radius[:, None] * u - gradient), triangles)
+    return smooth_mesh("radial", radius[:, None] * u, unit(radius[:, None] * u - gradient), triangles)
 
 
 @dataclass
@@ -80,7 +68,9 @@ class Room:
         c, x, y = np.array(center, float), np.array(half_x, float), np.array(half_y, float)
         corners = np.array([c - x - y, c + x - y, c + x + y, c - x + y])
         normals = np.tile(unit(np.cross(x, y)), (4, 1))
-        number = self._add(mesh("rectangle", corners, normals, np.array([[0, 1, 2], [0, 2, 3]])), np.eye(4), 0, **flags)
+        number = self._add(
+            smooth_mesh("rectangle", corners, normals, np.array([[0, 1, 2], [0, 2, 3]])), np.eye(4), 0, **flags
+        )
         if flags.get("visible_glossy", True):
             self.rectangles.append((number, c, x, y))
         return number

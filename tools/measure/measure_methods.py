@@ -36,6 +36,7 @@ bootstrap.load_package()
 
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.measured.hall import THINGS, hall, view_of_mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import IN_THE_OPEN, PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
@@ -46,7 +47,7 @@ from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuff
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.vertices.reflected import draw_reflected  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays  # noqa: E402
-from curvrefl.curvrefl_addon.study.benchmark.scenes import THINGS, deformed, hall, moved, view_of_mirror  # noqa: E402
+from curvrefl.curvrefl_addon.study.benchmark.scenes import deformed, moved  # noqa: E402
 from footprints.method import Footprints  # noqa: E402
 
 SIZE = (640, 480)

@@ -34,6 +34,7 @@ from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays  # noqa: E402
+from curvrefl.curvrefl_addon.scene.meshes.made import smooth_mesh  # noqa: E402
 from curvrefl.curvrefl_addon.study.solvers.solver_table import solver_table, study_view  # noqa: E402
 from curvrefl.curvrefl_addon.study.solvers.vertex_accuracy import VertexTruth  # noqa: E402
 
@@ -100,7 +101,7 @@ def ball(
     next_low = (np.arange(rows)[:, None] * columns + (np.arange(columns) + 1) % columns).ravel()
     lower = np.column_stack([low, next_low, next_low + columns])[columns:]
     upper = np.column_stack([low, next_low + columns, low + columns])[:-columns]
-    return _mesh(np.asarray(center) + size * at.position, at.normal, np.concatenate([lower, upper]))
+    return smooth_mesh("mesh", np.asarray(center) + size * at.position, at.normal, np.concatenate([lower, upper]))
 
 
 def block(center: tuple[float, ...], halves: tuple[float, ...], cells: int) -> MeshArrays:
@@ -120,7 +121,7 @@ def block(center: tuple[float, ...], halves: tuple[float, ...], cells: int) -> M
         triangles.append(quads + len(x) * len(positions))
         positions.append(np.asarray(center) + points * np.asarray(halves))
         normals.append(np.tile(sign * np.eye(3)[axis], (len(x), 1)))
-    return _mesh(np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles))
+    return smooth_mesh("mesh", np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles))
 
 
 def floor(height: float, half: float, cells: int) -> MeshArrays:
@@ -131,19 +132,7 @@ def floor(height: float, half: float, cells: int) -> MeshArrays:
         [np.column_stack([low, low + 1, low + cells + 2]), np.column_stack([low, low + cells + 2, low + cells + 1])]
     )
     positions = np.column_stack([x, y, np.full(len(x), height)])
-    return _mesh(positions, np.tile([0.0, 0.0, 1.0], (len(x), 1)), quads)
-
-
-def _mesh(positions: np.ndarray, normals: np.ndarray, triangles: np.ndarray) -> MeshArrays:
-    return MeshArrays(
-        "mesh",
-        positions.astype(np.float32),
-        np.arange(len(positions), dtype=np.int32),
-        normals.astype(np.float32),
-        None,
-        triangles.astype(np.int32),
-        np.zeros(len(triangles), np.int32),
-    )
+    return smooth_mesh("mesh", positions, np.tile([0.0, 0.0, 1.0], (len(x), 1)), quads)
 
 
 def kitchen() -> Animation:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress
-from operator import is_not
+from operator import attrgetter, is_not
 
 import numpy as np
 
@@ -154,19 +154,11 @@ def things_elsewhere(before: Numbered, after: Numbered) -> Elsewhere | None:
     )
 
 
-def _all_but_place(instance: InstanceArrays) -> tuple[object, ...]:
-    """What its records and batches are made of beside its matrix."""
-    return (
-        instance.object_id,
-        instance.mesh,
-        instance.materials,
-        instance.visible_camera,
-        instance.visible_glossy,
-        instance.visible_shadow,
-        instance.visible_transmission,
-        instance.holdout,
-        instance.shadow_set,
-    )
+_FOR_BATCHES = ("materials", "visible_camera", "visible_glossy", "visible_shadow", "holdout", "shadow_set")
+_for_batches = attrgetter(*_FOR_BATCHES)
+"""What an instance's batches are made of beside its mesh"""
+_all_but_place = attrgetter("object_id", "mesh", "visible_transmission", *_FOR_BATCHES)
+"""And its records, beside its matrix"""
 
 
 def placed_elsewhere(
@@ -206,16 +198,8 @@ def matched(placed: Sequence[Placed], instances: Sequence[InstanceArrays]) -> li
 
 
 def differs_in_place_only(known: Placed, instance: InstanceArrays, number: int) -> bool:
-    old = known.instance
-    return (
-        bool(known.mirror) == bool(number)
-        and old.materials == instance.materials
-        and old.visible_camera == instance.visible_camera
-        and old.visible_glossy == instance.visible_glossy
-        and old.visible_shadow == instance.visible_shadow
-        and old.holdout == instance.holdout
-        and old.shadow_set == instance.shadow_set
-    )
+    is_same = _for_batches(known.instance) == _for_batches(instance)
+    return is_same and bool(known.mirror) == bool(number)
 
 
 def differs_in_vertices_only(known: Placed, instance: InstanceArrays, mesh: MeshArrays, number: int) -> bool:

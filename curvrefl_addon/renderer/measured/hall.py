@@ -14,7 +14,6 @@ import numpy as np
 
 from ...optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface, unit
 from ...scene.arrays import (
-    Float32Array,
     Float64Array,
     InstanceArrays,
     Int32Array,
@@ -23,7 +22,9 @@ from ...scene.arrays import (
     SceneArrays,
     WorldArrays,
 )
+from ...scene.camera.looking import look_at
 from ...scene.camera.view import View
+from ...scene.meshes.made import quad_mesh, smooth_mesh
 
 THINGS = 24
 """Objects around the mirror"""
@@ -32,8 +33,6 @@ NEAREST, FARTHEST = 1.4, 6.0
 MIRROR_BANDS = 48
 GRAY, CHROME = 0, 1
 EYE = (0.0, -6.0, 2.0)
-ANGLE = 0.7
-"""Horizontal field of view in which the mirror is FULL pixels of 640 wide, radians"""
 
 
 def hall(triangles: int, things: int = THINGS, as_one: bool = False, seed: int = 0) -> SceneArrays:
@@ -67,19 +66,9 @@ def view_of_mirror(width: int, height: int, mirror_pixels: float, turn: float = 
     """The mirror in the middle, about so many pixels wide; `turn`: the eye goes around it so far, radians."""
     eye = np.array(EYE)
     turned = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]]) @ eye
-    forward = -unit(turned)
-    right = unit(np.cross(forward, [0.0, 0.0, 1.0]))
-    world_to_view = np.eye(4)
-    world_to_view[:3, :3] = [right, np.cross(right, forward), -forward]
-    world_to_view[:3, 3] = -world_to_view[:3, :3] @ turned
     # The half width of the mirror at the eye's distance takes half of `mirror_pixels` of half of `width`.
     slope = (1.0 / np.linalg.norm(eye)) * width / mirror_pixels
-    near, far = 0.05, 100.0
-    clip = np.zeros((4, 4))
-    clip[0, 0], clip[1, 1] = 1.0 / slope, width / height / slope
-    clip[2, 2], clip[2, 3] = -(far + near) / (far - near), -2.0 * far * near / (far - near)
-    clip[3, 2] = -1.0
-    return View(world_to_view, clip, width, height)
+    return look_at(turned, np.zeros(3), width, height, 2.0 * np.arctan(slope))
 
 
 def radial_mesh(surface: RadialSurface, rows: int, columns: int) -> MeshArrays:
@@ -89,7 +78,8 @@ def radial_mesh(surface: RadialSurface, rows: int, columns: int) -> MeshArrays:
     u = np.stack(np.broadcast_arrays(np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)), -1)
     u = u.reshape(-1, 3)
     radius, gradient = surface.radius(u)
-    return _mesh(radius[:, None] * u, radius[:, None] * u - gradient, _lattice(rows + 1, columns, wrap_rows=False))
+    normals = unit(radius[:, None] * u - gradient)
+    return smooth_mesh("mesh", radius[:, None] * u, normals, _lattice(rows + 1, columns, wrap_rows=False))
 
 
 def bumpy_mesh(rows: int, seed: int) -> MeshArrays:
@@ -102,7 +92,7 @@ def torus_mesh(ring: float, tube: float, rows: int, columns: int) -> MeshArrays:
     a, b = np.meshgrid(np.arange(rows) * 2.0 * np.pi / rows, np.arange(columns) * 2.0 * np.pi / columns, indexing="ij")
     normals = np.stack([np.cos(a) * np.cos(b), np.cos(a) * np.sin(b), np.sin(a)], -1).reshape(-1, 3)
     centers = ring * np.stack([np.cos(b), np.sin(b), np.zeros_like(b)], -1).reshape(-1, 3)
-    return _mesh(centers + tube * normals, normals, _lattice(rows, columns, wrap_rows=True))
+    return smooth_mesh("mesh", centers + tube * normals, unit(normals), _lattice(rows, columns, wrap_rows=True))
 
 
 def joined(meshes: Sequence[MeshArrays], matrices: Sequence[Float64Array]) -> MeshArrays:
@@ -111,7 +101,7 @@ def joined(meshes: Sequence[MeshArrays], matrices: Sequence[Float64Array]) -> Me
     places = [m.positions @ a[:3, :3].T + a[:3, 3] for m, a in zip(meshes, matrices, strict=True)]
     normals = [m.corner_normals @ a[:3, :3].T for m, a in zip(meshes, matrices, strict=True)]
     triangles = [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=False)]
-    return _mesh(np.concatenate(places), np.concatenate(normals), np.concatenate(triangles))
+    return smooth_mesh("mesh", np.concatenate(places), unit(np.concatenate(normals)), np.concatenate(triangles))
 
 
 def placed(rng: np.random.Generator) -> Float64Array:
@@ -130,27 +120,7 @@ def placed(rng: np.random.Generator) -> Float64Array:
 def _floor() -> MeshArrays:
     corners = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]) * 9.0
     corners[:, 2] = -1.0
-    return quad_mesh(corners, (0.0, 0.0, 1.0))
-
-
-def quad_mesh(corners: Float64Array, normal: Sequence[float]) -> MeshArrays:
-    """Two triangles: `corners` (4, 3) counter-clockwise as seen from where the unit `normal` points."""
-    return _mesh(corners, np.tile(np.asarray(normal, np.float64), (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
-
-
-def _mesh(
-    positions: Float64Array | Float32Array, normals: Float64Array | Float32Array, triangles: Int32Array
-) -> MeshArrays:
-    """A mesh whose corners are its vertices."""
-    return MeshArrays(
-        name="mesh",
-        positions=np.ascontiguousarray(positions, np.float32),
-        corner_vertex=np.arange(len(positions), dtype=np.int32),
-        corner_normals=unit(np.asarray(normals, np.float64)).astype(np.float32),
-        corner_uv=None,
-        triangles=np.ascontiguousarray(triangles, np.int32),
-        triangle_slot=np.zeros(len(triangles), np.int32),
-    )
+    return quad_mesh("mesh", corners, (0.0, 0.0, 1.0))
 
 
 def _lattice(rows: int, columns: int, wrap_rows: bool) -> Int32Array:

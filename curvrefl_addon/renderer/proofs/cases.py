@@ -9,26 +9,19 @@ import numpy as np
 from ...optics.surfaces.cube_map import texel_directions
 from ...optics.surfaces.radial_surfaces import RadialSurface, unit
 from ...scene.arrays import Float32Array, Float64Array, MeshArrays
+from ...scene.camera.looking import look_at
 from ...scene.camera.view import View
+from ...scene.meshes.made import quad_mesh, smooth_mesh
 
 EYE = np.array([2.3, -2.9, 1.8])
 ANGLE = np.radians(40.0)
-NEAR, FAR = 0.05, 100.0
+NAME = "of a proof"
+"""Of meshes"""
 
 
 def view_of_origin(eye: Float64Array, width: int, height: int) -> View:
     """From an eye (3,) to the origin, z up."""
-    forward = unit(-eye)
-    right = unit(np.cross(forward, [0.0, 0.0, 1.0]))
-    to_view = np.eye(4)
-    to_view[:3, :3] = right, np.cross(right, forward), -forward
-    to_view[:3, 3] = -to_view[:3, :3] @ eye
-    to_clip = np.zeros((4, 4))
-    to_clip[0, 0] = 1.0 / np.tan(0.5 * ANGLE)
-    to_clip[1, 1] = to_clip[0, 0] * width / height
-    to_clip[2, 2:] = -(FAR + NEAR) / (FAR - NEAR), -2.0 * FAR * NEAR / (FAR - NEAR)
-    to_clip[3, 2] = -1.0
-    return View(to_view, to_clip, width, height)
+    return look_at(eye, np.zeros(3), width, height, ANGLE)
 
 
 def lines_of_sight(view: View) -> Float64Array:
@@ -80,22 +73,11 @@ def ball(rings: int) -> MeshArrays:
     a = (np.arange(rings)[:, None] * segments + np.arange(segments)).ravel()
     b = (np.arange(rings)[:, None] * segments + (np.arange(segments) + 1) % segments).ravel()
     lower, upper = np.column_stack([a, a + segments, b + segments]), np.column_stack([a, b + segments, b])
-    return _mesh(points.reshape(-1, 3), points.reshape(-1, 3), np.concatenate([lower[:-segments], upper[segments:]]))
+    triangles = np.concatenate([lower[:-segments], upper[segments:]])
+    return smooth_mesh(NAME, points.reshape(-1, 3), points.reshape(-1, 3), triangles)
 
 
 def square(half: float, height: float) -> MeshArrays:
     """A square across z, seen from above."""
     corners = np.array([[-half, -half, height], [half, -half, height], [half, half, height], [-half, half, height]])
-    return _mesh(corners, np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]]))
-
-
-def _mesh(positions: Float64Array, normals: Float64Array, triangles: np.ndarray) -> MeshArrays:
-    return MeshArrays(
-        "of a proof",
-        positions.astype(np.float32),
-        np.arange(len(positions), dtype=np.int32),
-        normals.astype(np.float32),
-        None,
-        triangles.astype(np.int32),
-        np.zeros(len(triangles), np.int32),
-    )
+    return quad_mesh(NAME, corners, (0.0, 0.0, 1.0))

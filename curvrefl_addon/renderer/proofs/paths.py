@@ -10,17 +10,14 @@ import numpy as np
 
 from ...optics.scattering.scatter import scatter
 from ...scene.arrays import Float64Array, MaterialArrays, SceneArrays, WorldArrays
-from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, flags, named
-from ..device.state import drawing_state, set_viewport
-from ..device.textures import empty_texture, read_texture, texture_2d
+from ..device.textures import texture_2d
 from ..lighting.ggx import GGX_DEFINES, ggx_table
 from ..paths.features import COAT, GLASS, ROUGH
 from ..surfaces.materials import TABLE, Materials
 from .cases import as_stored, directions
-from .proof import Found, Work
+from .proof import Found, Work, drawn_square
 
 SIDE = 24
 """Paths are a square of so many"""
@@ -67,15 +64,7 @@ def _decided(viewers: Float64Array, number: np.ndarray, chances: Float64Array) -
     textures = {name: texture_2d(array.reshape(SIDE, SIDE, 4)) for name, array in inputs.items()}
     textures["materials"] = Materials(SceneArrays((), (), MATERIALS, (), (), WorldArrays())).table
     textures["lighting_ggx"] = texture_2d(ggx_table(), linear=True)
-    targets = [empty_texture(SIDE, SIDE) for _ in range(2)]
-    shader = _shader()
-    with drawing_state(), frame_buffer(*targets).bind():
-        set_viewport(0, 0, SIDE, SIDE)
-        shader.bind()
-        for name, texture in textures.items():
-            shader.uniform_sampler(name, texture)
-        full_screen_triangle().draw(shader)
-    return [read_texture(target).reshape(-1, 4).astype(np.float64) for target in targets]
+    return [found.reshape(-1, 4) for found in drawn_square(_shader(), SIDE, textures, 2)]
 
 
 @gpu_cache

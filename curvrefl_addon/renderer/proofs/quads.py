@@ -8,14 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader
-from ..device.state import drawing_state, set_viewport
-from ..device.textures import empty_texture, read_texture, texture_2d
+from ..device.textures import texture_2d
 from ..device.ways.features import features
-from .proof import Found, Work
+from .proof import Found, Work, drawn_square
 
 SIZE = 16
 MOST_OFF = 1e-4
@@ -31,16 +28,8 @@ def prove_quads() -> Work:
     # One object to the left, another one to the right, which begins within a quad.
     objects = np.where(x < SIZE // 2 + 1, 1.0, 2.0)
     numbers = np.stack([values, objects, 0.1 * x, 0.1 * y], axis=-1)
-    target = empty_texture(SIZE, SIZE)
-    texture = texture_2d(numbers.astype(np.float32))
-    shader = _shader()
-    with drawing_state(), frame_buffer(target).bind():
-        set_viewport(0, 0, SIZE, SIZE)
-        shader.bind()
-        shader.uniform_sampler("numbers", texture)
-        full_screen_triangle().draw(shader)
+    (found,) = drawn_square(_shader(), SIZE, {"numbers": texture_2d(numbers.astype(np.float32))}, 1)
     yield
-    found = read_texture(target)
     sums = values.reshape(SIZE // 2, 2, SIZE // 2, 2).sum(axis=(1, 3)).repeat(2, axis=0).repeat(2, axis=1)
     joined = (x // 2 != SIZE // 4).astype(np.float64)
     off = max(

@@ -12,18 +12,15 @@ import numpy as np
 from ...optics.surfaces.mesh_rays import MeshRays
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, InstanceArrays, MaterialArrays, MeshArrays, SceneArrays, WorldArrays
-from ..device.batches import full_screen_triangle
 from ..device.context import gpu_cache
-from ..device.frame_buffers import frame_buffer
 from ..device.shaders import FULL_SCREEN, Piece, build_shader, named
-from ..device.state import drawing_state, set_viewport
-from ..device.textures import empty_texture, read_texture, texture_2d
+from ..device.textures import texture_2d
 from ..geometry.mesh_facts import MeshFactsCache
 from ..geometry.vertex_uploads import VertexUploads
 from ..rays.ray_scene import RAYS, RayScene
 from ..surfaces.materials import TABLE, Materials
 from .cases import as_stored, ball, directions, square
-from .proof import Found, Work
+from .proof import Found, Work, drawn_square
 
 SIDE = 24
 """Rays are a square of so many"""
@@ -128,17 +125,8 @@ def _walked(rays: RayScene, materials: Materials, origins: Float64Array, ways: F
     textures = [
         texture_2d(np.dstack([array.reshape(SIDE, SIDE, 3), np.ones((SIDE, SIDE))])) for array in (origins, ways)
     ]
-    targets = [empty_texture(SIDE, SIDE) for _ in range(2)]
-    shader = _shader()
-    with drawing_state(), frame_buffer(*targets).bind():
-        set_viewport(0, 0, SIDE, SIDE)
-        shader.bind()
-        rays.bind(shader)
-        shader.uniform_sampler("materials", materials.table)
-        for name, texture in zip(("ray_origins", "ray_directions"), textures, strict=True):
-            shader.uniform_sampler(name, texture)
-        full_screen_triangle().draw(shader)
-    return [read_texture(target).reshape(-1, 4).astype(np.float64) for target in targets]
+    samplers = {"ray_origins": textures[0], "ray_directions": textures[1], "materials": materials.table}
+    return [found.reshape(-1, 4) for found in drawn_square(_shader(), SIDE, samplers, 2, rays.bind)]
 
 
 @gpu_cache

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...renderer.device.textures import read_texture
+from ...renderer.measured.hall import hall, view_of_mirror
 from ...renderer.rays.paths import IN_THE_OPEN, PathBuffer
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
@@ -20,7 +21,6 @@ from ...renderer.surfaces.primary import draw_primary
 from ...renderer.surfaces.surface_buffer import SurfaceBuffer
 from ...renderer.surfaces.view_block import view_block
 from .gpu_timing import empty_wait, time_on_gpu
-from .scenes import hall, view_of_mirror
 from .solves import MIRROR_PIXELS, SIZE
 
 REPEATS, SECONDS = 20, 2.0

@@ -9,10 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...renderer.measured.hall import CHROME, GRAY, THINGS, hall, placed, quad_mesh, radial_mesh, view_of_mirror
+from ...renderer.measured.hall import GRAY, hall, placed
 from ...scene.arrays import InstanceArrays, SceneArrays
-
-__all__ = ["CHROME", "THINGS", "crowd", "deformed", "hall", "moved", "quad_mesh", "radial_mesh", "view_of_mirror"]
 
 
 def crowd(instances: int, seed: int = 0) -> SceneArrays:

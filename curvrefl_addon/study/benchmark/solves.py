@@ -14,6 +14,7 @@ from ...optics.surfaces.radial_surfaces import Bumpy
 from ...renderer.device.context import most_texels
 from ...renderer.device.records import TEXTURE_WIDTH
 from ...renderer.geometry.chunk import Chunk, Placed
+from ...renderer.measured.hall import hall, radial_mesh, view_of_mirror
 from ...renderer.renderer import Renderer
 from ...renderer.settings import Settings
 from ...renderer.surfaces.materials import Materials
@@ -27,7 +28,6 @@ from ...renderer.vertices.solve import PreparedSolve, prepare_solve
 from ...report.repeats import timing_columns
 from ...scene.arrays import InstanceArrays
 from .gpu_timing import empty_wait, time_on_gpu
-from .scenes import hall, radial_mesh, view_of_mirror
 
 METHODS_MEASURED = ("newton", "secant_star")
 STATES = ("cold", "warm", "still")

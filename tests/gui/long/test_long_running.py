@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "long_session.py"
 SECONDS = float(os.environ.get("CURVREFL_LONG_SECONDS", "600"))
@@ -28,26 +27,14 @@ GROWTH = 0.04
 
 
 @pytest.fixture(scope="module", params=BACKENDS)
-def session(
-    request: pytest.FixtureRequest,
-    tmp_path_factory: pytest.TempPathFactory,
-    window_blender: WindowBlender,
-    archive: Path,
-) -> Session:
+def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     from small_scene import saved
 
     folder = tmp_path_factory.mktemp(f"long-{request.param}")
     blend = saved(folder)
     other = blend.with_name("other.blend")
     shutil.copyfile(blend, other)
-    return run_session(
-        window_blender,
-        SCRIPT,
-        folder,
-        *(archive, blend, other, folder, str(SECONDS)),
-        backend=request.param,
-        size=WINDOW,
-    )
+    return in_window(SCRIPT, folder, blend, other, folder, str(SECONDS), backend=request.param, size=WINDOW)
 
 
 def rounds_of(session: Session) -> list[dict[str, Any]]:

@@ -7,16 +7,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "looks_session.py"
 
 
 @pytest.fixture(scope="module")
-def session(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> Session:
+def session(tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     folder = tmp_path_factory.mktemp("looks")
-    return run_session(window_blender, SCRIPT, folder, archive, folder, flags=("--enable-event-simulate",))
+    return in_window(SCRIPT, folder, folder, flags=("--enable-event-simulate",))
 
 
 def test_escape_leaves_nothing(session: Session) -> None:

@@ -10,22 +10,16 @@ import pytest
 from curvrefl.curvrefl_addon.renderer.costs.table import SHIPPED, Costs
 from curvrefl.curvrefl_addon.renderer.proofs.table import PROOFS
 from small_scene import saved
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "measured_session.py"
 
 
 @pytest.fixture(scope="module", params=["opengl", "vulkan"])
-def session(
-    request: pytest.FixtureRequest,
-    tmp_path_factory: pytest.TempPathFactory,
-    window_blender: WindowBlender,
-    archive: Path,
-) -> Session:
+def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     folder = tmp_path_factory.mktemp(request.param)
     small = saved(folder, lambda _ball: None)
-    found = run_session(window_blender, SCRIPT, folder, archive, small, folder, backend=request.param)
+    found = in_window(SCRIPT, folder, small, folder, backend=request.param)
     assert not found.seen["error"], found.seen["error"]
     assert "Traceback" not in found.printed, found.printed[-3000:]
     return found

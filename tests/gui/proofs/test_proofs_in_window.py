@@ -7,21 +7,15 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from window import Session, run_session
-from window_blender import WindowBlender
+from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "proofs_session.py"
 
 
 @pytest.fixture(scope="module", params=["opengl", "vulkan"])
-def session(
-    request: pytest.FixtureRequest,
-    tmp_path_factory: pytest.TempPathFactory,
-    window_blender: WindowBlender,
-    archive: Path,
-) -> Session:
+def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, in_window: InWindow) -> Session:
     folder = tmp_path_factory.mktemp("proofs")
-    return run_session(window_blender, SCRIPT, folder, archive, folder, backend=request.param)
+    return in_window(SCRIPT, folder, folder, backend=request.param)
 
 
 def test_all_ways_are_right(session: Session) -> None:

@@ -15,7 +15,7 @@ from curvrefl.curvrefl_addon.renderer.geometry.mesh_pieces import (
     pieces_of_box,
 )
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
-from scenes.mirror_room import mesh
+from curvrefl.curvrefl_addon.scene.meshes.made import smooth_mesh
 
 hypothesis = pytest.importorskip("hypothesis")
 from hypothesis import given, strategies  # noqa: E402
@@ -28,7 +28,7 @@ FLOOR_TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def pieces_of(positions: np.ndarray, triangles: np.ndarray) -> MeshPieces:
-    return mesh_pieces(mesh("mesh", positions, np.zeros_like(positions), triangles))
+    return mesh_pieces(smooth_mesh("mesh", positions, np.zeros_like(positions), triangles))
 
 
 def grid(side: int, height: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:

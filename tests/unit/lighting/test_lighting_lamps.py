@@ -13,7 +13,7 @@ from curvrefl.curvrefl_addon.renderer.lighting.lamp_views import plan_lamps
 from curvrefl.curvrefl_addon.renderer.lighting.lamps import lamp_points, lamp_records
 from curvrefl.curvrefl_addon.renderer.lighting.shadow_views import SceneExtent
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays, MeshArrays
-from scenes.mirror_room import mesh
+from curvrefl.curvrefl_addon.scene.meshes.made import smooth_mesh
 
 
 def lamp(kind: str, **more: object) -> LightArrays:
@@ -89,7 +89,7 @@ def extent_of(positions: np.ndarray, triangles: np.ndarray) -> SceneExtent:
 
 
 def mesh_of(positions: np.ndarray, triangles: np.ndarray) -> MeshArrays:
-    return mesh("mesh", positions, np.zeros_like(positions), triangles)
+    return smooth_mesh("mesh", positions, np.zeros_like(positions), triangles)
 
 
 def test_floor_does_not_widen_the_map_of_a_sun_above_or_below() -> None:

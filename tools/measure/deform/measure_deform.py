@@ -44,6 +44,7 @@ from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.shading.shade import ShadePass  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.looking import look_at  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
@@ -104,19 +105,8 @@ def build(triangles: int, normals: str, has_sun: bool) -> bpy.types.Object:
 
 def view() -> View:
     """From 4 m away: the ball fills most of the picture."""
-    place = np.array([0.0, -4.0, 1.2])
-    back = place / np.linalg.norm(place)
-    right = np.cross([0.0, 0.0, 1.0], back)
-    right /= np.linalg.norm(right)
-    world_to_view = np.eye(4)
-    world_to_view[:3, :3] = [right, np.cross(back, right), back]
-    world_to_view[:3, 3] = -world_to_view[:3, :3] @ place
-    near, far = 0.1, 1000.0
-    projection = np.zeros((4, 4))
-    projection[0, 0], projection[1, 1] = 2.0 * HEIGHT / WIDTH, 2.0
-    projection[2, 2:] = -(far + near) / (far - near), -2.0 * far * near / (far - near)
-    projection[3, 2] = -1.0
-    return View(world_to_view, projection, WIDTH, HEIGHT)
+    angle = 2.0 * np.arctan(0.5 * WIDTH / HEIGHT)
+    return look_at(np.array([0.0, -4.0, 1.2]), np.zeros(3), WIDTH, HEIGHT, angle, near=0.1, far=1000.0)
 
 
 class Stopwatch:

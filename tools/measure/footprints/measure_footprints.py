@@ -27,6 +27,7 @@ bootstrap.load_package()
 import numpy as np  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.context import require_gpu  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture  # noqa: E402
+from curvrefl.curvrefl_addon.renderer.measured.hall import hall, view_of_mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.mirrors.mirror import Mirror  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.rays.paths import IN_THE_OPEN, PathBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
@@ -35,7 +36,6 @@ from curvrefl.curvrefl_addon.renderer.surfaces.materials import Materials  # noq
 from curvrefl.curvrefl_addon.renderer.surfaces.primary import draw_primary  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block  # noqa: E402
-from curvrefl.curvrefl_addon.study.benchmark.scenes import hall, view_of_mirror  # noqa: E402
 from footprints.method import Footprints, Margins  # noqa: E402
 
 

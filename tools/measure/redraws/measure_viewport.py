@@ -35,12 +35,15 @@ from curvrefl.curvrefl_addon.renderer.reflection import Reflection  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.settings import Settings  # noqa: E402
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas  # noqa: E402
+from curvrefl.curvrefl_addon.scene.camera.looking import look_at  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from curvrefl.curvrefl_addon.scene.changes import Changes  # noqa: E402
 from curvrefl.curvrefl_addon.scene.extract import SceneReader  # noqa: E402
 from curvrefl.curvrefl_addon.viewport.region import LOADING_SECONDS  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 800
+ANGLE = 2.0 * np.arctan(0.5 * WIDTH / HEIGHT)
+"""Field of view across, radians: half as high as it is far away"""
 
 
 class Session:
@@ -93,18 +96,7 @@ class Session:
 def orbit(angle: float) -> View:
     """From 6 m away, at the origin."""
     place = 6.0 * np.array([np.cos(angle), np.sin(angle), 0.5])
-    back = place / np.linalg.norm(place)
-    right = np.cross([0.0, 0.0, 1.0], back)
-    right /= np.linalg.norm(right)
-    world_to_view = np.eye(4)
-    world_to_view[:3, :3] = [right, np.cross(back, right), back]
-    world_to_view[:3, 3] = -world_to_view[:3, :3] @ place
-    near, far = 0.1, 1000.0
-    projection = np.zeros((4, 4))
-    projection[0, 0], projection[1, 1] = 2.0 * HEIGHT / WIDTH, 2.0
-    projection[2, 2:] = -(far + near) / (far - near), -2.0 * far * near / (far - near)
-    projection[3, 2] = -1.0
-    return View(world_to_view, projection, WIDTH // 2, HEIGHT // 2)
+    return look_at(place, np.zeros(3), WIDTH // 2, HEIGHT // 2, ANGLE, near=0.1, far=1000.0)
 
 
 def mesh_of(vertices: int) -> bpy.types.Mesh:

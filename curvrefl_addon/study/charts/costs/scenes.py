@@ -24,11 +24,12 @@ from ....demo.data_blocks import (
 )
 from ....demo.shapes import ball, plane
 from ....optics.surfaces.radial_surfaces import Ellipsoid
+from ....renderer.measured.hall import CHROME, hall, radial_mesh, view_of_mirror
 from ....report.direct_light import in_direct_light
 from ....scene.arrays import Float64Array, InstanceArrays, LightArrays, SceneArrays
 from ....scene.camera.view import View
+from ....scene.meshes.made import quad_mesh
 from ....scene.opened.render_depsgraph import read_render_scene
-from ...benchmark.scenes import CHROME, hall, quad_mesh, radial_mesh, view_of_mirror
 
 TRIANGLES = 50_000
 """Where their number is not what is varied"""
@@ -117,7 +118,7 @@ def of_bounces(_count: int, size: Size) -> tuple[SceneArrays, View]:
         along = np.subtract(end, start) / np.linalg.norm(np.subtract(end, start))
         ring = [(*start, -1.0), (*end, -1.0), (*end, ROOM_HEIGHT), (*start, ROOM_HEIGHT)]
         walls.append(InstanceArrays(f"wall {number}", first + number, len(meshes), np.eye(4), (CHROME,)))
-        meshes.append(quad_mesh(np.array(ring), (along[1], -along[0], 0.0)))
+        meshes.append(quad_mesh("wall", np.array(ring), (along[1], -along[0], 0.0)))
     scene = replace(
         scene,
         meshes=tuple(meshes),
