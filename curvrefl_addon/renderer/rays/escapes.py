@@ -35,10 +35,8 @@ class Escapes:
 
     def __init__(self, facts: MeshFactsCache) -> None:
         self._facts = facts
-        self._placed: list[tuple[int, MeshArrays, Float64Array]] = []
-        """Numbers, meshes and matrices of all"""
         self._mirrors: list[tuple[int, MeshArrays, Float64Array]] = []
-        """And of those that may have cones"""
+        """Numbers, meshes and matrices of those that may have cones"""
         self._most = 0
         """The greatest number of a mirror"""
         self._found: dict[int, tuple[MeshArrays, EscapeCones]] = {}
@@ -62,11 +60,6 @@ class Escapes:
     def place(self, numbers: Sequence[int], meshes: Sequence[MeshArrays], instances: Sequence[InstanceArrays]) -> None:
         """Know the instances of a scene, their meshes and the numbers of mirrors among them (0: none)."""
         mirrors = [(number, meshes[k], instances[k].matrix) for k, number in enumerate(numbers) if number]
-        as_before = [(number, id(mesh), id(matrix)) for number, mesh, matrix in mirrors]
-        if as_before == [(number, id(mesh), id(matrix)) for number, mesh, matrix in self._placed]:
-            # (As in each redraw while something else moves.)
-            return
-        self._placed = mirrors
         self._most = max(numbers, default=0)
         self._mirrors = [mirror for mirror in mirrors if self._may_have_cones(*mirror[1:])]
         present = {id(mesh) for _, mesh, _ in self._mirrors}

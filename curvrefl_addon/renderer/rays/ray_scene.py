@@ -178,6 +178,8 @@ class RayScene:
         elif places:
             self._fill(places)
             self._store_top(is_same=True)
+            if any(self._mirrors[place] for place in places):
+                self.escapes.place(self._mirrors, self._mesh_of, self._instances)
 
     def _deform(self, pairs: list[tuple[MeshArrays, MeshArrays]]) -> bool:
         """Fit the trees of meshes, as they were and as they are; returns whether any had to be built anew."""
@@ -300,6 +302,7 @@ class RayScene:
         self._records[:, 5, 3] = list(self._place_of)
         self._fill(list(range(count)))
         self._store_top(is_same)
+        self.escapes.place(self._mirrors, self._mesh_of, self._instances)
 
     def _fill(self, places: list[int]) -> None:
         """Boxes and records of some instances."""
@@ -331,4 +334,3 @@ class RayScene:
         start = self._top_region[0]
         start_of_instances = start + len(self._top_nodes)
         self._top_places = (start, start_of_instances, start_of_instances + len(instances), 0)
-        self.escapes.place(self._mirrors, self._mesh_of, self._instances)
