@@ -30,6 +30,7 @@ from ..renderer.proofs.proving import Proving, prove_all
 from ..renderer.proofs.report import summary, versions
 from ..renderer.proofs.table import FIRST, OTHERS
 from ..renderer.proofs.verdict import Verdict, known_verdict, take_verdict
+from .state import forget_scenes
 
 FILE = "devices.json"
 MOST_UNREST = 1.25
@@ -233,13 +234,7 @@ def _prove(proofs: Sequence[Proof]) -> Iterator[None]:
 def _take(verdict: Verdict) -> None:
     """Use it. What was drawn and solved by a way that is left is let go, once this redraw is through."""
     if take_verdict(verdict) and not bpy.app.background:
-        bpy.app.timers.register(_let_go)
-
-
-def _let_go() -> None:
-    from . import handlers
-
-    handlers.forget_scenes()
+        bpy.app.timers.register(forget_scenes)
 
 
 def _proven(verdict: Verdict) -> None:

@@ -32,7 +32,7 @@ from . import device_run
 from .opening import SLICE_SECONDS
 from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
 from .shown_scene import ViewportScene, look_of
-from .state import State
+from .state import forget_scenes, free_scene, redraw_all, state
 
 IDLE_SECONDS = 0.02
 """Between the sub-frames of a view that rests"""
@@ -41,26 +41,23 @@ ASKED_SECONDS = 5.0
 SHOWN_IN = {"SOLID", "MATERIAL", "RENDERED"}
 
 
-_state = State()
-
-
 def switch(on: bool) -> None:
     """Start or stop drawing. Starting clears an earlier failure."""
     _stop()
     if on:
-        _state.failure = ""
+        state.failure = ""
         _add_handlers()
     redraw_all()
 
 
 def messages() -> list[str]:
     """What the user should know, one sentence each."""
-    found = [*([_state.failure] if _state.failure else []), *device_run.messages()]
-    for scene in _state.scenes.values():
+    found = [*([state.failure] if state.failure else []), *device_run.messages()]
+    for scene in state.scenes.values():
         found += scene.messages
         for renderer in scene.renderers.values():
             found += renderer.warnings
-    for picture in _state.pictures.values():
+    for picture in state.pictures.values():
         found += picture.warnings
     return list(dict.fromkeys(found))
 
@@ -68,7 +65,7 @@ def messages() -> list[str]:
 def material_remarks() -> dict[str, list[str]]:
     """Causes of remarks (`scene/remarks.py`) by the name of the material that they concern."""
     found: dict[str, list[str]] = {}
-    for scene in _state.scenes.values():
+    for scene in state.scenes.values():
         for remark in scene.material_remarks:
             causes = found.setdefault(remark.name, [])
             if remark.cause not in causes:
@@ -78,15 +75,15 @@ def material_remarks() -> dict[str, list[str]]:
 
 def counters() -> dict[str, int]:
     """How often what was read, made and drawn since the extension was enabled: what tests of laziness count."""
-    total = Counter(_state.counters)
-    for scene in _state.scenes.values():
+    total = Counter(state.counters)
+    for scene in state.scenes.values():
         total.update(scene.counters)
     return dict(total)
 
 
 def pictures() -> Mapping[int, RegionPicture]:
     """What is drawn now, by the region's pointer; the one drawn last comes last. To look at only."""
-    return MappingProxyType(_state.pictures)
+    return MappingProxyType(state.pictures)
 
 
 def statistics() -> list[tuple[str, str]]:
@@ -94,8 +91,8 @@ def statistics() -> list[tuple[str, str]]:
 
     Times are taken while somebody asks for them: that costs a wait for the GPU.
     """
-    _state.asked_at = monotonic()
-    for picture in reversed(_state.pictures.values()):
+    state.asked_at = monotonic()
+    for picture in reversed(state.pictures.values()):
         if rows := picture.statistics():
             return rows
     return [("Nothing solved yet", "")]
@@ -103,19 +100,19 @@ def statistics() -> list[tuple[str, str]]:
 
 def reason() -> str:
     """Why `auto` has chosen as it has in the view drawn last, one sentence, or nothing."""
-    return next((picture.reason for picture in reversed(_state.pictures.values())), "")
+    return next((picture.reason for picture in reversed(state.pictures.values())), "")
 
 
 def progress() -> str:
     """What is still being made for pictures, in a few words for the panel; nothing once all is there."""
-    found = [scene.progress for scene in _state.scenes.values()]
-    found += [picture.progress for picture in _state.pictures.values()]
+    found = [scene.progress for scene in state.scenes.values()]
+    found += [picture.progress for picture in state.pictures.values()]
     return next(filter(None, found), "")
 
 
 def bake_state(mirror: bpy.types.Object) -> list[tuple[str, str]]:
     """Rows for the panel on an object's map; empty where there is none yet."""
-    for scene in _state.scenes.values():
+    for scene in state.scenes.values():
         for renderer in scene.renderers.values():
             for known in renderer.mirrors:
                 for shape in reversed(known.baked):
@@ -131,15 +128,8 @@ def settings_changed() -> None:
 
 def mirrors_changed() -> None:
     """Objects were marked as mirrors, or no longer, or show another material as such."""
-    for scene in _state.scenes.values():
+    for scene in state.scenes.values():
         scene.mirrors_changed()
-    redraw_all()
-
-
-def forget_scenes() -> None:
-    """Read all scenes as if they had never been seen."""
-    for key in list(_state.scenes):
-        _free(key)
     redraw_all()
 
 
@@ -149,26 +139,13 @@ def unregister() -> None:
         if manager.curvrefl_enabled:
             manager.curvrefl_enabled = False
     _stop()
-    _state.failure = ""
-    _state.counters.clear()
-
-
-def redraw_all() -> None:
-    """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
-    there: set[int] = set()
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
-                    there.update(region.as_pointer() for region in area.regions)
-    for gone in set(_state.pictures) - there:
-        del _state.pictures[gone]
+    state.failure = ""
+    state.counters.clear()
 
 
 def _add_handlers() -> None:
     space = bpy.types.SpaceView3D
-    _state.handlers = [
+    state.handlers = [
         space.draw_handler_add(_guarded(_capture), (), "WINDOW", "PRE_VIEW"),
         space.draw_handler_add(_guarded(_draw), (), "WINDOW", "POST_VIEW"),
         space.draw_handler_add(_guarded(_draw_legend), (), "WINDOW", "POST_PIXEL"),
@@ -178,9 +155,9 @@ def _add_handlers() -> None:
 
 
 def _stop() -> None:
-    for handler in _state.handlers:
+    for handler in state.handlers:
         bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
-    _state.handlers = []
+    state.handlers = []
     for handlers, function in _app_handlers():
         if function in handlers:
             handlers.remove(function)
@@ -188,18 +165,10 @@ def _stop() -> None:
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
     device_run.cancel()
-    _state.pictures.clear()
-    _state.frame_buffers.clear()
-    for key in list(_state.scenes):
-        _free(key)
-
-
-def _free(key: tuple[int, str]) -> None:
-    scene = _state.scenes.pop(key)
-    _state.counters.update(scene.counters)
-    for region in [region for region, picture in _state.pictures.items() if picture.scene is scene]:
-        del _state.pictures[region]
-    scene.free()
+    state.pictures.clear()
+    state.frame_buffers.clear()
+    for key in list(state.scenes):
+        free_scene(key)
 
 
 def _app_handlers() -> list[tuple[list[Any], Callable[..., None]]]:
@@ -217,7 +186,7 @@ def _app_handlers() -> list[tuple[list[Any], Callable[..., None]]]:
 def _scene_changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = None) -> None:
     if depsgraph is None or depsgraph.mode != "VIEWPORT" or depsgraph.view_layer is None:
         return
-    known = _state.scenes.get((scene.session_uid, depsgraph.view_layer.name))
+    known = state.scenes.get((scene.session_uid, depsgraph.view_layer.name))
     if known is not None:
         known.note(depsgraph.updates, scene.frame_current)
 
@@ -242,13 +211,13 @@ def _guarded(function: Callable[[bpy.types.Context], None]) -> Callable[[], None
     """A handler that never raises: a failure ends the drawing and is reported once."""
 
     def handler() -> None:
-        if _state.failure:
+        if state.failure:
             return
         try:
             function(bpy.context)
         except Exception as error:
             traceback.print_exc()
-            _state.failure = f"Drawing stopped: {_reason(error)}. Put that right and switch it on again."
+            state.failure = f"Drawing stopped: {_reason(error)}. Put that right and switch it on again."
             # A handler cannot be removed while it runs, and a property not be set while drawing.
             bpy.app.timers.register(_switch_off, first_interval=0.0)
 
@@ -265,39 +234,39 @@ def _reason(error: Exception) -> str:
 
 
 def _switch_off() -> None:
-    kept = _state.failure
+    kept = state.failure
     _stop()
     for manager in bpy.data.window_managers:
         if manager.curvrefl_enabled:
             manager.curvrefl_enabled = False
-    _state.failure = kept
+    state.failure = kept
     redraw_all()
 
 
 def _capture(context: bpy.types.Context) -> None:
-    _state.frame_buffers[context.region.as_pointer()] = active_frame_buffer()
+    state.frame_buffers[context.region.as_pointer()] = active_frame_buffer()
 
 
 def _draw(context: bpy.types.Context) -> None:
     # The frame buffer is this redraw's own: never kept beyond it.
     region = context.region.as_pointer()
-    frame_buffer = _state.frame_buffers.pop(region, None)
+    frame_buffer = state.frame_buffers.pop(region, None)
     space = context.space_data
     if not isinstance(space, bpy.types.SpaceView3D) or space.shading.type not in SHOWN_IN:
         return
     scene, layer = context.scene, context.view_layer
     assert scene is not None and layer is not None
     key = (scene.session_uid, layer.name)
-    shown = _state.scenes.get(key)
+    shown = state.scenes.get(key)
     if shown is None:
-        shown = _state.scenes[key] = ViewportScene()
+        shown = state.scenes[key] = ViewportScene()
     chosen = scene.curvrefl
     options = current_options()
     device_run.begin_session(options.measures_devices)
     memory, images = options.memory_cap << 20, options.image_memory << 20
     view, look = view_of(context), look_of(space, chosen)
     renderer = shown.renderer_soon(context, look, settings_of(chosen), memory, images, view, SLICE_SECONDS)
-    picture = _state.pictures.pop(region, None)
+    picture = state.pictures.pop(region, None)
     pixels = viewport()
     if renderer is None:
         if shown.sketch is not None:
@@ -306,10 +275,10 @@ def _draw(context: bpy.types.Context) -> None:
         return
     if picture is None or picture.renderer is not renderer:
         picture = RegionPicture(shown, renderer)
-    _state.pictures[region] = picture
+    state.pictures[region] = picture
     now = monotonic()
-    is_timed = now - _state.asked_at < ASKED_SECONDS
-    picture.advance(view, chosen, options, now, is_timed, _state.counters)
+    is_timed = now - state.asked_at < ASKED_SECONDS
+    picture.advance(view, chosen, options, now, is_timed, state.counters)
     # Diagnostic colors must come out as they are in their legend: not through the view transform.
     if chosen.show in MODES or frame_buffer is None:
         frame_buffer = active_frame_buffer()
@@ -320,7 +289,7 @@ def _draw(context: bpy.types.Context) -> None:
 
 def _draw_legend(context: bpy.types.Context) -> None:
     """What the colors of a diagnostic view mean."""
-    scene, picture = context.scene, _state.pictures.get(context.region.as_pointer())
+    scene, picture = context.scene, state.pictures.get(context.region.as_pointer())
     if scene is None or picture is None:
         return
     diagnostic = diagnostic_of(scene.curvrefl, current_options())

@@ -1,12 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the draw handlers hold."""
+"""What the draw handlers hold, and how it is let go."""
 
 from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
+
+import bpy
 
 from .region import RegionPicture
 from .shown_scene import ViewportScene
@@ -28,3 +30,35 @@ class State:
     """When the statistics were last asked for, on a monotonic clock"""
     counters: Counter[str] = field(default_factory=Counter)
     """Of scenes that are gone, and of pictures"""
+
+
+state = State()
+
+
+def free_scene(key: tuple[int, str]) -> None:
+    """Let go of a scene and of the pictures of it; its counters stay."""
+    scene = state.scenes.pop(key)
+    state.counters.update(scene.counters)
+    for region in [region for region, picture in state.pictures.items() if picture.scene is scene]:
+        del state.pictures[region]
+    scene.free()
+
+
+def forget_scenes() -> None:
+    """Read all scenes as if they had never been seen."""
+    for key in list(state.scenes):
+        free_scene(key)
+    redraw_all()
+
+
+def redraw_all() -> None:
+    """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
+    there: set[int] = set()
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+                    there.update(region.as_pointer() for region in area.regions)
+    for gone in set(state.pictures) - there:
+        del state.pictures[gone]

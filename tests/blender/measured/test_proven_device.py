@@ -17,7 +17,7 @@ from curvrefl.curvrefl_addon.renderer.costs.table import SHIPPED, Costs
 from curvrefl.curvrefl_addon.renderer.device.ways.features import Features, features
 from curvrefl.curvrefl_addon.renderer.proofs.proof import Found, Proof, Work
 from curvrefl.curvrefl_addon.renderer.proofs.verdict import known_verdict
-from curvrefl.curvrefl_addon.viewport import device_run, handlers
+from curvrefl.curvrefl_addon.viewport import device_run
 
 pytestmark = pytest.mark.usefixtures("gpu")
 FACTS = {"vendor": "Maker", "renderer": "Card", "version": "driver 1", "backend": "OPENGL"}
@@ -154,7 +154,7 @@ def test_what_was_drawn_by_a_wrong_way_is_let_go(driver: Driver, monkeypatch: py
     forgotten: list[bool] = []
     app = SimpleNamespace(background=False, timers=SimpleNamespace(register=timers.append))
     monkeypatch.setattr(device_run, "bpy", SimpleNamespace(app=app, utils=bpy.utils))
-    monkeypatch.setattr(handlers, "forget_scenes", lambda: forgotten.append(True))
+    monkeypatch.setattr(device_run, "forget_scenes", lambda: forgotten.append(True))
     use()
     assert len(timers) == 1 and not forgotten
     timers[0]()

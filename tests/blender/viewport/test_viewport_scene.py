@@ -191,7 +191,7 @@ def test_the_legend_names_the_methods_of_the_picture(
     region = SimpleNamespace(as_pointer=lambda: 1)
     drawn: list[Legend] = []
     monkeypatch.setattr(handlers, "draw_legend", lambda legend, _context: drawn.append(legend))
-    monkeypatch.setattr(handlers._state, "pictures", {1: picture})
+    monkeypatch.setattr(handlers.state, "pictures", {1: picture})
     handlers._draw_legend(SimpleNamespace(scene=bpy.context.scene, region=region))  # type: ignore[arg-type]
     assert picture._canvas is not None and picture._reflection is not None
     shown = read_texture(picture._canvas.texture)
