@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-from .diagnostic_colors import DiagnosticColors
+from .diagnostics.colors import DiagnosticColors
 from .scene.arrays import MaterialArrays
 from .scene.opened.blend_file import SURFACE_TYPES, objects_of
 from .setting import value_of

@@ -38,6 +38,21 @@ DIAGNOSTIC_CHOICES = (
         "ZEBRA", "Zebra Stripes", "Black and white bands around an axis, infinitely far away, to inspect the surface"
     ),
     Choice("LINES", "Line Lights", "Long thin lamps along an axis, infinitely far away, to inspect the surface"),
+    Choice("ISOPHOTES", "Isophotes", "Bands of equal angle between the surface's normal and a direction"),
+    Choice("HIGHLIGHTS", "Highlight Lines", "Where the surface's normal points at lamps along an axis, far away"),
+    Choice("CURVATURE", "Curvature", "How much the surface bends, as colors"),
+)
+LOCK_CHOICES = (
+    Choice("WORLD", "World", "The pattern stays where it is in the world"),
+    Choice("OBJECT", "Object", "The pattern turns with each mirror, whose own axes the direction is in"),
+    Choice("VIEW", "View", "The pattern turns with the view: X is right, Y is up, Z is towards the eye"),
+)
+CURVATURE_CHOICES = (
+    Choice("GAUSSIAN", "Gaussian", "Product of the principal curvatures: above 0 on domes and bowls, below on saddles"),
+    Choice("MEAN", "Mean", "Half of the principal curvatures' sum: above 0 where the surface bends outwards"),
+    Choice("STRONGEST", "Absolute Maximum", "The larger absolute value of the principal curvatures"),
+    Choice("LARGEST", "Largest", "The larger principal curvature"),
+    Choice("SMALLEST", "Smallest", "The smaller principal curvature"),
 )
 FRESNEL_CHOICES = (
     Choice("METAL", "Metal", "Reflects the tint face on, and white at grazing angles"),

@@ -3,7 +3,8 @@
 """Every setting, once: its name, defaults, ranges and text, and where a user meets it.
 
 The renderer's settings, Blender's properties, the preferences, the command line's arguments and docs/settings.md are
-made from the four classes below. A new setting is one more field of one of them, and what uses it.
+made from the classes below and that of `diagnostics.settings`. A new setting is one more field of one of them, and what
+uses it.
 
 Light to import: the extension is enabled, and the command line refuses bad usage, without Blender and the renderer.
 """
@@ -13,9 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+from .diagnostics.settings import DiagnosticSettings
 from .optics.catalog import Method, entry_of
-from .setting import Choice, Flag, setting, settings_in
-from .settings_choices import DIAGNOSTIC_CHOICES, ENVIRONMENT_CHOICES, FRESNEL_CHOICES, METHOD_CHOICES, MOTION_CHOICES
+from .setting import Flag, setting, settings_in
+from .settings_choices import ENVIRONMENT_CHOICES, FRESNEL_CHOICES, METHOD_CHOICES, MOTION_CHOICES
 
 STILL_SAMPLES = 16
 """Sub-frames of a saved picture where nothing is chosen"""
@@ -217,23 +219,6 @@ class SceneSettings:
         unit="radians",
         panel="Environment",
     )
-    show: str = setting(
-        "REFLECTION",
-        label="Show",
-        text="What is drawn on the mirrors",
-        choices=(Choice("REFLECTION", "Reflection", "What the mirrors reflect"), *DIAGNOSTIC_CHOICES),
-        panel="Diagnostic View",
-    )
-    stripe_count: int = setting(
-        12, label="Count", text="Number of stripes or line lights", hard=(1, 256), panel="Diagnostic View"
-    )
-    stripe_direction: tuple[float, float, float] = setting(
-        (0.0, 0.0, 1.0),
-        label="Direction",
-        text="Axis that the stripes lie around and the line lights run along",
-        unit="direction",
-        panel="Diagnostic View",
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -338,7 +323,9 @@ class OwnPreferences:
 
 RENDERER = settings_in(Settings)
 """Fields of `Settings`"""
-OF_SCENES = tuple(item for item in (*RENDERER, *settings_in(SceneSettings)) if item.panel)
+OF_SCENES = tuple(
+    item for item in (*RENDERER, *settings_in(SceneSettings), *settings_in(DiagnosticSettings)) if item.panel
+)
 """Properties of `Scene.curvrefl`"""
 OF_OBJECTS = settings_in(ObjectSettings)
 """Properties of `Object.curvrefl`"""

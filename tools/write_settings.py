@@ -84,6 +84,8 @@ def _default(item: Setting) -> str:
         return "none"
     if isinstance(item.start, bool):
         return "on" if item.start else "off"
+    if item.unit == "radians":
+        return f"{degrees(item.start):g}°"
     if isinstance(item.start, tuple):
         return ", ".join(f"{number:g}" for number in item.start)
     own = f"; `Settings()`: {item.default}" if item.start != item.default else ""

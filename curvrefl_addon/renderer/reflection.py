@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..diagnostic_colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
+from ..diagnostics.colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.arrays import Float64Array
 from ..scene.camera.view import View
 from .choice import Choice
@@ -27,7 +27,7 @@ class Diagnostic:
     """A view that shows how the picture comes about in place of the picture."""
 
     mode: str
-    """A name of `diagnostic_colors.MODES`"""
+    """A name of `diagnostics.colors.MODES`"""
     options: DiagnosticOptions = field(default_factory=DiagnosticOptions)
     colors: DiagnosticColors = field(default_factory=DiagnosticColors)
 

@@ -19,7 +19,7 @@ from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
 from .appearance import LIGHT_SECONDS, Appearance
 from .device.context import require_gpu
-from .diagnostic_light import add_diagnostic
+from .diagnostic_light import DiagnosticLight
 from .environments.cube import EnvironmentCube
 from .exposure import expose, through_lens
 from .frame import Frame, read_surfaces
@@ -35,7 +35,6 @@ from .rays.rays_on_demand import RaysOnDemand
 from .reflection import Diagnostic, Reflection
 from .seen import draw_seen
 from .settings import Settings, check_settings
-from .shading.diagnostics import DiagnosticPass
 from .shown.rays import ShownRays, trace_seen_through
 from .shown.shown import Light, Stage, chosen_mirrors
 from .shown.targets import target_pool
@@ -88,7 +87,7 @@ class Renderer:
         self._targets = target_pool()
         self._preparation = Preparation()
         self.hierarchies = RaysOnDemand(self.geometry.facts, self.geometry.uploads)
-        self._diagnostics: DiagnosticPass | None = None
+        self.diagnostics = DiagnosticLight()
         self.is_gradual = is_gradual
         self._view_uniforms: Any = None
         self._jitter = offsets(self.settings.samples)
@@ -144,7 +143,7 @@ class Renderer:
         self._targets = target_pool()
         self._preparation = Preparation()
         self.hierarchies.free()
-        self._diagnostics = None
+        self.diagnostics = DiagnosticLight()
 
     def _following_scene(self, scene: SceneArrays, anew: bool = False) -> Generator[None, None, Difference]:
         """Mirrors and geometry, in steps."""
@@ -277,9 +276,7 @@ class Renderer:
         sub_frame = draw_seen(self._stage, self._targets, jittered, self.settings, window, everywhere, index)
         groups = reflection.groups
         if diagnostic is not None:
-            if self._diagnostics is None or self._diagnostics.colors != diagnostic.colors:
-                self._diagnostics = DiagnosticPass(diagnostic.colors)
-            add_diagnostic(self._diagnostics, canvas, reflection, sub_frame, weight, diagnostic)
+            self.diagnostics.add(canvas, reflection, sub_frame, weight, diagnostic)
             return
         self._appearance.lighting.prepare(index, sub_frame.sky_is_gathered)
         film = self.settings.film_transparent

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from ..diagnostic_colors import SOLVED_MODES
+from ..diagnostics.colors import LAMP_MODES, PATTERN_MODES
 from ..options import marked_mirrors, newer_settings
 from ..scene.opened.blend_file import SURFACE_TYPES
 from ..scene.remarks import Remark, sentences
@@ -205,9 +205,20 @@ class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
 def draw_show(layout: Any, settings: Any) -> None:
     """The diagnostic views and what they can be set to."""
     layout.prop(settings, "show")
-    if settings.show not in SOLVED_MODES and settings.show != "REFLECTION":
+    show = settings.show
+    if show in PATTERN_MODES:
         layout.prop(settings, "stripe_count")
+        if show in LAMP_MODES:
+            layout.prop(settings, "stripe_width")
         layout.prop(settings, "stripe_direction")
+        layout.prop(settings, "stripe_lock")
+        layout.prop(settings, "stripe_softness")
+    elif show == "CURVATURE":
+        layout.prop(settings, "curvature_kind")
+        layout.prop(settings, "curvature_range")
+        layout.prop(settings, "curvature_directions")
+    if show in PATTERN_MODES or show == "CURVATURE":
+        layout.prop(settings, "pattern_transparency")
 
 
 def _draw_list(layout: Any, mirrors: list[bpy.types.Object], context: bpy.types.Context) -> None:

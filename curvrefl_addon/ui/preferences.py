@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 from bpy.props import FloatVectorProperty
 
-from ..diagnostic_colors import DiagnosticColors
+from ..diagnostics.colors import DiagnosticColors
 from ..options import PACKAGE
 from ..settings_table import OF_NEW_SCENES, OF_PREFERENCES
 from .messages import draw_message, draw_rows

@@ -23,14 +23,14 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from ..diagnostic_colors import MODES, legend_of
+from ..diagnostics.colors import MODES
 from ..options import current_options, settings_of
 from ..renderer.device.frame_buffers import active_frame_buffer
 from ..renderer.device.state import viewport
 from ..renderer.shading.diagnostic_legend import draw_legend
 from . import device_run
 from .opening import SLICE_SECONDS
-from .region import SETTLED_SECONDS, RegionPicture, diagnostic_of, view_of
+from .region import SETTLED_SECONDS, RegionPicture, view_of
 from .shown_scene import ViewportScene, look_of
 from .state import forget_scenes, free_scene, redraw_all, state
 
@@ -289,13 +289,8 @@ def _draw(context: bpy.types.Context) -> None:
 
 def _draw_legend(context: bpy.types.Context) -> None:
     """What the colors of a diagnostic view mean."""
-    scene, picture = context.scene, state.pictures.get(context.region.as_pointer())
-    if scene is None or picture is None:
-        return
-    diagnostic = diagnostic_of(scene.curvrefl, current_options())
-    if diagnostic is None:
-        return
-    legend = legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, picture.methods)
+    picture = state.pictures.get(context.region.as_pointer())
+    legend = None if picture is None else picture.legend()
     if legend is not None:
         draw_legend(legend, context)
 

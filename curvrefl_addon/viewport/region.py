@@ -6,14 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import replace
+from math import degrees
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
-from ..diagnostic_colors import MODES, DiagnosticOptions
+from ..diagnostics.colors import MODES, DiagnosticOptions, Legend, legend_of
 from ..optics.catalog import label_of
+from ..pacing.pieces import OutOfTime, paced
 from ..renderer.appearance import MATERIALS
 from ..renderer.choice import RAYS
 from ..renderer.device.textures import read_texture
@@ -24,6 +26,8 @@ from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
 from ..scene.camera.lens import Lens, lens_of
 from ..scene.camera.view import View
+from ..setting import value_of
+from ..settings_table import NAMED
 from .composite import composite
 from .motion_resolution import FIXED, MotionResolution
 from .opening import SLICE_SECONDS
@@ -62,6 +66,8 @@ class RegionPicture:
         self._changed_at = 0.0
         self._rows: list[tuple[str, str]] = []
         self._solve_ms = self._draw_ms = 0.0
+        self._measuring = ""
+        """What is measured next of the mirrors' shape, for a diagnostic view"""
         self._rehearsal: Rehearsal | None = None
         """Of the next picture, while this one is shown"""
         self._rehearsed: dict[bool, Hashable] = {}
@@ -70,6 +76,8 @@ class RegionPicture:
     @property
     def progress(self) -> str:
         """What the next pictures wait for, in a few words; nothing once all is there."""
+        if self._measuring:
+            return self._measuring
         return self.renderer.loading if self._rehearsal is None else self._rehearsal.left
 
     @property
@@ -117,6 +125,8 @@ class RegionPicture:
             divisor = FIXED.get(settings.motion_resolution, self._motion.divisor)
         elif state == self._state and self.is_coarse and now - self._changed_at >= SETTLED_SECONDS:
             divisor, at_rest = 1, True
+        if not self._is_measured(diagnostic, view):
+            return
         if is_another or diagnostic is not None:
             self._rehearsal = None
         elif divisor and not self._is_rehearsed(view, at_rest):
@@ -162,6 +172,30 @@ class RegionPicture:
         self._rehearsal = None
         self._rehearsed[at_rest] = wanted
         return True
+
+    def _is_measured(self, diagnostic: Diagnostic | None, view: View) -> bool:
+        """Whether all that a diagnostic view shows of the mirrors' shape is known; goes on with that."""
+        self._measuring = ""
+        if diagnostic is None or diagnostic.mode != "CURVATURE":
+            return True
+        try:
+            with paced(SLICE_SECONDS):
+                self.renderer.diagnostics.curvatures.prepare(self.renderer.mirrors)
+        except OutOfTime as left:
+            self._measuring = str(left)
+            # (Until then what was shown last; nothing, where that is nothing.)
+            self._canvas = self._canvas or Canvas.of_size(view.width, view.height, linear=True)
+            return False
+        return True
+
+    def legend(self) -> Legend | None:
+        """What the colors of the diagnostic view mean that is shown; None where they mean nothing."""
+        diagnostic = self._state[1]
+        if diagnostic is None:
+            return None
+        options = diagnostic.options
+        end = self.renderer.diagnostics.curvature_end(options) if diagnostic.mode == "CURVATURE" else 1.0
+        return legend_of(diagnostic.mode, diagnostic.colors, options, self.methods, end)
 
     def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
         """Put the picture over the viewport's own."""
@@ -255,7 +289,19 @@ def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
     x, y, z = settings.stripe_direction
     return Diagnostic(
         settings.show,
-        DiagnosticOptions(axis=(x, y, z), stripes=settings.stripe_count, lines=settings.stripe_count),
+        DiagnosticOptions(
+            axis=(x, y, z),
+            lock=value_of(settings, NAMED["stripe_lock"]),
+            stripes=settings.stripe_count,
+            lines=settings.stripe_count,
+            # (As typed: properties are of single precision.)
+            line_width=round(degrees(settings.stripe_width), 5),
+            softness=settings.stripe_softness,
+            transparency=settings.pattern_transparency,
+            curvature=value_of(settings, NAMED["curvature_kind"]),
+            curvature_range=settings.curvature_range,
+            directions=settings.curvature_directions,
+        ),
         options.colors,
     )
 

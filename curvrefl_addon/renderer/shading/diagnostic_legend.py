@@ -10,7 +10,7 @@ import blf
 import bpy
 import mathutils
 
-from ...diagnostic_colors import Color, Legend, ramp_colors
+from ...diagnostics.colors import Color, Legend, ramp_colors
 from ..device.overlays import draw_boxes
 from ..device.state import blended
 

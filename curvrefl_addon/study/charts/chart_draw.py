@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostic_colors import GOLDEN_RATIO
+from ...diagnostics.colors import GOLDEN_RATIO
 from ...errors import InputError
 from ...optics.catalog import METHODS, label_of
 from ...output import temporary_folder

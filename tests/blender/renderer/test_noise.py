@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticColors
 from curvrefl.curvrefl_addon.renderer import exposure
 from curvrefl.curvrefl_addon.renderer.noise import POWER_OF_ALL, SIGNS, Convergence, NoiseMeter
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer

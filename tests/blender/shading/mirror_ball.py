@@ -7,10 +7,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors, DiagnosticOptions, ramp_colors
+from curvrefl.curvrefl_addon.diagnostics.colors import Color, DiagnosticColors, DiagnosticOptions, ramp_colors
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffer
 from curvrefl.curvrefl_addon.renderer.device.textures import empty_texture, read_texture, texture_2d
+from curvrefl.curvrefl_addon.renderer.shading.curvature import CurvatureBuffer
 from curvrefl.curvrefl_addon.renderer.shading.diagnostics import DiagnosticPass
 from curvrefl.curvrefl_addon.renderer.surfaces.surface_buffer import SurfaceBuffer
 from curvrefl.curvrefl_addon.renderer.surfaces.view_block import view_block
@@ -60,6 +61,13 @@ class Ball:
             np.dstack([np.ones(self.point.shape), np.where(here, iterations, 0.0)]),
         )
 
+    def curved(self, end: float = 2.0, radius: float = 1.0) -> CurvatureBuffer:
+        """The tensor of a ball of some radius with this one's normals: (1 - n n) / radius."""
+        tensor = (np.eye(3) - self.point[..., :, None] * self.point[..., None, :]) / radius
+        diagonal = np.dstack([*(tensor[..., k, k] for k in range(3)), self.mask])
+        across = np.dstack([tensor[..., 0, 1], tensor[..., 0, 2], tensor[..., 1, 2], np.zeros(self.mask.shape)])
+        return CurvatureBuffer(texture_2d(diagonal), texture_2d(across), end)
+
     def inner(self, margin: float = 0.15) -> np.ndarray:
         """Pixels that are not near the rim."""
         facing = (self.point * unit(EYE - self.point)).sum(-1)
@@ -82,6 +90,8 @@ def drawn(
     methods: tuple[str, ...] = SECANT,
     parts: Any = (),
     weights: tuple[float, ...] = (1.0,),
+    turns: np.ndarray | None = None,
+    curved: CurvatureBuffer | None = None,
 ) -> np.ndarray:
     """(h, w, 4) picture of one view."""
     color = empty_texture(view.width, view.height)
@@ -90,8 +100,12 @@ def drawn(
         canvas.clear(color=(0.0, 0.0, 0.0, 0.0))
     diagnostics = DiagnosticPass(COLORS)
     uniforms = view_block(view)
+    if mode == "CURVATURE" and curved is None:
+        curved = Ball(view).curved()
     for weight in weights:
-        diagnostics.add(canvas, seen, reflected, uniforms, weight, mode, options, methods, parts)
+        diagnostics.add(
+            canvas, seen, reflected, uniforms, weight, mode, options, methods, parts, turns=turns, curved=curved
+        )
     return read_texture(color)
 
 
@@ -100,9 +114,9 @@ def close_to(picture: np.ndarray, color: tuple[float, float, float]) -> np.ndarr
     return np.abs(picture[..., :3] - np.array(color)).max(-1) < 2e-3
 
 
-def place_on_ramp(picture: np.ndarray) -> np.ndarray:
+def place_on_ramp(picture: np.ndarray, stops: tuple[Color, ...] = COLORS.ramp) -> np.ndarray:
     """(h, w) from 0 to 1: where on the ramp each pixel's color is; on a mirror it may be the background's, too."""
-    fine = ramp_colors(COLORS.ramp, 2001)
+    fine = ramp_colors(stops, 2001)
     weights = np.array([0.2, 0.7, 0.1])
     place = np.interp(picture[..., :3] @ weights, fine @ weights, np.linspace(0.0, 1.0, 2001))
     known = np.abs(fine[np.rint(2000.0 * place).astype(int)] - picture[..., :3]).max(-1) < 5e-3

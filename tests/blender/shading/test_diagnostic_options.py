@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticOptions, legend_of, ramp_colors, view_axis
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticOptions, legend_of, ramp_colors, rounded_up
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.shading.diagnostic_legend import draw_layout, layout
-from shading.mirror_ball import COLORS, EYE, PLAIN, VIEW
+from shading.mirror_ball import COLORS, PLAIN
 
 pytestmark = pytest.mark.usefixtures("gpu")
 
@@ -25,10 +25,8 @@ def test_ramp_goes_through_its_stops_ever_lighter() -> None:
     assert (np.diff(lightness) > 0).all()
 
 
-def test_axis_of_the_view() -> None:
-    np.testing.assert_allclose(view_axis("Z", VIEW.world_to_view), unit(EYE), atol=1e-12)
-    np.testing.assert_allclose(np.dot(view_axis("X", VIEW.world_to_view), (0, 0, 1)), 0.0, atol=1e-12)
-    for axis in ((0.0, 0.0, 2.0), (1.0, 2.0, 3.0), view_axis("Y", VIEW.world_to_view)):
+def test_axes_are_at_right_angles() -> None:
+    for axis in ((0.0, 0.0, 2.0), (1.0, 2.0, 3.0), (0.0, -0.001, -1.0)):
         axes = DiagnosticOptions(axis=axis).axes
         np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
         np.testing.assert_allclose(axes[0], unit(np.array(axis)))
@@ -45,6 +43,12 @@ def test_axis_of_the_view() -> None:
         {"line_width": 0.0},
         {"axis": (0.0, 0.0, 0.0)},
         {"axis": (np.nan, 0.0, 1.0)},
+        {"softness": -0.1},
+        {"transparency": 1.1},
+        {"curvature_range": -1.0},
+        {"curvature_range": np.nan},
+        {"curvature": "PRINCIPAL"},
+        {"lock": "CAMERA"},
     ],
 )
 def test_options_out_of_range(wrong: dict[str, Any]) -> None:
@@ -66,7 +70,27 @@ def test_legends_say_what_the_colors_mean() -> None:
     used = legend_of("METHOD", COLORS, PLAIN, ("environment_cube", "environment_cube"))
     assert used is not None
     assert [label for _, label in used.swatches] == ["Environment Cube", "Background"]
-    assert legend_of("ZEBRA", COLORS, PLAIN) is None and legend_of("LINES", COLORS, PLAIN) is None
+    for pattern in ("ZEBRA", "LINES", "ISOPHOTES", "HIGHLIGHTS"):
+        assert legend_of(pattern, COLORS, PLAIN) is None
+
+
+def test_legend_of_curvature() -> None:
+    mean = legend_of("CURVATURE", COLORS, PLAIN, curvature_end=1.5)
+    assert mean is not None
+    assert mean.title == "Mean Curvature, 1/m"
+    assert mean.ticks[0] == (0.0, "-1.5") and mean.ticks[2] == (0.5, "0") and mean.ticks[4] == (1.0, "1.5")
+    assert mean.ramp == COLORS.two_sided
+    strongest = legend_of("CURVATURE", COLORS, DiagnosticOptions(curvature="STRONGEST"), curvature_end=2.0)
+    gaussian = legend_of("CURVATURE", COLORS, DiagnosticOptions(curvature="GAUSSIAN"))
+    assert strongest is not None and gaussian is not None
+    assert strongest.ticks[0] == (0.0, "0") and strongest.ramp == COLORS.ramp
+    assert gaussian.title == "Gaussian Curvature, 1/m²"
+
+
+def test_ranges_end_at_numbers_that_read_well() -> None:
+    assert [rounded_up(value) for value in (0.0, 1.0, 1.01, 0.00021, 7.0, 81.0, 1e-30)] == pytest.approx(
+        [1.0, 1.0, 1.5, 0.0003, 8.0, 100.0, 1e-30]
+    )
 
 
 def test_legend_is_drawn_in_the_corner() -> None:

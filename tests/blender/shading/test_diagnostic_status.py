@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticOptions
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticOptions
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
 from curvrefl.curvrefl_addon.renderer.device.batches import indexed_batch

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import MODES, DiagnosticOptions, method_color
+from curvrefl.curvrefl_addon.diagnostics.colors import MODES, DiagnosticOptions, method_color
 from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
 from curvrefl.curvrefl_addon.renderer.device.cubes import cube_texture

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import MODES
+from curvrefl.curvrefl_addon.diagnostics.colors import MODES
 from curvrefl.curvrefl_addon.engine.passes import OF_MIRRORS
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture

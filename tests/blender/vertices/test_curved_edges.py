@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticColors
 from curvrefl.curvrefl_addon.optics import status
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, RadialSurface
 from curvrefl.curvrefl_addon.renderer.device.records import read_records, record_texture

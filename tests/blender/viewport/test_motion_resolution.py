@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticColors
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
 from curvrefl.curvrefl_addon.scene.camera.view import View

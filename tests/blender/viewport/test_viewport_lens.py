@@ -10,10 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import DiagnosticColors
+from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticColors
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.scene.opened.render_depsgraph import read_render_scene
-from curvrefl.curvrefl_addon.settings_table import Settings
+from curvrefl.curvrefl_addon.settings_table import OF_SCENES, Settings
 from curvrefl.curvrefl_addon.viewport.region import SETTLED_SECONDS, RegionPicture, view_of
 from scenes.file_settings.blurred_stage import build_blurred_stage
 
@@ -24,7 +24,8 @@ OPTIONS = SimpleNamespace(colors=DiagnosticColors())
 
 
 def settings(show: str = "REFLECTION") -> Any:
-    return SimpleNamespace(show=show, motion_resolution="HALF", stripe_direction=(0.0, 0.0, 1.0), stripe_count=3)
+    starts = {item.name: item.start for item in OF_SCENES}
+    return SimpleNamespace(**starts | {"show": show, "motion_resolution": "HALF", "stripe_count": 3})
 
 
 def context_of(scene: bpy.types.Scene, perspective: str = "CAMERA") -> Any:

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.diagnostic_colors import Legend
+from curvrefl.curvrefl_addon.diagnostics.colors import Legend
 from curvrefl.curvrefl_addon.optics.catalog import METHODS
 from curvrefl.curvrefl_addon.options import current_options
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture

@@ -199,7 +199,7 @@ def test_line_of_a_fit() -> None:
 
 
 def test_every_method_has_a_look_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
-    from curvrefl.curvrefl_addon.diagnostic_colors import method_color
+    from curvrefl.curvrefl_addon.diagnostics.colors import method_color
     from curvrefl.curvrefl_addon.optics.catalog import METHODS
     from curvrefl.curvrefl_addon.study.charts.chart_draw import STYLES, method_style
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import InputError
-from .optics.catalog import METHODS, label_of
-from .scene.arrays import Float32Array, Float64Array
-from .settings_choices import DIAGNOSTIC_CHOICES
+from ..errors import InputError
+from ..optics.catalog import METHODS, label_of
+from ..scene.arrays import Float32Array, Float64Array
+from ..settings_choices import CURVATURE_CHOICES, DIAGNOSTIC_CHOICES, LOCK_CHOICES
 
 type Color = tuple[float, float, float]
 
@@ -22,6 +22,13 @@ MODES = {choice.name: (choice.label, choice.text) for choice in DIAGNOSTIC_CHOIC
 
 SOLVED_MODES = frozenset({"ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD"})
 """The views of what the mirror shows; the others need the mirror's surface alone"""
+LAMP_MODES = frozenset({"LINES", "HIGHLIGHTS"})
+"""Patterns of lamps along the axis"""
+PATTERN_MODES = frozenset({"ZEBRA", "ISOPHOTES"}) | LAMP_MODES
+"""Stripes, bands and lamps"""
+CURVATURES = {choice.name: choice.label for choice in CURVATURE_CHOICES}
+ONE_SIDED = "STRONGEST"
+"""The curvature that is never below 0"""
 
 RAMP_TEXELS = 256
 GOLDEN_RATIO = 0.618034
@@ -61,6 +68,14 @@ class DiagnosticColors:
         (0.995, 0.838, 0.047),
     )
     """From the least to the most; the default's steps are equally light (OKLab L 0.28, 0.44, 0.6, 0.76, 0.93)"""
+    two_sided: tuple[Color, ...] = (
+        (0.012, 0.050, 0.290),
+        (0.120, 0.370, 0.730),
+        (0.800, 0.800, 0.780),
+        (0.760, 0.210, 0.060),
+        (0.270, 0.010, 0.020),
+    )
+    """From the most below 0 over 0 to the most above"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,13 +87,25 @@ class DiagnosticOptions:
     angles: tuple[float, float] = (0.01, 10.0)
     """Ends of the logarithmic ramp, degrees"""
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
-    """World direction that the zebra stripes lie around and the line lights run along"""
+    """Direction that stripes and bands lie around and lamps run along"""
+    lock: str = "WORLD"
+    """Whose axes that is in: the "WORLD", each mirror's "OBJECT", or the "VIEW" (right, up, towards the eye)"""
     stripes: int = 16
     """White bands from one end of the axis to the other, and as many black ones"""
     lines: int = 6
-    """Line lights around the axis"""
+    """Lamps around the axis"""
     line_width: float = 4.0
-    """Of a line light seen from the side, degrees"""
+    """Of a lamp seen from the side, degrees"""
+    softness: float = 0.0
+    """Share of the narrower of a bright and a dark band over which one turns into the other"""
+    transparency: float = 0.0
+    """Of patterns and curvature"""
+    curvature: str = "MEAN"
+    """A name of CURVATURES"""
+    curvature_range: float = 0.0
+    """At the end of the colors, 1 / m (Gaussian: 1 / m^2); 0: found from the mirrors"""
+    directions: bool = False
+    """Strokes along the principal directions"""
     point_size: float = 4.0
     """Diameter of a vertex in the status view, pixels; 0 leaves the vertices out"""
 
@@ -92,6 +119,14 @@ class DiagnosticOptions:
             raise InputError("There is nothing to show with no stripes or lines: choose 1 or more.")
         if not 0.0 < self.line_width < 360.0:
             raise InputError(f"A line light {self.line_width} degrees wide is out of range: choose between 0 and 360.")
+        if not (0.0 <= self.softness <= 1.0 and 0.0 <= self.transparency <= 1.0):
+            raise InputError("Softness and transparency go from 0 to 1.")
+        if not 0.0 <= self.curvature_range < np.inf:
+            raise InputError("The range of curvature is no number above 0: choose one, or 0 for an automatic one.")
+        if self.curvature not in CURVATURES:
+            raise InputError(f'There is no curvature "{self.curvature}": choose one of {", ".join(CURVATURES)}.')
+        if self.lock not in [choice.name for choice in LOCK_CHOICES]:
+            raise InputError(f'Patterns cannot be locked to "{self.lock}": choose WORLD, OBJECT or VIEW.')
         if not np.isfinite(self.axis).all() or np.linalg.norm(self.axis) == 0.0:
             raise InputError("The axis of the stripes has no direction: choose one that is not zero.")
 
@@ -107,15 +142,6 @@ class DiagnosticOptions:
         across = np.cross(up, axis)
         across /= np.linalg.norm(across)
         return np.array([axis, np.cross(axis, across), across])
-
-
-def view_axis(name: str, world_to_view: Float64Array) -> tuple[float, float, float]:
-    """World direction of the view's own "X" (right), "Y" (up) or "Z" (towards the eye), for stripes that stay with it.
-
-    `world_to_view` (4, 4) is rigid.
-    """
-    x, y, z = (float(value) for value in world_to_view["XYZ".index(name), :3])
-    return (x, y, z)
 
 
 def method_color(name: str) -> Color:
@@ -136,6 +162,20 @@ def ramp_colors(stops: Sequence[Color], count: int = RAMP_TEXELS) -> Float32Arra
     between = np.stack([np.interp(where, np.arange(len(stops)), channel) for channel in lab.T], axis=1)
     rgb = (between @ np.linalg.inv(_LMS_TO_LAB).T) ** 3 @ np.linalg.inv(_RGB_TO_LMS).T
     return np.maximum(rgb, 0.0).astype(np.float32)
+
+
+def curvature_ramp(options: DiagnosticOptions, colors: DiagnosticColors) -> tuple[Color, ...]:
+    """Stops of the colors of the curvature that is asked for."""
+    return colors.ramp if options.curvature == ONE_SIDED else colors.two_sided
+
+
+def rounded_up(value: float) -> float:
+    """The next number with one or two digits that reads well on a scale; 1 for 0."""
+    if not value > 0.0:
+        return 1.0
+    power = 10.0 ** np.floor(np.log10(value))
+    steps = power * np.array([1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+    return float(steps[np.searchsorted(steps, value * (1.0 - 1e-6))])
 
 
 _RGB_TO_LMS = np.array(
@@ -167,12 +207,21 @@ class Legend:
 
 
 def legend_of(
-    mode: str, colors: DiagnosticColors, options: DiagnosticOptions, methods: Sequence[str] = ()
+    mode: str,
+    colors: DiagnosticColors,
+    options: DiagnosticOptions,
+    methods: Sequence[str] = (),
+    curvature_end: float = 1.0,
 ) -> Legend | None:
-    """The legend of a view; None for stripes and lines, which say nothing in color.
+    """The legend of a view; None for stripes, bands and lamps, which say nothing in color.
 
-    `methods` are the catalog names that the mirrors are drawn with.
+    `methods` are the catalog names that the mirrors are drawn with, `curvature_end` is what the last color stands for.
     """
+    if mode == "CURVATURE":
+        unit = "1/m²" if options.curvature == "GAUSSIAN" else "1/m"
+        start = 0.0 if options.curvature == ONE_SIDED else -curvature_end
+        marks = tuple((part, f"{start + part * (curvature_end - start):.3g}") for part in (0.0, 0.25, 0.5, 0.75, 1.0))
+        return Legend(f"{CURVATURES[options.curvature]} Curvature, {unit}", (), curvature_ramp(options, colors), marks)
     background = (colors.background, "Background")
     if mode == "ITERATIONS":
         low, high = options.iterations

@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What diagnostic views are: their settings, and what their colors mean."""
