@@ -20,11 +20,12 @@ OPERATORS = (
     "copy_report",
     "measure_device",
     "mirror_settings",
+    "place_light",
     "save_preview",
     "trace_at_cursor",
 )
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels")
+INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels", "light_tool")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 ENGINE = "engine.engine"

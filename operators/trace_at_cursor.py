@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty, FloatVectorProperty
 
+from ..curvrefl_addon.design.lights.placing import Ask, Line, Placing
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.viewport import tracing
 
@@ -101,7 +102,12 @@ class CURVREFL_OT_trace_at_cursor(bpy.types.Operator):
         item = context.object
         if item is None:
             raise InputError("There is no active object to place: select one.")
-        distance = tracing.place_on(found, item)
+        assert context.scene is not None
+        line = Line.along(np.array(self.origin), np.array(self.direction))
+        placed = Placing(item, context.scene).place(
+            context.evaluated_depsgraph_get(), context.scene, line, Ask(aims=False)
+        )
+        distance = placed.goal.distance
         bpy.ops.ed.undo_push(message="Place by Reflection")
         return f'"{item.name}" is seen in "{found.mirror}" where you clicked, {distance:.4g} m from the mirror'
 

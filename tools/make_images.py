@@ -60,6 +60,13 @@ def _views(results: Path, picture: Path) -> None:
     _save_grid([results / f"show_{name}.png" for name in VIEWS], 2, VIEW, size, picture)
 
 
+def _placed_lights(results: Path, picture: Path) -> None:
+    """A lamp placed in three ways, side by side."""
+    _save_grid(
+        [results / f"{name}.png" for name in ("reflection", "illumination", "rim")], 3, None, (420, 315), picture
+    )
+
+
 def _cut(name: str, box: tuple[int, int, int, int]) -> Maker:
     """A part of one picture of the window."""
     size = (box[2] - box[0], box[3] - box[1])
@@ -137,6 +144,10 @@ def _materials(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "draw_materials.py"), str(folder / "materials.jpg"))
 
 
+def _lights(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "light" / "draw_lights.py"), str(folder))
+
+
 def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
@@ -158,6 +169,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "methods": _methods,
     "materials": _materials,
     "convergence": _convergence,
+    "lights": _lights,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -176,6 +188,7 @@ IMAGES: dict[str, Picture] = {
     "methods.png": Picture("methods", _copied),
     "materials.jpg": Picture("materials", _copied),
     "convergence.png": Picture("convergence", _copied),
+    "lights.jpg": Picture("lights", _placed_lights),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -37,7 +37,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer",),
     ("renderer.proofs",),
     ("renderer.measured",),
-    ("report", "demo"),
+    ("report", "demo", "design"),
     ("study",),
     ("viewport",),
     ("engine",),

@@ -161,6 +161,16 @@ class View:
             return replace(self, world_to_view=shift @ lean @ self.world_to_view, lens=None)
         return replace(self, world_to_view=shift @ self.world_to_view, view_to_clip=self.view_to_clip @ lean, lens=None)
 
+    def line_of_sight(self, x: float, y: float) -> tuple[Float64Array, Float64Array]:
+        """Where the line through a place in the picture begins, on the near end (3,), and its unit direction (3,).
+
+        In pixels from the bottom left: centers of pixels are at halves.
+        """
+        near = self.clip_to_world @ (2.0 * x / self.width - 1.0, 2.0 * y / self.height - 1.0, -1.0, 1.0)
+        origin = near[:3] / near[3]
+        direction = -self.eye[:3] if self.is_orthographic else origin - self.place
+        return origin, direction / np.linalg.norm(direction)
+
     def project(self, points: Float64Array) -> Float64Array:
         """Pixel coordinates (n, 2), origin bottom left, of world points (n, 3)."""
         # Row by row: as one product with so small a matrix it takes ten times as long for a million points.

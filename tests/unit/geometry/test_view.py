@@ -80,3 +80,14 @@ def test_lines_of_sight_begin_at_the_near_end() -> None:
     assert np.linalg.norm(start[:3] - EYE) == pytest.approx(0.5)
     assert np.linalg.norm(np.cross(start[:3] - EYE, TARGET - EYE)) < 1e-12
     assert (start[:3] - EYE) @ (TARGET - EYE) > 0.0
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_line_of_sight_is_seen_where_it_was_asked_for(orthographic: bool) -> None:
+    looking = view(orthographic)
+    for place in ((0.5, 0.5), (40.25, 7.5), (63.5, 47.5)):
+        origin, direction = looking.line_of_sight(*place)
+        assert np.linalg.norm(direction) == pytest.approx(1.0)
+        seen = looking.project(np.array([origin, origin + 3.0 * direction, origin + 50.0 * direction]))
+        np.testing.assert_allclose(seen, [place] * 3, atol=1e-6)
+        assert -(looking.world_to_view @ [*origin, 1.0])[2] == pytest.approx(0.1)

@@ -1,0 +1,292 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""Drag on a mirror: the active light, or whatever is active, goes where it is seen there, or where it lights it."""
+
+# No `from __future__ import annotations` here: Blender reads the properties from evaluated annotations.
+
+from typing import Any, Literal
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
+
+from ..curvrefl_addon.design.lights.placing import Ask, Line, Placed, Placing
+from ..curvrefl_addon.errors import InputError
+from ..curvrefl_addon.scene.opened.blend_file import find_camera, view_of_camera
+from ..curvrefl_addon.ui.light_tool import draw_placing
+
+MODES = (
+    ("REFLECTION", "Reflection", "It is seen in the mirror under the cursor"),
+    ("ILLUMINATION", "Illumination", "It stands straight over what is under the cursor, where it gives most light"),
+    ("RIM", "Rim", "It grazes the edge nearest to the cursor from behind; beside all objects it goes to the cursor"),
+)
+STEP = 1.1
+"""Of distance, size and power by a step of the wheel"""
+HINTS = "Drag: place | Wheel: distance | Shift Wheel: size | Ctrl Wheel: power | 1 2 3: mode | A: aim | Esc: cancel"
+
+
+class CURVREFL_OT_place_light(bpy.types.Operator):
+    """Drag on a mirror to move the active light or object to where it is seen under the cursor"""
+
+    bl_idname = "curvrefl.place_light"
+    bl_label = "Place Light by Reflection"
+    bl_options = {"REGISTER", "UNDO", "BLOCKING"}  # noqa: RUF012 (Blender's own convention)
+
+    mode: EnumProperty(name="Mode", description="What it does under the cursor", items=MODES)  # type: ignore[valid-type]
+    keep_distance: BoolProperty(  # type: ignore[valid-type]
+        name="Distance", description="Keep its distance from the point that it is placed by", default=True
+    )
+    distance: FloatProperty(  # type: ignore[valid-type]
+        name="Distance",
+        description="From the point that it is placed by, over all mirrors on the way",
+        subtype="DISTANCE",
+        default=1.0,
+        min=1e-6,
+        soft_max=100.0,
+    )
+    keep_size: BoolProperty(  # type: ignore[valid-type]
+        name="Size", description="Keep its size; else it looks as large from any distance", default=True
+    )
+    keep_power: BoolProperty(  # type: ignore[valid-type]
+        name="Power", description="Keep its power; else it is as bright there from any distance", default=True
+    )
+    aim: BoolProperty(  # type: ignore[valid-type]
+        name="Aim", description="Turn area and spot lamps to the point that they are placed by", default=True
+    )
+    rim_width: FloatProperty(  # type: ignore[valid-type]
+        name="Rim Width",
+        description="How far in from the edge its light reaches, as an angle of the surface",
+        subtype="ANGLE",
+        default=0.2617994,
+        min=0.0,
+        max=1.5533430,
+    )
+    size: FloatProperty(  # type: ignore[valid-type]
+        name="Size Factor",
+        description="Times the size that it has",
+        default=1.0,
+        min=1e-3,
+        max=1e3,
+        options={"SKIP_SAVE"},
+    )
+    power: FloatProperty(  # type: ignore[valid-type]
+        name="Power Factor",
+        description="Times the power that it has",
+        default=1.0,
+        min=0.0,
+        max=1e6,
+        options={"SKIP_SAVE"},
+    )
+    pixel: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Pixel",
+        description="For scripts: place in the active camera's picture, in pixels from the bottom left",
+        size=2,
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    point: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Point",
+        description="For scripts: where on the mirror, world space, as seen from Eye or else by the active camera",
+        subtype="TRANSLATION",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    eye: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Eye",
+        description="Where the line of sight starts, world space",
+        subtype="TRANSLATION",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    direction: FloatVectorProperty(  # type: ignore[valid-type]
+        name="Direction",
+        description="Where the line of sight goes, world space",
+        subtype="DIRECTION",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    parallel: BoolProperty(  # type: ignore[valid-type]
+        name="Parallel", description="The view is an orthographic one", options={"HIDDEN", "SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.scene is None or context.mode != "OBJECT":
+            cls.poll_message_set("Only in Object Mode")
+            return False
+        if context.object is None:
+            cls.poll_message_set("Make a light or another object active")
+            return False
+        return True
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
+        if context.area is None or context.area.type != "VIEW_3D" or context.region_data is None:
+            self.report({"ERROR"}, "Start it in a 3D viewport")
+            return {"CANCELLED"}
+        assert context.object is not None and context.scene is not None
+        try:
+            self._placing = Placing(context.object, context.scene)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._placed: Placed | None = None
+        self._by: Line | None = None
+        """The line of sight that it was placed by"""
+        self._problem = ""
+        self._is_held = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
+        context.window_manager.modal_handler_add(self)
+        context.workspace.status_text_set(HINTS)
+        if self._is_held:
+            self._follow(context, event)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
+        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+            self.cancel(context)
+            return {"CANCELLED"}
+        if event.type == "LEFTMOUSE":
+            if event.value != ("RELEASE" if self._is_held else "PRESS"):
+                return {"RUNNING_MODAL"}
+            if not self._is_held:
+                self._follow(context, event)
+            return self._finish(context)
+        if event.type == "MOUSEMOVE":
+            self._follow(context, event)
+        elif self._is_changed_by(event) and self._by is not None:
+            # (By the last place that served: the mouse may be beside the mirror.)
+            self._place(context, self._by)
+        return {"PASS_THROUGH"} if event.type == "MIDDLEMOUSE" else {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        self._placing.moved.restore()
+        self._end(context)
+
+    def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
+        item, scene = context.object, context.scene
+        assert item is not None and scene is not None
+        depsgraph = context.evaluated_depsgraph_get()
+        try:
+            placing = Placing(item, scene)
+            placed = placing.place(depsgraph, scene, self._line(scene, depsgraph), self._ask())
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._tell(context, placing, placed)
+        return {"FINISHED"}
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        draw_placing(layout, self.properties)
+        layout.prop(self, "size")
+        layout.prop(self, "power")
+
+    def _ask(self) -> Ask:
+        return Ask(
+            mode=self.mode,
+            distance=None if self.keep_distance else self.distance,
+            keeps_size=self.keep_size,
+            keeps_power=self.keep_power,
+            size=self.size,
+            power=self.power,
+            aims=self.aim,
+            rim_width=self.rim_width,
+        )
+
+    def _line(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Line:
+        """The line of sight that the properties say."""
+        given = {name for name in ("pixel", "point", "eye", "direction") if self.properties.is_property_set(name)}
+        eye, point = np.array(self.eye, np.float64), np.array(self.point, np.float64)
+        if "direction" in given and "eye" in given:
+            return Line.along(eye, np.array(self.direction, np.float64), self.parallel)
+        if "point" in given and "eye" in given:
+            return Line.along(eye, point - eye)
+        if not given & {"pixel", "point"}:
+            raise InputError("No place is given: set pixel, or point, or eye and direction.")
+        percent = 0.01 * scene.render.resolution_percentage
+        size = (int(scene.render.resolution_x * percent), int(scene.render.resolution_y * percent))
+        view = view_of_camera(scene, find_camera(scene), *size, depsgraph)
+        x, y = self.pixel if "pixel" in given else view.project(point[None])[0].tolist()
+        return Line.through(view, x, y)
+
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        """Place it by what is under the mouse; where that does not serve it stays, and the header says why."""
+        from ..curvrefl_addon.viewport.region import view_of
+
+        line = Line.through(view_of(context), event.mouse_region_x + 0.5, event.mouse_region_y + 0.5)
+        self._place(context, line)
+
+    def _place(self, context: bpy.types.Context, line: Line) -> None:
+        assert context.scene is not None and context.area is not None
+        try:
+            self._placed = self._placing.place(context.evaluated_depsgraph_get(), context.scene, line, self._ask())
+        except InputError as error:
+            self._problem = str(error)
+            context.area.header_text_set(self._problem)
+            return
+        self._problem, self._by = "", line
+        self.eye, self.direction, self.parallel = line.origin.tolist(), line.direction.tolist(), line.is_parallel
+        context.area.header_text_set(self._header(self._placed))
+
+    def _header(self, placed: Placed) -> str:
+        mode = next(label for name, label, _ in MODES if name == self.mode)
+        shares = f"Size {100.0 * self.size:.0f} %   Power {100.0 * self.power:.0f} %"
+        distance = "" if not np.isfinite(placed.goal.distance) else f"Distance {placed.goal.distance:.4g} m   "
+        over = f"   over {placed.goal.mirrors} mirrors" if placed.goal.mirrors > 1 else ""
+        return f"{mode}   {distance}{shares}{over}{_limits(placed)}"
+
+    def _is_changed_by(self, event: bpy.types.Event) -> bool:
+        """Whether the event changes what is asked for; does so."""
+        if event.type in {"WHEELUPMOUSE", "WHEELDOWNMOUSE"}:
+            step = STEP if event.type == "WHEELUPMOUSE" else 1.0 / STEP
+            if event.shift:
+                self.size *= step
+            elif event.ctrl:
+                self.power *= step
+            elif self._placed is not None and np.isfinite(self._placed.goal.distance):
+                self.distance = step * self._placed.goal.distance
+                self.keep_distance = False
+            return True
+        if event.value != "PRESS":
+            return False
+        numbers = {"ONE": 0, "TWO": 1, "THREE": 2, "NUMPAD_1": 0, "NUMPAD_2": 1, "NUMPAD_3": 2}
+        if event.type in numbers:
+            self.mode = MODES[numbers[event.type]][0]
+            return True
+        if event.type == "A":
+            self.aim = not self.aim
+            return True
+        return False
+
+    def _finish(self, context: bpy.types.Context) -> Any:
+        self._end(context)
+        if self._placed is None:
+            self.report({"WARNING"}, self._problem)
+            return {"CANCELLED"}
+        self._tell(context, self._placing, self._placed)
+        return {"FINISHED"}
+
+    def _tell(self, context: bpy.types.Context, placing: Placing, placed: Placed) -> None:
+        """Say what came of it, once the scene has followed."""
+        item = placing.moved.item
+        if held := placing.moved.held(placed.goal, context.evaluated_depsgraph_get()):
+            self.report({"WARNING"}, held)
+            return
+        what = {
+            "REFLECTION": f'is seen in "{placed.on}"',
+            "ILLUMINATION": f'stands over "{placed.on}"',
+            "RIM": f'grazes the edge of "{placed.on}"' if placed.on else "is where you clicked",
+        }[self.mode]
+        self.report({"INFO"}, f'"{item.name}" {what}{_limits(placed)}')
+
+    def _end(self, context: bpy.types.Context) -> None:
+        context.workspace.status_text_set(None)
+        if context.area is not None:
+            context.area.header_text_set(None)
+
+
+def _limits(placed: Placed) -> str:
+    """What keeps it from where it was asked to go, at the end of a sentence."""
+    if placed.behind:
+        return f', in front of "{placed.behind}"'
+    return f', but "{placed.hides}" hides it' if placed.hides else ""
+
+
+CLASSES = (CURVREFL_OT_place_light,)
