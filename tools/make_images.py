@@ -141,6 +141,15 @@ def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
 
+def _passes(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
+    asked = "object,normal,albedo,uv,depth,incidence,mirror_id"
+    given = ("--reflector", "Kettle,Lacquer jar", "--resolution", "640x480", "--samples", "32")
+    file = str(folder / "passes.exr")
+    _verb("render", str(folder / "demo.blend"), *given, "--passes", asked, "--multilayer", "--output", file)
+    _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -158,6 +167,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "methods": _methods,
     "materials": _materials,
     "convergence": _convergence,
+    "passes": _passes,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -176,6 +186,7 @@ IMAGES: dict[str, Picture] = {
     "methods.png": Picture("methods", _copied),
     "materials.jpg": Picture("materials", _copied),
     "convergence.png": Picture("convergence", _copied),
+    "passes.jpg": Picture("passes", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 
