@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a user chooses from, in settings with choices."""
+"""What a user chooses from: values of settings with choices, and passes of renders."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
 from .optics.catalog import METHODS
-from .setting import Choice
+from .setting import Choice, setting
 
 METHOD_CHOICES = tuple(
     Choice(name, method.label, f"{method.source}. Assumes: {method.assumes}") for name, method in METHODS.items()
@@ -59,3 +62,44 @@ FRESNEL_CHOICES = (
     Choice("DIELECTRIC", "Dielectric", "Reflects little face on and all at grazing angles, by the index of refraction"),
     Choice("CONSTANT", "Constant", "Reflects the tint at every angle"),
 )
+
+
+def _switch(label: str, text: str) -> Any:
+    return setting(False, label=label, text=text, panel="Passes")
+
+
+@dataclass(frozen=True, slots=True)
+class ViewLayerSettings:
+    """Properties of `ViewLayer.curvrefl`: what renders have beside the picture."""
+
+    use_pass_mirror: bool = _switch(
+        "Mirror",
+        "What the mirrors show and nothing else, with the mirrors' coverage as alpha; it is drawn on its own",
+    )
+    use_pass_position: bool = _switch(
+        "Position",
+        "Where in the world that is what the mirrors show at the pixels' centers (W is 1), or in which direction "
+        "its background (W is 0)",
+    )
+    use_pass_object: bool = _switch(
+        "Object", "The number of the object that the mirrors show there, 0 for the background"
+    )
+    use_pass_iterations: bool = _switch("Iterations", "How many steps the search for the reflection point took there")
+    use_pass_normal: bool = _switch(
+        "Normal", "World-space shading normal of the surface that the mirrors show, by rays as all that follow"
+    )
+    use_pass_albedo: bool = _switch("Albedo", "Base color of the surface that the mirrors show")
+    use_pass_depth: bool = _switch(
+        "Depth", "Meters along the path from the eye over the mirror to what it shows; 1e10 for the background"
+    )
+    use_pass_distance: bool = _switch("Distance", "Meters from the mirror to what it shows; 1e10 for the background")
+    use_pass_path_length: bool = _switch(
+        "Path Length", "Meters along the whole path, from mirror to mirror, to the first surface that is none"
+    )
+    use_pass_uv: bool = _switch(
+        "UV", "Place in the UV map that renders use, of what the mirrors show; A is 1 where it has one"
+    )
+    use_pass_incidence: bool = _switch(
+        "Incidence", "Angle in radians between the mirror's normal and the line of sight"
+    )
+    use_pass_mirror_id: bool = _switch("Mirror ID", "The number of the mirror's object, as the pass Object counts")

@@ -3,8 +3,8 @@
 """Every setting, once: its name, defaults, ranges and text, and where a user meets it.
 
 The renderer's settings, Blender's properties, the preferences, the command line's arguments and docs/settings.md are
-made from the classes below and that of `diagnostics.settings`. A new setting is one more field of one of them, and what
-uses it.
+made from the classes below, that of passes in `settings_choices` and that of `diagnostics.settings`. A new setting is
+one more field of one of them, and what uses it.
 
 Light to import: the extension is enabled, and the command line refuses bad usage, without Blender and the renderer.
 """
@@ -17,7 +17,13 @@ from math import pi
 from .diagnostics.settings import DiagnosticSettings
 from .optics.catalog import Method, entry_of
 from .setting import Flag, setting, settings_in
-from .settings_choices import ENVIRONMENT_CHOICES, FRESNEL_CHOICES, METHOD_CHOICES, MOTION_CHOICES
+from .settings_choices import (
+    ENVIRONMENT_CHOICES,
+    FRESNEL_CHOICES,
+    METHOD_CHOICES,
+    MOTION_CHOICES,
+    ViewLayerSettings,
+)
 
 STILL_SAMPLES = 16
 """Sub-frames of a saved picture where nothing is chosen"""
@@ -218,37 +224,6 @@ class SceneSettings:
         soft=(-pi, pi),
         unit="radians",
         panel="Environment",
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class ViewLayerSettings:
-    """Properties of `ViewLayer.curvrefl`."""
-
-    use_pass_mirror: bool = setting(
-        False,
-        label="Mirror",
-        text="What the mirrors show and nothing else, with the mirrors' coverage as alpha; it is drawn on its own",
-        panel="Passes",
-    )
-    use_pass_position: bool = setting(
-        False,
-        label="Position",
-        text="Where in the world that is what the mirrors show at the pixels' centers (W is 1), or in which direction "
-        "its background (W is 0)",
-        panel="Passes",
-    )
-    use_pass_object: bool = setting(
-        False,
-        label="Object",
-        text="The number of the object that the mirrors show there, 0 for the background",
-        panel="Passes",
-    )
-    use_pass_iterations: bool = setting(
-        False,
-        label="Iterations",
-        text="How many steps the search for the reflection point took there",
-        panel="Passes",
     )
 
 

@@ -152,6 +152,15 @@ def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
 
+def _passes(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
+    asked = "object,normal,albedo,uv,depth,incidence,mirror_id"
+    given = ("--reflector", "Kettle,Lacquer jar", "--resolution", "640x480", "--samples", "32")
+    file = str(folder / "passes.exr")
+    _verb("render", str(folder / "demo.blend"), *given, "--passes", asked, "--multilayer", "--output", file)
+    _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -170,6 +179,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "materials": _materials,
     "convergence": _convergence,
     "lights": _lights,
+    "passes": _passes,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -189,6 +199,7 @@ IMAGES: dict[str, Picture] = {
     "materials.jpg": Picture("materials", _copied),
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
+    "passes.jpg": Picture("passes", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

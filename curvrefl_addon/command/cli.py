@@ -134,6 +134,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar="P[,P..]",
         help=f"of {', '.join(verbs.PASSES)}; all but color go to NAME_PASS.exr beside the output (%(default)s)",
     )
+    render.add_argument(
+        "--multilayer",
+        action="store_true",
+        help="all passes into the output, an .exr with channels named as in Blender's multilayer files",
+    )
     render.add_argument("--output", required=True, metavar="FILE", help=".png (as shown) or .exr (scene-linear)")
 
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")

@@ -46,7 +46,12 @@ DEMO_METHODS = ("auto", "secant_star", "environment_cube")
 LAYERS = ("unit", "blender", "gui")
 AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
-PASSES = ("color", "position", "object", "iterations")
+PASSES = (
+    *("color", "position", "object", "iterations", "normal", "albedo", "depth", "distance", "path_length", "uv"),
+    *("incidence", "mirror_id"),
+)
+NUMBERED = {"object", "mirror_id"}
+"""Passes with numbers of objects"""
 
 
 def render(options: argparse.Namespace) -> int:
@@ -54,7 +59,7 @@ def render(options: argparse.Namespace) -> int:
     passes = read_names(options.passes, "pass")
     require_known(passes, PASSES, "pass")
     reflectors = read_names(options.reflector, "reflector")
-    output = checked_file(options.output, (".png", ".exr"))
+    output = checked_file(options.output, (".exr",) if options.multilayer else (".png", ".exr"))
     start_gpu()
     scene = open_scene(options.file, options.frame)
 
@@ -69,17 +74,18 @@ def render(options: argparse.Namespace) -> int:
             reflectors=tuple(reflectors),
             settings=settings_of_file(options, scene),
             passes=tuple(name for name in passes if name != "color"),
+            multilayer=options.multilayer,
         )
         with dropped(STDOUT):
             render_still(scene, job, *resolution_of(options, scene), folder / output.name, options.camera)
         warn_of(job.warnings)
         if job.convergence is not None:
             print(f"Sub-frames: {job.convergence}")
-        if "color" not in passes:
+        if "color" not in passes and not options.multilayer:
             (folder / output.name).unlink()
         for name, pixels in job.arrays.items():
             save_exr(folder / f"{output.stem}_{name}.exr", pixels)
-    if "object" in passes:
+    if NUMBERED.intersection(passes):
         print("\n".join(f"object {number}: {name}" for number, name in sorted(job.object_names.items())))
     return 0
 

@@ -8,6 +8,7 @@ render ends, as Blender then takes that context down.
 
 from __future__ import annotations
 
+import json
 import sys
 import threading
 import traceback
@@ -20,7 +21,7 @@ from bpy.app.handlers import persistent
 from ..errors import InputError
 from . import panels
 from .job import current_job
-from .passes import COMBINED, fill, passes_of
+from .passes import COMBINED, NUMBERED, fill, passes_of
 
 if TYPE_CHECKING:
     from ..renderer.noise import Convergence
@@ -110,6 +111,10 @@ class CurvreflEngine(bpy.types.RenderEngine):
         for name, values in pixels.items():
             fill(result.layers[0], name, values)
         self.end_result(result)
+        if any(item.name in NUMBERED for item in passes):
+            # (Into the headers of OpenEXR files.)
+            whole: Any = self.get_result()
+            whole.stamp_data_add_field(f"curvrefl.{layer.name}.objects", json.dumps(session.object_names))
         for warning in session.warnings:
             self._warn(warning)
 

@@ -25,12 +25,14 @@ class Job:
     settings: Settings
     passes: tuple[str, ...] = ()
     """What to read beside the color: names of `passes.OF_MIRRORS`"""
+    multilayer: bool = False
+    """They are layers of the picture's own file, in place of `arrays`"""
     missing: set[str] = field(default_factory=set)
     """Reflectors that no view layer has shown yet"""
     arrays: dict[str, Float32Array] = field(default_factory=dict)
     """By pass, of the whole picture of the first view layer: (h, w) or (h, w, 4), row 0 at the bottom"""
     object_names: dict[int, str] = field(default_factory=dict)
-    """By the numbers of the pass `object`"""
+    """By the numbers of the passes with objects' numbers"""
     convergence: Convergence | None = None
     """Of the last view layer's picture"""
     warnings: list[str] = field(default_factory=list)

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 COMBINED = "Combined"
 MIRROR = "Mirror"
+UV = "UV"
+NUMBERED = ("Object", "Mirror ID")
+"""Passes with numbers of objects"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,16 +35,30 @@ class Pass:
     read: Callable[[Frame], Float32Array] | None = None
     """(h, w) or (h, w, channels); None for the picture of the mirrors alone, which is drawn on its own"""
 
+    def pixels(self, frame: Frame) -> Float32Array:
+        """(h, w) or (h, w, channels) of a frame."""
+        assert self.read is not None, "the picture of the mirrors alone is drawn on its own"
+        return self.read(frame)
+
 
 PASSES = (
     Pass(MIRROR, "RGBA", "COLOR", "use_pass_mirror"),
     Pass("Position", "XYZW", "VECTOR", "use_pass_position", lambda frame: frame.reflected_position()),
     Pass("Object", "X", "VALUE", "use_pass_object", lambda frame: frame.reflected_object().astype(np.float32)),
     Pass("Iterations", "X", "VALUE", "use_pass_iterations", lambda frame: frame.iterations()),
+    Pass("Normal", "XYZ", "VECTOR", "use_pass_normal", lambda frame: frame.truth.normal()),
+    Pass("Albedo", "RGB", "COLOR", "use_pass_albedo", lambda frame: frame.truth.albedo()),
+    Pass("Depth", "Z", "VALUE", "use_pass_depth", lambda frame: frame.truth.depth()),
+    Pass("Distance", "X", "VALUE", "use_pass_distance", lambda frame: frame.truth.distance()),
+    Pass("Path Length", "X", "VALUE", "use_pass_path_length", lambda frame: frame.truth.path_length()),
+    Pass(UV, "UVA", "VECTOR", "use_pass_uv", lambda frame: frame.truth.uv()),
+    Pass("Incidence", "X", "VALUE", "use_pass_incidence", lambda frame: frame.truth.incidence()),
+    Pass("Mirror ID", "X", "VALUE", "use_pass_mirror_id", lambda frame: frame.truth.mirror_id()),
 )
+"""In the order of a file's layers. Names and channels are Blender's own where it has such a pass"""
 
 
-OF_MIRRORS = {item.name.lower(): item.read for item in PASSES if item.read is not None}
+OF_MIRRORS = {item.name.lower().replace(" ", "_"): item for item in PASSES if item.read is not None}
 """What the mirrors show, by the names that verbs have for it"""
 
 

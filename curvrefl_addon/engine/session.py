@@ -28,7 +28,7 @@ from ..scene.opened.blend_file import find_reflectors, view_of_camera
 from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
 from .job import Job
-from .passes import COMBINED, MIRROR, OF_MIRRORS, Pass
+from .passes import COMBINED, MIRROR, OF_MIRRORS, UV, Pass, passes_of
 
 
 class RenderSession:
@@ -56,6 +56,9 @@ class RenderSession:
             there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
             mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
             job.missing -= {obj.name for obj in mirrors}
+        passes = passes_of(depsgraph.view_layer)
+        asked = () if job is None else [OF_MIRRORS[name] for name in job.passes]
+        self._reader.reads_uv = any(item.name == UV for item in (*passes, *asked))
         self._settings = replace(chosen, film_transparent=scene.render.film_transparent)
         while True:
             # All is read: what a new frame changes is not listed. What comes out as it was stays the same object.
@@ -103,7 +106,7 @@ class RenderSession:
         result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
         for item in passes:
             if item.read is not None:
-                result[item.name] = item.read(frame)
+                result[item.name] = item.pixels(frame)
             elif alone is not None:
                 result[item.name] = on_film(alone.pixels(), depsgraph.scene_eval)
         # (Of one that is left out as well the scene's own sentence is enough.)
@@ -114,6 +117,12 @@ class RenderSession:
         if job is not None and not job.object_names:
             self._tell(job, frame, area)
         return area, result
+
+    @property
+    def object_names(self) -> dict[int, str]:
+        """By their numbers in passes."""
+        assert self._arrays is not None
+        return {instance.object_id: instance.object_name for instance in self._arrays.instances}
 
     def free(self) -> None:
         """Let go of all GPU resources."""
@@ -163,8 +172,9 @@ class RenderSession:
 
     def _tell(self, job: Job, frame: Frame, area: Area) -> None:
         assert self._arrays is not None
-        job.arrays = {name: area.uncropped(OF_MIRRORS[name](frame)) for name in job.passes}
-        job.object_names = {instance.object_id: instance.object_name for instance in self._arrays.instances}
+        if not job.multilayer:
+            job.arrays = {name: area.uncropped(OF_MIRRORS[name].pixels(frame)) for name in job.passes}
+        job.object_names = self.object_names
 
 
 def _is_said(refusal: str, warnings: Sequence[str]) -> bool:

@@ -17,18 +17,25 @@ from ..scene.opened.temporary_settings import TemporarySettings, temporary_setti
 from ..written_files import error_in
 from .engine import ENGINE
 from .job import Job, asked_for
+from .passes import OF_MIRRORS
 
 
 def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path: Path, camera: str | None) -> None:
     """Render the scene's present frame into `path`: .png as shown, .exr scene-linear.
 
-    All else is as in the file: view layers, border, film, compositor, stamp. The file's own outputs of the compositor
-    are not written. Settings are as before at the end. Raises InputError for what the user can put right: the camera,
-    the reflectors; OSError where Blender cannot write, RuntimeError where it was stopped.
+    With `job.multilayer` its passes are layers of the file, of every view layer. All else is as in the file: view
+    layers, border, film, compositor, stamp. The file's own outputs of the compositor are not written. Settings are as
+    before at the end. Raises InputError for what the user can put right: the camera, the reflectors; OSError where
+    Blender cannot write, RuntimeError where it was stopped.
     """
     chosen = find_camera(scene, camera)
     with temporary_settings() as changes, asked_for(job):
-        _use_engine(changes, scene, width, height, path)
+        _use_engine(changes, scene, width, height, path, job.multilayer)
+        if job.multilayer:
+            switches = {OF_MIRRORS[name].setting: True for name in job.passes}
+            layers: Any = scene.view_layers
+            for layer in layers:
+                changes.set(layer.curvrefl, **switches)
         use_camera(changes, scene, chosen)
         for node in _file_outputs(scene.compositing_node_group):
             changes.set(node, mute=True)
@@ -48,7 +55,9 @@ def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path
         raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": it was stopped.')
 
 
-def _use_engine(changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int, path: Path) -> None:
+def _use_engine(
+    changes: TemporarySettings, scene: bpy.types.Scene, width: int, height: int, path: Path, multilayer: bool
+) -> None:
     changes.set(
         scene.render,
         engine=ENGINE,
@@ -65,10 +74,10 @@ def _use_engine(changes: TemporarySettings, scene: bpy.types.Scene, width: int, 
     is_png = path.suffix.lower() == ".png"
     changes.set(
         scene.render.image_settings,
-        media_type="IMAGE",
-        file_format="PNG" if is_png else "OPEN_EXR",
+        media_type="MULTI_LAYER_IMAGE" if multilayer else "IMAGE",
+        file_format="PNG" if is_png else "OPEN_EXR_MULTILAYER" if multilayer else "OPEN_EXR",
         color_management="FOLLOW_SCENE",
-        color_mode="RGBA",
+        **({} if multilayer else {"color_mode": "RGBA"}),
         color_depth="8" if is_png else "32",
     )
 

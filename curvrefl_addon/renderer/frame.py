@@ -5,17 +5,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..scene.arrays import Float32Array, Int32Array
+from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from .device.textures import read_texture
 from .noise import Convergence
 from .reflection import Reflection
+from .shown.rays import ShownRays, read_ways
 from .shown.shown import SubFrame
+from .truth.shown_points import points_of_ways
+from .truth.truth import MirrorTruth
 from .vertices.solution import statistics
+
+type ReadBack = Callable[[Reflection, SubFrame], dict[str, Any]]
+"""Reads arrays of a sub-frame whose primary pass is drawn"""
 
 
 class Frame:
@@ -29,14 +36,15 @@ class Frame:
         reflection: Reflection,
         color: Any,
         times_ms: dict[str, float],
-        read_surfaces: Callable[[], dict[str, Float32Array]],
+        read: Callable[[Reflection, ReadBack], dict[str, Any]],
+        scene: SceneArrays,
         convergence: Convergence | None = None,
         bounced_light: str = "",
     ) -> None:
-        """`read_surfaces` draws and reads what `surfaces` holds."""
+        """`read` draws what the eye sees and reads what is asked of it; `scene`: what is shown, in the world."""
         self.reflection = reflection
         """What the mirrors show; the next frame of an animation may start from it"""
-        self._read_surfaces = read_surfaces
+        self._read, self._scene = read, scene
         self.view = reflection.view.about(-reflection.origin)
         self.color_texture = color
         """RGBA32F, scene-linear"""
@@ -64,7 +72,17 @@ class Frame:
 
         Raises RuntimeError where the renderer shows another state of the scene by now.
         """
-        return self._read_surfaces()
+        return self._read(self.reflection, read_surfaces)
+
+    @cached_property
+    def truth(self) -> MirrorTruth:
+        """What the mirrors show at the pixels' centers by rays, whatever the methods that draw them. Raises as
+        `surfaces`.
+        """
+        shown = tuple(ShownRays(one.mirror, replace(one.settings, method="exact")) for one in self.reflection.shown)
+        ways = self._read(replace(self.reflection, shown=shown), read_all_ways)
+        instances = {one.mirror.number: one.mirror.index for one in shown}
+        return MirrorTruth(self._scene, points_of_ways(self._scene, self.view, ways, instances))
 
     def color(self) -> Float32Array:
         """(h, w, 4) scene-linear picture, anti-aliased."""
@@ -135,3 +153,13 @@ def read_surfaces(reflection: Reflection, sub_frame: SubFrame) -> dict[str, Floa
             # (Without an object it is a direction.)
             arrays[name][..., :3] += np.where(arrays[name][..., 3:] > 0.0, reflection.origin, 0.0)
     return arrays
+
+
+def read_all_ways(reflection: Reflection, sub_frame: SubFrame) -> dict[str, Any]:
+    """As `read_ways`, of all mirrors, world space; nothing where there is none."""
+    members = [shown for shown in reflection.shown if isinstance(shown, ShownRays)]
+    if not members:
+        return {}
+    ways = read_ways(members, sub_frame)
+    ways["seen_position"][..., :3] += reflection.origin
+    return ways

@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 
 from ..pacing.pieces import outcome, unpaced
-from ..scene.arrays import Float32Array, Float64Array, SceneArrays
+from ..scene.arrays import Float64Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
 from .appearance import LIGHT_SECONDS, Appearance
@@ -22,7 +22,7 @@ from .device.context import require_gpu
 from .diagnostic_light import DiagnosticLight
 from .environments.cube import EnvironmentCube
 from .exposure import expose, through_lens
-from .frame import Frame, read_surfaces
+from .frame import Frame, ReadBack, read_surfaces
 from .geometry.placed_instances import Difference
 from .geometry.scene_geometry import SceneGeometry
 from .mirrors.mirror import Mirror, mirrors_of
@@ -212,8 +212,8 @@ class Renderer:
         spans = {"solve": solved - start, "draw": done - solved, "frame": done - start}
         times = {"bake": baked + self.hierarchies.build_ms, **{name: 1e3 * span for name, span in spans.items()}}
         times["light"] = self._appearance.indirect.prepare_ms
-        surfaces = partial(self._surfaces_while, self.revision, reflection)
-        return Frame(reflection, canvas.texture, times, surfaces, convergence, self.bounced_light)
+        read = partial(self._read_while, self.revision)
+        return Frame(reflection, canvas.texture, times, read, self._given, convergence, self.bounced_light)
 
     def reflect(
         self,
@@ -336,12 +336,12 @@ class Renderer:
         """See `IndirectLight.state`."""
         return self._appearance.indirect.state
 
-    def _surfaces_while(self, revision: int, reflection: Reflection) -> dict[str, Float32Array]:
+    def _read_while(self, revision: int, reflection: Reflection, read: ReadBack) -> dict[str, Any]:
         if revision != self.revision:
             raise RuntimeError("The renderer shows another state of the scene by now: read the surfaces before.")
-        return self.surfaces_of(reflection)
+        return self.surfaces_of(reflection, read)
 
-    def surfaces_of(self, reflection: Reflection) -> dict[str, Float32Array]:
+    def surfaces_of(self, reflection: Reflection, read: ReadBack = read_surfaces) -> dict[str, Any]:
         """Surface buffers through the pixel centers, read back (see `Frame`)."""
         self._move_to(reflection.origin)
-        return read_surfaces(reflection, draw_seen(self._stage, self._targets, reflection, self.settings))
+        return read(reflection, draw_seen(self._stage, self._targets, reflection, self.settings))

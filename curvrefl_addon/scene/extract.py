@@ -74,6 +74,8 @@ class SceneReader:
     """Reads one scene, one view layer."""
 
     def __init__(self) -> None:
+        self.reads_uv = False
+        """All UV maps that renders use are read, not only those that something is drawn by"""
         self.counters = {"walks": 0, "objects read": 0, "worlds read": 0}
         self._images = ImageReader()
         self._program_images = ProgramImages()
@@ -261,7 +263,7 @@ class SceneReader:
         warnings: list[Remark | str] = [remark for slot in slots for remark in slot.remarks_as(is_mirror)]
         found = (self._materials.materials[slot.index].program for slot in slots)
         programs = tuple(program for program in found if program is not None)
-        needs = needs_of(obj, slots, programs, is_mirror, warnings)
+        needs = needs_of(obj, slots, programs, is_mirror or self.reads_uv, warnings)
         is_mirrored = instance.matrix_world.determinant() < 0.0
         stored = self._meshes.read(hair or obj, parent or uid_of_part(uid), needs, is_mirrored)
         warnings += stored.remarks

@@ -215,10 +215,10 @@ def needs_of(
     obj: bpy.types.Object,
     slots: Sequence[ReadMaterial],
     programs: Sequence[Program],
-    is_mirror: bool,
+    with_uv: bool,
     warnings: list[Remark | str],
 ) -> MeshNeeds:
-    """What programs of its materials read, and of a mirror the UV map, which methods search in."""
+    """What programs of its materials read, and `with_uv` the UV map that renders use."""
     # (Hair and points have none.)
     layers = obj.data.uv_layers if isinstance(obj.data, bpy.types.Mesh) else ()
     deforms = any(modifier.type in DEFORMING for modifier in obj.original.modifiers)
@@ -231,7 +231,7 @@ def needs_of(
     if Attribute(UV, UV_MAP) in attributes and UV_MAP not in (layer.name for layer in layers):
         warnings.append(Remark(NO_UV_MAP, "object", obj.name))
     return MeshNeeds(
-        "" if is_mirror and len(layers) else None,
+        "" if with_uv and len(layers) else None,
         hidden if any(hidden) else (),
         tuple(sorted(attributes)),
     )

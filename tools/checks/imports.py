@@ -34,6 +34,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.tracing",),
     ("renderer.environments",),
     ("renderer.shown",),
+    ("renderer.truth",),
     ("renderer",),
     ("renderer.proofs",),
     ("renderer.measured",),

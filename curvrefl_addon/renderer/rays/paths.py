@@ -49,10 +49,10 @@ class PathBuffer(SurfaceBuffer):
         """xyz where the ray set out to what it has met last, how many surfaces it has met; made for what goes on at
         once"""
         self._mask = frame_buffer(depth=self.depth)
-        self._hits: Any = None
-        """What was hit, for programs of materials (`ray_surface.glsl`); made where there are some"""
-        self._frame_buffers: dict[tuple[bool, bool], Any] = {}
-        """With direction and throughput, or with `before` and throughput, or without"""
+        self.hits: Any = None
+        """What was hit (`packed_hit` in `ray_surface.glsl`); made for programs of materials, and where it is kept"""
+        self._frame_buffers: dict[tuple[bool, bool, bool], Any] = {}
+        """With hits or without; with direction and throughput, or with `before` and throughput, or without"""
         self._pass = MaterialPass(width, height)
 
     def follow(
@@ -68,6 +68,7 @@ class PathBuffer(SurfaceBuffer):
         chosen: Any = None,
         turn: tuple[int, int] = (0, 0),
         most_hits: int = 1,
+        keeps_hits: bool = False,
     ) -> None:
         """Follow the rays off the mirrors that `mirrors` sees, or where that is a PathBuffer off those that it has hit.
 
@@ -80,12 +81,12 @@ class PathBuffer(SurfaceBuffer):
         a PathBuffer. `with_counts`: `direction` gets what each ray was tested against in place of its direction: nodes,
         triangles, instances, and 1 where there is a ray. `chosen`: record texture by mirrors' numbers, 1 of those whose
         rays are followed; None is all. `enclosing`: the mirror in which all rays are, if any. `turn`: numbers of
-        the sub-frame and of the bounce.
+        the sub-frame and of the bounce. With `keeps_hits` there is `hits`, whatever the materials.
         """
         path = mirrors if isinstance(mirrors, PathBuffer) else None
-        if materials.has_programs and self._hits is None:
-            self._hits = empty_texture(self.width, self.height)
-            self._frame_buffers = {}
+        with_hits = materials.has_programs or keeps_hits
+        if with_hits and self.hits is None:
+            self.hits = empty_texture(self.width, self.height)
         if window[2] <= 0 or window[3] <= 0:
             return
         self._find_mirrors(mirrors, window, chosen)
@@ -93,14 +94,14 @@ class PathBuffer(SurfaceBuffer):
         at_once = most_hits > 1
         shader = _exact_shader(
             path is not None,
-            self._hits is not None,
+            with_hits,
             keeps_way,
             with_counts,
             materials.links,
             at_once,
             rays.escapes.are_known,
         )
-        with drawing_state("EQUAL"), self._frame_buffer_for(keeps_way, at_once).bind(), scissored(window):
+        with drawing_state("EQUAL"), self._frame_buffer_for(with_hits, keeps_way, at_once).bind(), scissored(window):
             set_viewport(0, 0, self.width, self.height)
             shader.bind()
             rays.bind(shader)
@@ -122,19 +123,19 @@ class PathBuffer(SurfaceBuffer):
         if materials.has_programs:
             followed = (self.depth, PATH_DEPTH)
             before = self.before if at_once else mirrors.position
-            hits = Hits(self.position, self.normal, self.color, self._hits, before, counts_hits=at_once)
+            hits = Hits(self.position, self.normal, self.color, self.hits, before, counts_hits=at_once)
             self._pass.draw(hits, self.made, followed, rays, materials, view_uniforms, window, turn)
 
-    def _frame_buffer_for(self, keeps_way: bool, at_once: bool) -> Any:
+    def _frame_buffer_for(self, with_hits: bool, keeps_way: bool, at_once: bool) -> Any:
         if at_once and self.before is None:
             self.before = empty_texture(self.width, self.height)
-        if (keeps_way, at_once) not in self._frame_buffers:
+        if (with_hits, keeps_way, at_once) not in self._frame_buffers:
             textures = [self.position, self.normal, self.color]
-            textures += [self._hits] if self._hits is not None else []
+            textures += [self.hits] if with_hits else []
             textures += [self.direction, self.throughput] if keeps_way else []
             textures += [self.before, self.throughput] if at_once else []
-            self._frame_buffers[keeps_way, at_once] = frame_buffer(*textures, depth=self.depth)
-        return self._frame_buffers[keeps_way, at_once]
+            self._frame_buffers[with_hits, keeps_way, at_once] = frame_buffer(*textures, depth=self.depth)
+        return self._frame_buffers[with_hits, keeps_way, at_once]
 
     def _find_mirrors(self, mirrors: SurfaceBuffer, window: Window, chosen: Any) -> None:
         on_path = isinstance(mirrors, PathBuffer)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays
 from ..device.record_regions import UNIT
@@ -54,3 +55,18 @@ def fill_records(
     records[:, 4, :3] = starts[:, :3]
     records[:, 5, 0] = [len(item.materials) for item in instances]
     records[:, 5, 1] = starts[:, 3]
+
+
+def places_hit(
+    hits: Float32Array, items: Sequence[MeshRays], index_of: Sequence[int]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Of `packed_hit` (n, 4) the index of the instance in the scene and of the triangle in its mesh, (n,) each.
+
+    `items`, and `index_of` in the scene: of the instances that rays know.
+    """
+    number, place = np.rint(hits[:, 0]).astype(np.int64), np.rint(hits[:, 1]).astype(np.int64)
+    triangle = np.empty(len(hits), np.int64)
+    for known in np.unique(number).tolist():
+        here, item = number == known, items[known]
+        triangle[here] = item.kept[item.hierarchy.order[place[here]]]
+    return np.asarray(index_of, np.int64)[number], triangle

@@ -14,10 +14,11 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...pacing.pieces import outcome
-from ...scene.arrays import LARGEST_COORDINATE, InstanceArrays, MeshArrays, SceneArrays
+from ...scene.arrays import LARGEST_COORDINATE, Float32Array, InstanceArrays, MeshArrays, SceneArrays
 from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.records import set_records
@@ -41,7 +42,7 @@ from .mesh_rays import (
     world_boxes,
 )
 from .mesh_trees import WORSE, Arrivals, Fresh, tree_steps
-from .ray_instances import INSTANCE_RECORDS, fill_records
+from .ray_instances import INSTANCE_RECORDS, fill_records, places_hit
 from .ray_records import (
     NODE_RECORDS,
     TRIANGLE_RECORDS,
@@ -212,6 +213,10 @@ class RayScene:
             return False
         item.leave(self.regions)
         return True
+
+    def known(self, hits: Float32Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Of `packed_hit` (n, 4) the index of the instance in the scene and of the triangle in its mesh, (n,) each."""
+        return places_hit(hits, self._items, list(self._place_of))
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
+import numpy as np
+
 from ...scene.arrays import Float32Array
 from ..device.textures import read_texture
 from ..rays.paths import IN_THE_OPEN, Bounce, Enclosing
@@ -70,6 +72,44 @@ class ShownRays(Shown):
         color = read_texture(path.color)
         color[..., 3] = read_texture(path.direction)[..., 3]
         return {"reflected_position": read_texture(path.position), "reflected_color": color}
+
+
+def read_ways(members: Sequence[ShownRays], sub_frame: SubFrame) -> dict[str, Any]:
+    """Where the rays off the mirrors get to through the pixels' centers.
+
+    Of mirrors' pixels alone, elsewhere undefined: `seen_position`, `seen_normal`, `seen_color`, and `shown_position`,
+    `shown_normal`, `shown_color` of the first surface that is met, (h, w, 4) as `SurfaceBuffer` and `PathBuffer` have
+    them; `hit` (h, w, 4), the index of its instance in the scene, of the triangle in its mesh, and the weights of the
+    second and third corner, float64; `way` (h, w), meters from the mirror over all further mirrors that are followed to
+    the first surface that is none, float64, infinite where that is the background.
+    """
+    seen = sub_frame.targets.seen
+    found: dict[str, Any] = {
+        f"seen_{name}": read_texture(getattr(seen, name)) for name in ("position", "normal", "color")
+    }
+    numbers = [shown.mirror.number for shown in members]
+    goes_on = np.isin(np.rint(found["seen_color"][..., 3]), numbers)
+    place = found["seen_position"][..., :3].astype(np.float64)
+    way = np.zeros(goes_on.shape)
+    most = _most_bounces(members, sub_frame)
+    for bounce in _bounces(members, sub_frame, most, keeps_ways=True, keeps_hits=True):
+        position, color = read_texture(bounce.path.position), read_texture(bounce.path.color)
+        if "hit" not in found:
+            found |= {"shown_position": position, "shown_color": color}
+            found["shown_normal"] = read_texture(bounce.path.normal)
+            found["hit"] = np.zeros((*goes_on.shape, 4))
+            is_met = goes_on & (position[..., 3] > 0.5)
+            packed = read_texture(bounce.path.hits)[is_met]
+            found["hit"][is_met] = np.column_stack([*sub_frame.stage.rays().known(packed), packed[:, 2:]])
+        is_met = goes_on & (position[..., 3] > 0.5)
+        way[goes_on & ~is_met] = np.inf
+        way[is_met] += np.linalg.norm(position[is_met][:, :3] - place[is_met], axis=1)
+        place[is_met] = position[is_met][:, :3]
+        goes_on = is_met & (color[..., 3] > 0.5)
+        if not goes_on.any():
+            break
+    found["way"] = way
+    return found
 
 
 def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame, light: Light) -> None:
@@ -185,12 +225,13 @@ def _bounces(
     keeps_ways: bool = False,
     chosen: Any = None,
     most_hits: int = 1,
+    keeps_hits: bool = False,
 ) -> Iterator[Bounce]:
     """What rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on.
 
     Each is drawn when it is asked for, into buffers that the next but one uses again. With `keeps_ways` the buffers
     tell all they can, also of the last step. `chosen`: see `Light`; `most_hits`: as for `PathBuffer.follow`, where
-    there is one bounce.
+    there is one bounce, as `keeps_hits`.
     """
     stage, targets, view = sub_frame.stage, sub_frame.targets, sub_frame.view
     seen: SurfaceBuffer = targets.seen
@@ -210,6 +251,7 @@ def _bounces(
             chosen=chosen if number == 0 else None,
             turn=(sub_frame.index, number + 1),
             most_hits=most_hits,
+            keeps_hits=keeps_hits,
         )
         yield Bounce(seen, path, window, goes_on, number >= _followed(members, sub_frame))
         seen = path

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -155,7 +154,7 @@ def test_edges_split_at_folds_show_more(name: str) -> None:
         shares = []
         for at_rest in (False, True):
             reflection = renderer.reflect(view, at_rest=at_rest)
-            frame = Frame(reflection, None, {}, partial(renderer.surfaces_of, reflection))
+            frame = Frame(reflection, None, {}, renderer.surfaces_of, trial.scene)
             shares.append(wrong_share(frame, trial.scene))
         (wrong, missing), (wrong_at_rest, missing_at_rest) = shares
         assert missing_at_rest < 0.95 * missing

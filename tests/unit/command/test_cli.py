@@ -58,7 +58,7 @@ def test_every_verb_has_help(verb: str, capfd: pytest.CaptureFixture[str]) -> No
         (["render", *FILE, "--output", "OUT/x.png", "--samples", "many"], "many"),
         (["render", *FILE, "--output", "OUT/x.png", "--frame", "1.5"], "1.5"),
         (["render", *FILE, "--output", "OUT/x.png", "--frame", "9999999"], "9999999"),
-        (["render", *FILE, "--output", "OUT/x.png", "--passes", "color,normal"], "normal"),
+        (["render", *FILE, "--output", "OUT/x.png", "--passes", "color,tangent"], "tangent"),
         (["render", *FILE, "--output", "OUT/x.png", "--passes", ","], "pass"),
         (["render", *FILE, "--output", "OUT/x.png", "--method", "magic"], "secant_star"),
         (["render", "x.blend", "--reflector", " , ", "--output", "OUT/x.png"], "reflector"),
