@@ -111,18 +111,21 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         if context.scene is None or context.mode != "OBJECT":
             cls.poll_message_set("Only in Object Mode")
             return False
-        if context.object is None:
-            cls.poll_message_set("Make a light or another object active")
-            return False
         return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
         if context.area is None or context.area.type != "VIEW_3D" or context.region_data is None:
             self.report({"ERROR"}, "Start it in a 3D viewport")
             return {"CANCELLED"}
-        assert context.object is not None and context.scene is not None
+        self._grab = np.zeros(2)
+        """Pixels from the mouse to the image that was picked: that goes with it, and does not jump"""
+        self._start = np.array((event.mouse_region_x, event.mouse_region_y), np.float64)
+        self._waits, self._has_picked = False, False
+        self._is_held = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
+        if self._is_held:
+            self._pick(context)
         try:
-            self._placing = Placing(context.object, context.scene)
+            self._placing = Placing(_active(context), _scene(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -130,10 +133,9 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         self._by: Line | None = None
         """The line of sight that it was placed by"""
         self._problem = ""
-        self._is_held = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
         context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set(HINTS)
-        if self._is_held:
+        if self._is_held and not self._waits:
             self._follow(context, event)
         return {"RUNNING_MODAL"}
 
@@ -159,11 +161,10 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         self._end(context)
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        item, scene = context.object, context.scene
-        assert item is not None and scene is not None
         depsgraph = context.evaluated_depsgraph_get()
         try:
-            placing = Placing(item, scene)
+            scene = _scene(context)
+            placing = Placing(_active(context), scene)
             placed = placing.place(depsgraph, scene, self._line(scene, depsgraph), self._ask())
         except InputError as error:
             self.report({"ERROR"}, str(error))
@@ -210,13 +211,39 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         """Place it by what is under the mouse; where that does not serve it stays, and the header says why."""
         from ..curvrefl_addon.viewport.region import view_of
 
-        line = Line.through(view_of(context), event.mouse_region_x + 0.5, event.mouse_region_y + 0.5)
-        self._place(context, line)
+        mouse = np.array((event.mouse_region_x, event.mouse_region_y), np.float64)
+        if self._waits and np.abs(mouse - self._start).max() < context.preferences.inputs.drag_threshold_mouse:
+            return
+        self._waits = False
+        x, y = mouse + 0.5 + self._grab
+        self._place(context, Line.through(view_of(context), x, y))
+
+    def _pick(self, context: bpy.types.Context) -> None:
+        """Take the light whose reflection is under the mouse, if there is one."""
+        from ..curvrefl_addon.design.lights.shown import path_at, picked
+        from ..curvrefl_addon.viewport import light_overlay
+        from ..curvrefl_addon.viewport.region import view_of
+
+        shown = () if context.region is None else light_overlay.shown_in(context.region)
+        if not shown:
+            return
+        depsgraph, pixel = context.evaluated_depsgraph_get(), self._start + 0.5
+        found = picked(shown, path_at(depsgraph, _scene(context), view_of(context), pixel), pixel)
+        item = None if found is None else context.view_layer.objects.get(found[0])
+        if found is None or item is None:
+            return
+        self._grab, self._waits = found[1] - pixel, True
+        if item != context.object:
+            self._has_picked = True
+            for other in context.selected_objects:
+                other.select_set(False)
+            item.select_set(True)
+            context.view_layer.objects.active = item
 
     def _place(self, context: bpy.types.Context, line: Line) -> None:
-        assert context.scene is not None and context.area is not None
+        assert context.area is not None
         try:
-            self._placed = self._placing.place(context.evaluated_depsgraph_get(), context.scene, line, self._ask())
+            self._placed = self._placing.place(context.evaluated_depsgraph_get(), _scene(context), line, self._ask())
         except InputError as error:
             self._problem = str(error)
             context.area.header_text_set(self._problem)
@@ -257,6 +284,9 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
 
     def _finish(self, context: bpy.types.Context) -> Any:
         self._end(context)
+        if self._placed is None and self._waits:
+            # A click on the reflection of a light takes that, and is a step of undo where it was another one.
+            return {"FINISHED"} if self._has_picked else {"CANCELLED"}
         if self._placed is None:
             self.report({"WARNING"}, self._problem)
             return {"CANCELLED"}
@@ -280,6 +310,18 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         context.workspace.status_text_set(None)
         if context.area is not None:
             context.area.header_text_set(None)
+
+
+def _active(context: bpy.types.Context) -> bpy.types.Object:
+    """Raises InputError for none."""
+    if context.object is None:
+        raise InputError("Make a light or another object active, or click the reflection of a light.")
+    return context.object
+
+
+def _scene(context: bpy.types.Context) -> bpy.types.Scene:
+    assert context.scene is not None
+    return context.scene
 
 
 def _limits(placed: Placed) -> str:

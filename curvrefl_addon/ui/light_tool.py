@@ -8,6 +8,8 @@ from typing import Any
 
 import bpy
 
+from ..viewport import light_overlay
+
 OPERATOR = "curvrefl.place_light"
 
 
@@ -16,11 +18,11 @@ class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
 
     bl_space_type = "VIEW_3D"
     bl_context_mode = "OBJECT"
-    bl_idname = "curvrefl.lights"
+    bl_idname = light_overlay.TOOL
     bl_label = "Lights by Reflection"
     bl_description = (
         "Drag on a mirror to move the active light or object to where it is seen under the cursor.\n"
-        "Ctrl-click selects objects"
+        "Click or drag the reflection of another light to take that. Ctrl-click selects objects"
     )
     bl_icon = "ops.generic.cursor"
     bl_cursor = "CROSSHAIR"
@@ -37,6 +39,8 @@ class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
         """In the tool settings: the operator's own."""
         draw_placing(layout, tool.operator_properties(OPERATOR))
+        if failure := light_overlay.failure():
+            layout.label(text=failure, icon="ERROR")
 
 
 def draw_placing(layout: Any, properties: Any) -> None:
@@ -58,8 +62,10 @@ CLASSES = ()
 def add() -> None:
     """Put the tool into the toolbar."""
     bpy.utils.register_tool(CURVREFL_WST_lights, after={"builtin.transform"}, separator=True)
+    light_overlay.add()
 
 
 def remove() -> None:
     """Take it out again."""
+    light_overlay.remove()
     bpy.utils.unregister_tool(CURVREFL_WST_lights)

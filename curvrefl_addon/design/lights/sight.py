@@ -99,6 +99,13 @@ class Sight:
         met = self._cast(origin, direction, is_reflected)
         return None if met is None else self._surface(met, origin, direction)
 
+    def glimpse(self, origin: Float64Array, direction: Float64Array, is_reflected: bool = False) -> tuple[str, float]:
+        """Name of what is met first, nothing for the background, and how far away, in single precision."""
+        met = self._cast(origin, direction, is_reflected)
+        if met is None:
+            return "", np.inf
+        return met.obj.original.name, float((np.array(met.place, np.float64) - origin) @ direction)
+
     def path(self, origin: Float64Array, direction: Float64Array) -> MirrorPath:
         """Over the mirrors that the line of sight meets one after the other, as many as are drawn.
 

@@ -78,6 +78,34 @@ def miss(place: tuple[int, int]) -> float:
     return float(np.linalg.norm(at - np.array(place) - 0.5))
 
 
+def pick(place: tuple[int, int]) -> Script:
+    """Another object is made active; a click on the lamp's reflection takes the lamp back, a drag takes it along."""
+    overlay = extension("curvrefl_addon.viewport.light_overlay")
+    _area, _space, region = view_3d()
+    seen["lights shown"] = [(light.name, light.centers.tolist()) for light in overlay.shown_in(region)]
+    seen["middle"] = [place[0] - region.x + 0.5, place[1] - region.y + 0.5]
+    bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
+    bpy.ops.ed.undo_push(message="Camera")
+    yield 0.5
+    before, beside = state(), (place[0] + 4, place[1] - 3)
+    event("MOUSEMOVE", "NOTHING", beside)
+    yield 0.2
+    event("LEFTMOUSE", "PRESS", beside)
+    yield 0.3
+    event("LEFTMOUSE", "RELEASE", beside)
+    yield lambda: not is_modal()
+    seen["picked"] = [bpy.context.object.name, state() == before]
+    event("LEFTMOUSE", "PRESS", beside)
+    yield is_modal
+    yield from done("MOUSEMOVE", "NOTHING", (beside[0] - 30, beside[1]))
+    seen["missed by, taken along"] = miss((place[0] - 30, place[1]))
+    event("ESC", "PRESS", beside)
+    yield lambda: not is_modal()
+    event("ESC", "RELEASE", beside)
+    event("LEFTMOUSE", "RELEASE", beside)
+    yield 0.3
+
+
 def script() -> Script:
     install(ARCHIVE)
     with in_view():
@@ -116,7 +144,13 @@ def script() -> Script:
     after = state()
     seen["moved"] = [before, dragged, after]
     yield rests
+    yield 0.5
     screenshot(Path(FOLDER) / "placed.png")
+    yield from pick(last)
+    bpy.ops.ed.undo()
+    yield 0.3
+    bpy.ops.ed.undo()
+    yield 0.3
     bpy.ops.ed.undo()
     yield 0.5
     seen["undone"] = state() == before

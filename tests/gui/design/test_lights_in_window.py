@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from window import InWindow, Session
 
@@ -37,3 +38,10 @@ def test_the_wheel_changes_distance_size_and_power(session: Session) -> None:
 def test_one_step_of_undo_and_escape_bring_it_back(session: Session) -> None:
     assert session.seen["undone"]
     assert session.seen["is away before escape"] and session.seen["back after escape"]
+
+
+def test_lights_are_shown_in_the_mirror_and_picked_there(session: Session) -> None:
+    shown = dict(session.seen["lights shown"])
+    assert np.linalg.norm(np.array(shown["Light"]) - session.seen["middle"], axis=1).min() < 0.5
+    assert session.seen["picked"] == ["Light", True]
+    assert session.seen["missed by, taken along"] < 0.5
