@@ -102,4 +102,13 @@ class ViewLayerSettings:
     use_pass_incidence: bool = _switch(
         "Incidence", "Angle in radians between the mirror's normal and the line of sight"
     )
+    use_pass_images: bool = _switch(
+        "Images",
+        "How many images of the same scene point the mirrors show, seen from here; seconds of search on the processor",
+    )
+    use_pass_vector: bool = _switch(
+        "Vector",
+        "Motion of what the mirrors show, in pixels: from here to the frame before (X, Y) and from the frame after to "
+        "here (Z, W); seconds of search on the processor",
+    )
     use_pass_mirror_id: bool = _switch("Mirror ID", "The number of the mirror's object, as the pass Object counts")

@@ -48,7 +48,7 @@ AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = (
     *("color", "position", "object", "iterations", "normal", "albedo", "depth", "distance", "path_length", "uv"),
-    *("incidence", "mirror_id"),
+    *("incidence", "images", "vector", "mirror_id"),
 )
 NUMBERED = {"object", "mirror_id"}
 """Passes with numbers of objects"""

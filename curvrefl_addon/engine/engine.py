@@ -104,7 +104,9 @@ class CurvreflEngine(bpy.types.RenderEngine):
         if camera is None:
             raise InputError(f'Scene "{depsgraph.scene.name}" has no camera: add one or make one active.')
         passes = passes_of(layer)
-        area, pixels = session.draw(depsgraph, camera.original, passes, job, self._before_sub_frame, self._go_to)
+        area, pixels = session.draw(
+            depsgraph, camera.original, passes, job, self._before_sub_frame, self._go_to, self._pause
+        )
         for item in passes:
             self.add_pass(item.name, len(item.channels), item.channels, layer=layer.name)
         result: Any = self.begin_result(0, 0, area.width, area.height, layer=layer.name)
@@ -127,6 +129,11 @@ class CurvreflEngine(bpy.types.RenderEngine):
         noise = f", {convergence.noise_said}" if convergence.noise_said else ""
         self.update_stats("", f"Sub-frame {convergence.done + 1} of {convergence.samples}{noise}")
         self.update_progress(convergence.done / convergence.samples)
+
+    def _pause(self) -> None:
+        if is_stopped(self):
+            raise RenderCanceledError
+        self.update_stats("", "Passes of mirrors")
 
     def _attempt(self, work: Any) -> None:
         """What goes wrong becomes a sentence: Blender would go on with an empty picture."""

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 COMBINED = "Combined"
 MIRROR = "Mirror"
 UV = "UV"
+VECTOR = "Vector"
+IMAGES = "Images"
+SLOW = {IMAGES, VECTOR}
+"""Passes that are searched for on the processor"""
 NUMBERED = ("Object", "Mirror ID")
 """Passes with numbers of objects"""
 
@@ -53,6 +57,8 @@ PASSES = (
     Pass("Path Length", "X", "VALUE", "use_pass_path_length", lambda frame: frame.truth.path_length()),
     Pass(UV, "UVA", "VECTOR", "use_pass_uv", lambda frame: frame.truth.uv()),
     Pass("Incidence", "X", "VALUE", "use_pass_incidence", lambda frame: frame.truth.incidence()),
+    Pass(IMAGES, "X", "VALUE", "use_pass_images", lambda frame: frame.truth.images()),
+    Pass(VECTOR, "XYZW", "VECTOR", "use_pass_vector", lambda frame: frame.truth.vector()),
     Pass("Mirror ID", "X", "VALUE", "use_pass_mirror_id", lambda frame: frame.truth.mirror_id()),
 )
 """In the order of a file's layers. Names and channels are Blender's own where it has such a pass"""

@@ -20,7 +20,7 @@ from ..renderer.settings import Settings
 from ..renderer.surfaces.canvas import Canvas
 from ..scene.arrays import Float32Array, SceneArrays
 from ..scene.camera.film import on_film
-from ..scene.camera.shutter import Moment, read_moments
+from ..scene.camera.shutter import Moment, ReadMoment, moments_at, read_moments
 from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
@@ -28,7 +28,7 @@ from ..scene.opened.blend_file import find_reflectors, view_of_camera
 from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
 from .job import Job
-from .passes import COMBINED, MIRROR, OF_MIRRORS, UV, Pass, passes_of
+from .passes import COMBINED, MIRROR, OF_MIRRORS, SLOW, UV, VECTOR, Pass, passes_of
 
 
 class RenderSession:
@@ -43,6 +43,8 @@ class RenderSession:
         self._settings = Settings()
         self._mirrors: list[bpy.types.Object] = []
         self._refused: list[str] = []
+        self._asked: set[str] = set()
+        """Names of passes, the job's among them"""
 
     def read(self, depsgraph: Any, job: Job | None) -> None:
         """The scene at the depsgraph's frame. Raises InputError for what a job names and cannot be a mirror."""
@@ -56,9 +58,9 @@ class RenderSession:
             there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
             mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
             job.missing -= {obj.name for obj in mirrors}
-        passes = passes_of(depsgraph.view_layer)
-        asked = () if job is None else [OF_MIRRORS[name] for name in job.passes]
-        self._reader.reads_uv = any(item.name == UV for item in (*passes, *asked))
+        of_job = () if job is None else [OF_MIRRORS[name] for name in job.passes]
+        self._asked = {item.name for item in (*passes_of(depsgraph.view_layer), *of_job)}
+        self._reader.reads_uv = UV in self._asked
         self._settings = replace(chosen, film_transparent=scene.render.film_transparent)
         while True:
             # All is read: what a new frame changes is not listed. What comes out as it was stays the same object.
@@ -83,18 +85,21 @@ class RenderSession:
         job: Job | None,
         before_sub_frame: Callable[[Convergence], None],
         go_to: Callable[[int, float], None],
+        pause: Callable[[], None],
     ) -> tuple[Area, dict[str, Float32Array]]:
         """The rendered area and its passes by name, Combined among them: (h, w, channels), row 0 at the bottom.
 
-        `before_sub_frame` gets how far the picture has come; `go_to(frame, subframe)` shows the
-        depsgraph at another time. Raises InputError for a camera that cannot
-        be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
+        `before_sub_frame` gets how far the picture has come; `go_to(frame, subframe)` shows the depsgraph at another
+        time; `pause` is called while passes are made. What they raise ends it. Raises InputError for a camera that
+        cannot be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
         """
         assert self._arrays is not None
         scene = depsgraph.scene
         area = area_of(scene.render)
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
-        moments, untold = self._moments(depsgraph, camera, area, view, go_to)
+        read_now = self._reading(depsgraph, camera, area)
+        still, samples = Moment(self._arrays, view), self._settings.samples
+        moments, untold = read_moments(scene, still, samples, read_now, go_to)
         renderer = self._up_to_date(self._arrays)
         alone = Canvas.of_size(view.width, view.height) if any(item.name == MIRROR for item in passes) else None
         frame = renderer.render(
@@ -103,19 +108,24 @@ class RenderSession:
             mirrors_alone=alone,
             before_sub_frame=before_sub_frame,
         )
+        if not self._asked.isdisjoint(SLOW):
+            frame.truth.pause = pause
+        if VECTOR in self._asked:
+            frame.truth.beside = _beside(scene, read_now, go_to)
         result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
         for item in passes:
             if item.read is not None:
                 result[item.name] = item.pixels(frame)
             elif alone is not None:
                 result[item.name] = on_film(alone.pixels(), depsgraph.scene_eval)
-        # (Of one that is left out as well the scene's own sentence is enough.)
-        refused = [one for one in self._refused if not _is_said(one, frame.warnings)]
-        self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings, *untold)
         if job is not None:
             job.convergence = frame.convergence
         if job is not None and not job.object_names:
             self._tell(job, frame, area)
+        # (Of one that is left out as well the scene's own sentence is enough.)
+        refused = [one for one in self._refused if not _is_said(one, frame.warnings)]
+        remarks = () if self._asked.isdisjoint(SLOW) else dict.fromkeys(frame.truth.remarks)
+        self.warnings = (*refused, *self._without_mirrors(frame), *frame.warnings, *untold, *remarks)
         return area, result
 
     @property
@@ -130,16 +140,8 @@ class RenderSession:
             self._renderer.free()
             self._renderer = None
 
-    def _moments(
-        self,
-        depsgraph: Any,
-        camera: bpy.types.Object,
-        area: Area,
-        view: View,
-        go_to: Callable[[int, float], None],
-    ) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
-        """What each sub-frame shows where there is motion blur, and what of it is not told."""
-        assert self._arrays is not None
+    def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area) -> ReadMoment:
+        """Reads what the depsgraph shows at its present time."""
         scene = depsgraph.scene
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
@@ -147,7 +149,7 @@ class RenderSession:
             arrays = self._reader.read(depsgraph, depsgraph.scene_eval, self._mirrors, changes, overrides)
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
-        return read_moments(scene, Moment(self._arrays, view), self._settings.samples, read_now, go_to)
+        return read_now
 
     def _up_to_date(self, arrays: SceneArrays) -> Renderer:
         require_gpu()
@@ -175,6 +177,19 @@ class RenderSession:
         if not job.multilayer:
             job.arrays = {name: area.uncropped(OF_MIRRORS[name].pixels(frame)) for name in job.passes}
         job.object_names = self.object_names
+
+
+def _beside(
+    scene: bpy.types.Scene, read_now: ReadMoment, go_to: Callable[[int, float], None]
+) -> tuple[Moment | None, Moment | None]:
+    """The frames before and after the present one; None where it cannot be read, as its mirrors cannot be ones."""
+    found: list[Moment | None] = []
+    for time in (-1.0, 1.0):
+        try:
+            found += moments_at(scene, (time,), read_now, go_to)
+        except InputError:
+            found.append(None)
+    return found[0], found[1]
 
 
 def _is_said(refusal: str, warnings: Sequence[str]) -> bool:

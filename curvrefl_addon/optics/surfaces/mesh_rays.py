@@ -31,6 +31,8 @@ class Hits:
     """(n,) -1 where nothing is hit"""
     normal: Float64Array
     """(n, 3) unit shading normal there; NaN where nothing is hit"""
+    weights: Float64Array
+    """(n, 3) of the triangle's corners"""
 
 
 class MeshRays:
@@ -45,13 +47,9 @@ class MeshRays:
             corners[:, 1] - corners[:, 0],
             corners[:, 2] - corners[:, 0],
         )
-        # A full binary tree over triangles in the order of halvings along the longest axis; all leaves at one depth.
-        depth = max(int(np.ceil(np.log2(max(len(triangles), 1) / LEAF))), 0)
-        self._first_leaf = (1 << depth) - 1
-        middle = corners.mean(axis=1)
-        groups = [np.arange(len(triangles))]
-        for _ in range(depth):
-            groups = [half for group in groups for half in _halves(group, middle)]
+        # A full binary tree over triangles; all leaves at one depth.
+        groups = halved(corners.mean(axis=1), LEAF)
+        self._first_leaf = len(groups) - 1
         self._leaves = np.full((len(groups), LEAF), -1)
         for number, group in enumerate(groups):
             self._leaves[number, : len(group)] = group
@@ -88,7 +86,7 @@ class MeshRays:
         shares = np.column_stack([1.0 - weights.sum(axis=1), weights])
         normal = unit(np.einsum("nk,nkj->nj", shares, corner_normals))
         normal[triangle < 0] = np.nan
-        return Hits(distance, triangle, normal)
+        return Hits(distance, triangle, normal, shares)
 
     def _meet(
         self,
@@ -139,6 +137,16 @@ def reflected_miss(mesh: MeshRays, eye: Float64Array, points: Float64Array, vert
     way = unit(vertices - place)
     angle = np.arctan2(np.linalg.norm(np.cross(ray, way), axis=1), np.einsum("ij,ij->i", ray, way))
     return np.where(met, angle, np.inf)
+
+
+def halved(middle: Float64Array, most: int) -> list[NDArray[np.int64]]:
+    """Things with these middles (n, 3) in groups of `most` at most, a power of two of them, by halving them along the
+    longest axis again and again: the leaves of a full tree from left to right."""
+    depth = max(int(np.ceil(np.log2(max(len(middle), 1) / most))), 0)
+    groups = [np.arange(len(middle))]
+    for _ in range(depth):
+        groups = [half for group in groups for half in _halves(group, middle)]
+    return groups
 
 
 def _halves(group: NDArray[np.int64], middle: Float64Array) -> list[NDArray[np.int64]]:

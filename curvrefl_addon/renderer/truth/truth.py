@@ -7,13 +7,22 @@ A mirror that is seen in a mirror counts as the point of it that is hit; the len
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ...scene.arrays import Float32Array, Float64Array, SceneArrays
+from ...scene.camera.shutter import Moment
+from .images import image_counts
+from .motion import places_then
 from .shown_points import ShownPoints
 
 FAR_AWAY = 1e10
 """Distance of the background, as in Blender's own pass Depth"""
+
+
+def _go_on() -> None:
+    """Nothing asks for a pause."""
 
 
 class MirrorTruth:
@@ -21,6 +30,12 @@ class MirrorTruth:
 
     def __init__(self, scene: SceneArrays, points: ShownPoints) -> None:
         self.scene, self.points = scene, points
+        self.beside: tuple[Moment | None, Moment | None] = (None, None)
+        """The frames before and after, for `vector`"""
+        self.pause: Callable[[], None] = _go_on
+        """Called between slices of what takes long; what it raises ends it"""
+        self.remarks: list[str] = []
+        """What the pictures made so far do not show, one sentence each"""
 
     def picture(self, values: Float64Array) -> Float32Array:
         """(h, w, ...) of values (n, ...) of the points."""
@@ -72,6 +87,39 @@ class MirrorTruth:
         """(h, w) number of the mirror's object, as the pass Object counts."""
         numbers = np.array([instance.object_id for instance in self.scene.instances], np.float64)
         return self.picture(numbers[self.points.mirror])
+
+    def images(self) -> Float32Array:
+        """(h, w) images of the scene point that the mirrors show at once: see `images.image_counts`."""
+        self._leave_out_bumps("Images")
+        return self.picture(image_counts(self.scene, self.points, self.pause).astype(np.float64))
+
+    def vector(self) -> Float32Array:
+        """(h, w, 4) pixels from where the mirror shows the same scene point now to where it did in the frame before,
+        and from where it will in the frame after to now, right and up, as Blender's own pass; 0 where it does not.
+        """
+        self._leave_out_bumps("Vector")
+        values = np.zeros((len(self.points.pixel), 4))
+        width = self.points.view.width
+        here = np.column_stack([self.points.pixel % width, self.points.pixel // width]) + 0.5
+        for number, (moment, sign, said) in enumerate(zip(self.beside, (1.0, -1.0), ("before", "after"), strict=True)):
+            if moment is None:
+                self.remarks.append(f"The frame {said} cannot be read: Vector is 0 towards it.")
+                continue
+            there, known = places_then(self.scene, self.points, moment.scene, moment.view, self.pause)
+            values[known, 2 * number : 2 * number + 2] = sign * (there - here)[known]
+            if not known.all():
+                self.remarks.append(
+                    f"In {np.count_nonzero(~known)} pixels the mirror does not show the same in the frame {said}: "
+                    "Vector is 0 there."
+                )
+        return self.picture(values)
+
+    def _leave_out_bumps(self, name: str) -> None:
+        """Say of which mirrors reflection points are those of the smooth surface."""
+        for number in np.unique(self.points.mirror).tolist():
+            item = self.scene.instances[number]
+            if any(self.scene.materials[index].varies("normal") for index in item.materials):
+                self.remarks.append(f'{name} leaves out the bumps of mirror "{item.object_name}".')
 
     def _towards_eye(self) -> Float64Array:
         """(n, 3) unit."""

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import floor
 from operator import is_
@@ -65,7 +65,22 @@ def read_moments(
         return (), ()
     if samples == 1:
         return (), ("Motion blur is left out: it takes more than one sample.",)
-    times = shutter_times(scene, samples)
+    read_there = moments_at(scene, shutter_times(scene, samples), read, go_to)
+    lights, world = still.scene.lights, still.scene.world
+    found = tuple(Moment(replace(one.scene, lights=lights, world=world), one.view) for one in read_there)
+    if all(_is_same(moment, still) for moment in found):
+        return (), ()
+    return found, tuple(_untold(scene, still, found))
+
+
+def moments_at(
+    scene: bpy.types.Scene,
+    times: Sequence[float] | Float64Array,
+    read: ReadMoment,
+    go_to: Callable[[int, float], None] | None = None,
+) -> list[Moment]:
+    """Places and shapes so many frames after the present one, which is shown again at the end. `go_to`: as for
+    `read_moments`."""
     now = scene.frame_current + scene.frame_subframe
     go_to = go_to or (lambda frame, subframe: scene.frame_set(frame, subframe=subframe))
     moments: dict[int, Moment] = {}
@@ -73,15 +88,10 @@ def read_moments(
         for index in np.argsort(times).tolist():
             frame = floor(now + times[index])
             go_to(frame, float(now + times[index] - frame))
-            arrays, view = read(_all_that_moves())
-            arrays = replace(arrays, lights=still.scene.lights, world=still.scene.world)
-            moments[index] = Moment(arrays, view)
+            moments[index] = Moment(*read(_all_that_moves()))
     finally:
         go_to(floor(now), float(now - floor(now)))
-    found = tuple(moments[index] for index in range(samples))
-    if all(_is_same(moment, still) for moment in found):
-        return (), ()
-    return found, tuple(_untold(scene, still, found))
+    return [moments[index] for index in range(len(times))]
 
 
 def _all_that_moves() -> Changes:

@@ -102,3 +102,26 @@ def test_a_pass_that_is_not_asked_for_is_not_made(tmp_path: Path, monkeypatch: p
     parts = open_image_io().ImageBuf(str(tmp_path / "plain.exr"), 0, 0).spec().extra_attribs
     told = {item.name: item.value for item in parts}
     assert json.loads(told[f"curvrefl.{bpy.context.view_layer.name}.objects"])
+
+
+def test_vectors_are_of_the_frames_before_and_after(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The block goes to the right, faster later; the ball shows it smaller, on its right side, going the same way."""
+    file, output = saved(tmp_path), tmp_path / "moving.exr"
+    block = bpy.data.objects[BLOCK]
+    for frame, place in ((4, 1.8), (5, 2.0), (6, 2.4)):
+        block.location.x = place
+        block.keyframe_insert("location", frame=frame)
+    bpy.ops.wm.save_as_mainfile(filepath=str(file), check_existing=False)
+    given = ("--reflector", BALL, "--frame", "5", "--passes", "vector,object,images", "--samples", "1", "--multilayer")
+    assert cli.main(["render", str(file), *given, "--output", str(output)]) == 0
+    assert bpy.context.scene.frame_current == 5
+    found = {name.partition(".")[2]: values for name, values in channels(output).items()}
+    shows_block = found["Object.X"] == 2
+    assert shows_block.sum() > 5
+    before, after = found["Vector.X"][shows_block], found["Vector.Z"][shows_block]
+    # As Cycles has it: before less now, now less after. (What goes along its own reflected ray stands still.)
+    assert np.median(before) < -0.1 and before.max() < 0.05 and after.max() < 0.05
+    assert after.min() < before.min() < -0.2, "it goes faster later"
+    assert np.abs(found["Vector.X"][~shows_block]).max() < 1e-3, "all else stands still"
+    np.testing.assert_array_equal(found["Images.X"][shows_block], 1.0)
+    assert "Vector" not in capsys.readouterr().err
