@@ -171,6 +171,7 @@ class Settings:
         label="Caustics",
         text="Show what lamps throw over mirrors and through glass, whether the file's own renders have it or not",
         panel="Quality",
+        preference=True,
         flags=(Flag("render", "--caustics", "show what lamps throw over mirrors and through glass"),),
     )
     caustic_patches: int = setting(
@@ -178,7 +179,10 @@ class Settings:
         label="Caustic Patches",
         text="Pieces of mirrors and glass whose light is followed to where it lands; more for finer caustics",
         hard=(256, 4194304),
+        soft=(4096, 1048576),
+        unit="patches",
         panel="Quality",
+        preference=True,
         flags=(Flag("render", "--caustic-patches", "of mirrors and glass whose light is followed"),),
         said="{} patches are",
     )
