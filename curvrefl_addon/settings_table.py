@@ -37,10 +37,8 @@ _SHADOW_RAYS = "shadow what rays hit by rays, not by depth maps (exact)"
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """What a renderer is asked for; `renderer.settings.check_settings` says whether it can do that.
-
-    Where settings have a panel they are properties of `Scene.curvrefl` too.
-    """
+    """What a renderer is asked for (`renderer.settings.check_settings`: whether it can do that). Where settings have a
+    panel they are properties of `Scene.curvrefl` too."""
 
     method: str = setting(
         "secant_star",
@@ -168,7 +166,26 @@ class Settings:
         "time of another walk for each lamp",
         flags=(Flag("render", "--shadow-rays", _SHADOW_RAYS), Flag("compare", "--shadow-rays", _SHADOW_RAYS)),
     )
-
+    caustics: bool = setting(
+        False,
+        label="Caustics",
+        text="Show what lamps throw over mirrors and through glass, whether the file's own renders have it or not",
+        panel="Quality",
+        preference=True,
+        flags=(Flag("render", "--caustics", "show what lamps throw over mirrors and through glass"),),
+    )
+    caustic_patches: int = setting(
+        65536,
+        label="Caustic Patches",
+        text="Pieces of mirrors and glass whose light is followed to where it lands; more for finer caustics",
+        hard=(256, 4194304),
+        soft=(4096, 1048576),
+        unit="patches",
+        panel="Quality",
+        preference=True,
+        flags=(Flag("render", "--caustic-patches", "of mirrors and glass whose light is followed"),),
+        said="{} patches are",
+    )
     film_transparent: bool = setting(
         False,
         label="Transparent Film",
@@ -245,26 +262,13 @@ class ObjectSettings:
         panel="Mirror",
     )
     fresnel: str = setting(
-        "METAL",
-        label="Fresnel",
-        text="How much is reflected at which angle",
-        choices=FRESNEL_CHOICES,
-        panel="Mirror",
+        "METAL", label="Fresnel", text="How much is reflected at which angle", choices=FRESNEL_CHOICES, panel="Mirror"
     )
     tint: tuple[float, float, float] = setting(
-        (1.0, 1.0, 1.0),
-        label="Tint",
-        text="Color of the reflection",
-        hard=(0.0, 1.0),
-        unit="color",
-        panel="Mirror",
+        (1.0, 1.0, 1.0), label="Tint", text="Color of the reflection", hard=(0.0, 1.0), unit="color", panel="Mirror"
     )
     ior: float = setting(
-        1.5,
-        label="IOR",
-        text="Index of refraction: 1.5 is glass or varnish",
-        hard=(1.0, 4.0),
-        panel="Mirror",
+        1.5, label="IOR", text="Index of refraction: 1.5 is glass or varnish", hard=(1.0, 4.0), panel="Mirror"
     )
 
 

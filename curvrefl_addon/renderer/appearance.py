@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any
 
 from ..optics.catalog import Method
 from ..scene.arrays import SceneArrays
+from .caustics.caustics import Caustics, Thrower
 from .geometry.placed_instances import Difference
 from .geometry.scene_geometry import SceneGeometry
 from .indirect.indirect import IndirectLight, Means
@@ -18,6 +19,7 @@ from .mirrors.mirror import Mirror
 from .paths.features import same_for_paths
 from .paths.left_out import PathNeeds
 from .rays.ray_scene import RayScene
+from .settings import Settings
 from .shading.shade import ShadePass
 from .shown.shown import Stage
 from .surfaces.materials import Materials
@@ -35,24 +37,28 @@ class Appearance:
         self,
         scene: SceneArrays,
         geometry: SceneGeometry,
-        mirrors: Iterable[int],
-        samples: int,
+        mirrors: Mapping[int, int],
+        settings: Settings,
         image_memory: int,
         is_gradual: bool,
     ) -> None:
-        """`mirrors`: indices of their instances; others as of the renderer."""
-        self._scene, self._geometry = scene, geometry
+        """`mirrors`: numbers by the indices of their instances; others as of the renderer."""
+        self._scene, self._geometry, self._settings = scene, geometry, settings
+        self._mirrors = dict(mirrors)
         self.materials = Materials(scene, image_memory, is_gradual, geometry)
-        self.lighting = Lighting(scene, geometry, self.materials, samples)
+        self.lighting = Lighting(scene, geometry, self.materials, settings.samples)
         self.shade = ShadePass(scene, self.lighting, self.materials)
         self.indirect = IndirectLight(scene, geometry)
+        self.indirect.leave_caustics(settings.caustics)
+        self.caustics = Caustics(scene, settings, geometry.facts)
         self.tracer: PathTracer | None = None
         """Where rays do not only go from sharp mirror to sharp mirror"""
         self._follow_paths(mirrors)
 
-    def follow(self, scene: SceneArrays, difference: Difference, mirrors: Iterable[int]) -> None:
+    def follow(self, scene: SceneArrays, difference: Difference, mirrors: Mapping[int, int]) -> None:
         """Know another state of the scene, whose geometry the `difference` has changed."""
         before, self._scene = self._scene, scene
+        self._mirrors = dict(mirrors)
         if scene.materials is not before.materials or scene.images is not before.images:
             self.materials.follow(scene)
         elif difference.elsewhere or difference.structure or scene.origin != before.origin:
@@ -60,21 +66,41 @@ class Appearance:
         self.lighting.follow(scene, difference)
         self.shade.follow(scene)
         self.indirect.follow(scene, difference)
+        self.caustics.follow(scene)
+        self._use_light()
         if difference.structure or not same_for_paths(before, scene):
             self._follow_paths(mirrors)
         elif difference.elsewhere and self.tracer is not None:
             self.tracer.move(scene)
 
-    def light_surfaces(self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None) -> bool:
-        """Find the light between surfaces, as far as that is not known: all, or for so long; returns whether pictures
-        are others by it."""
-        if self.indirect.is_settled:
-            return False
+    def light_surfaces(
+        self, rays: Callable[[], RayScene], view_uniforms: Any, seconds: float | None = None, sub_frame: int = 0
+    ) -> bool:
+        """Find the light between surfaces and the caustics of a sub-frame, as far as they are not known: all, or for so
+        long those of any; returns whether pictures are others by it."""
         means = Means(rays, self.materials, self.lighting, view_uniforms)
-        is_changed = self.indirect.prepare(means) if seconds is None else self.indirect.advance(means, seconds)
+        is_changed = False
+        if not self.indirect.is_settled:
+            is_changed = self.indirect.prepare(means) if seconds is None else self.indirect.advance(means, seconds)
+        elif seconds is not None and not self.caustics.is_settled:
+            is_changed = self.caustics.advance(Thrower(means, self._mirrors, self.tracer), seconds)
+        if seconds is None and self._settings.caustics:
+            is_changed |= self.caustics.prepare(Thrower(means, self._mirrors, self.tracer), sub_frame)
         if is_changed:
-            self.lighting.use(self.indirect.irradiance)
+            self._use_light()
         return is_changed
+
+    def configure(self, settings: Settings) -> None:
+        """For pictures by other settings."""
+        before, self._settings = self._settings, settings
+        if settings.samples != before.samples:
+            self._resample(settings.samples)
+        self.caustics.configure(settings)
+        self.indirect.leave_caustics(settings.caustics)
+        self._use_light()
+
+    def _use_light(self) -> None:
+        self.lighting.use(self.indirect.irradiance, self.caustics if self.caustics.is_thrown else None)
 
     def stage(self, mirrors: Sequence[Mirror], rays: Callable[[], RayScene]) -> Stage:
         """With the scene's mirrors, and what makes its rays when first asked."""
@@ -94,7 +120,15 @@ class Appearance:
         """What is not there yet, for a panel; `is_drawn`: light can be looked for."""
         if self.materials.is_loading:
             return MATERIALS
-        return "light between surfaces" if is_drawn and not self.indirect.is_settled else ""
+        if is_drawn and not self.indirect.is_settled:
+            return "light between surfaces"
+        return "caustics" if is_drawn and not self.caustics.is_settled else ""
+
+    @property
+    def light_state(self) -> str:
+        """Of light that comes from other surfaces, for a panel or a report."""
+        thrown = f"; caustics of lamps: {self.caustics.state}" if self._settings.caustics else ""
+        return f"{self.indirect.state}{thrown}"
 
     @property
     def ingredients(self) -> tuple[Hashable, ...]:
@@ -102,12 +136,11 @@ class Appearance:
         programs = tuple(self.materials.programs.admitted) if self.materials.has_programs else ()
         return (self.lighting.features, programs, self.needs.features, self.indirect.is_gathered)
 
-    def resample(self, samples: int) -> None:
-        """For pictures of so many sub-frames."""
+    def _resample(self, samples: int) -> None:
         self.lighting.free()
         self.lighting = Lighting(self._scene, self._geometry, self.materials, samples)
         self.shade = ShadePass(self._scene, self.lighting, self.materials)
-        self.lighting.use(self.indirect.irradiance)
+        self._use_light()
         self.indirect.restart()
         self.tracer = self._new_tracer()
 
@@ -126,7 +159,7 @@ class Appearance:
         self.lighting.free()
         self.tracer = None
 
-    def _follow_paths(self, mirrors: Iterable[int]) -> None:
+    def _follow_paths(self, mirrors: Mapping[int, int]) -> None:
         """Of what the scene is made has changed, beside places."""
         self.needs = PathNeeds(self._scene, mirrors)
         if self.tracer is not None and self.tracer.features == self.needs.features:

@@ -96,9 +96,7 @@ class Renderer:
         for _ in self._following_scene(self._placement.placed(scene)):
             yield "meshes"
         yield "lights and materials"
-        self._appearance = Appearance(
-            self.scene, self.geometry, self._numbers, self.settings.samples, image_memory, is_gradual
-        )
+        self._appearance = Appearance(self.scene, self.geometry, self._numbers, self.settings, image_memory, is_gradual)
 
     def update(self, scene: SceneArrays) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
@@ -127,9 +125,9 @@ class Renderer:
         check_settings(settings)
         self._require(self.mirrors, settings)
         before, self.settings = self.settings, settings
+        self._appearance.configure(settings)
         if settings.samples != before.samples:
             self._jitter = offsets(settings.samples)
-            self._appearance.resample(settings.samples)
             self._preparation.forget_cubes()
         if settings.environment_resolution != before.environment_resolution:
             self._preparation.forget_cubes()
@@ -270,7 +268,7 @@ class Renderer:
         view = reflection.view.jittered(-dx, -dy)
         window = union([mirror.window(view) for mirror in self.mirrors]) if mirrors_only else None
         if diagnostic is None and not self.is_gradual:
-            self._find_light()
+            self._find_light(sub_frame=index)
         jittered = replace(reflection, view=view)
         everywhere = diagnostic is not None
         sub_frame = draw_seen(self._stage, self._targets, jittered, self.settings, window, everywhere, index)
@@ -324,17 +322,17 @@ class Renderer:
             is_changed |= self._find_light(LIGHT_SECONDS)
         self.revision += is_changed
 
-    def _find_light(self, seconds: float | None = None) -> bool:
-        """Between surfaces: see `Appearance.light_surfaces`."""
-        if not self._appearance.light_surfaces(self.rays, self._view_uniforms, seconds):
+    def _find_light(self, seconds: float | None = None, sub_frame: int = 0) -> bool:
+        """Between surfaces, and caustics: see `Appearance.light_surfaces`."""
+        if not self._appearance.light_surfaces(self.rays, self._view_uniforms, seconds, sub_frame):
             return False
         self._preparation.forget_cubes()
         return True
 
     @property
     def bounced_light(self) -> str:
-        """See `IndirectLight.state`."""
-        return self._appearance.indirect.state
+        """See `Appearance.light_state`."""
+        return self._appearance.light_state
 
     def _read_while(self, revision: int, reflection: Reflection, read: ReadBack) -> dict[str, Any]:
         if revision != self.revision:

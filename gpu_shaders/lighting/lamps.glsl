@@ -120,6 +120,94 @@ float lamp_random()
 }
 #endif
 
+#ifdef LIGHTING_LAMPS
+// What of a lamp gets to a place, if nothing is in the way.
+struct LampLight {
+  vec3 to_light;    // unit
+  vec3 irradiance;  // on a plane that faces the lamp
+  float width;      // of the lamp's sample as seen from here, in radians
+  float range;
+#ifdef PATH_LOBES
+  vec3 even_irradiance;  // of a lamp that shines alike to all sides
+#endif
+};
+
+LampLight lamp_light(int i, vec3 position, int light_set)
+{
+  int base = HEADER_RECORDS + i * LAMP_RECORDS;
+  vec4 place = lighting_data[base];
+  int kind = int(place.w);
+  vec3 to_light = place.xyz;
+  vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
+  float width = lighting_data[base + 1].w;
+  float range = 1e30;
+#ifdef PATH_LOBES
+  vec3 even_irradiance = irradiance;  // of a lamp that shines alike to all sides
+#endif
+#ifdef LIGHTING_NEAR_LAMPS
+  if (kind != LAMP_SUN) {
+    to_light = place.xyz - position;
+    float facing = 1.0;
+    if (kind != LAMP_AREA) {
+      // a ball shines as a disk that faces the surface: the sample moved into that disk
+      vec3 middle = lighting_data[base + 2].xyz - position;
+      float away2 = max(dot(middle, middle), 1e-30);
+      to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
+#ifdef LIGHTING_BALLS
+      if (lighting_data[base + 5].x > 0.5) {
+        // of a ball the disk inside the cone that touches it is as bright
+        float radius = lighting_data[base + 2].w;
+        float share = max(1.0 - radius * radius / away2, 0.0);
+        to_light = middle * share + (to_light - middle) * sqrt(share);
+        irradiance *= share;
+        away2 *= share * share;
+      }
+#endif
+      facing = sqrt(away2 / max(dot(to_light, to_light), 1e-30));
+    }
+    float distance2 = max(dot(to_light, to_light), 1e-30);
+    range = sqrt(distance2);
+    to_light *= inversesqrt(distance2);
+    width *= inversesqrt(distance2);
+    if (kind == LAMP_AREA) {
+      facing = max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
+      // no closer than a share of its own size: a point stands for its surroundings
+      distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
+#ifdef LIGHTING_SPREAD
+      irradiance *= mean_spread_share(base, position);
+#endif
+    }
+    else if (kind == LAMP_SPOT) {
+      irradiance *= spot_share(base, -to_light);
+    }
+    // (Not endless at the lamp's own place.)
+    irradiance = clamp(irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
+#ifdef PATH_LOBES
+    even_irradiance = clamp(even_irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
+#endif
+  }
+#endif
+#ifdef LIGHTING_LOOKS
+  irradiance *= lamp_look(base, lighting_data[base + 12].x, kind, -to_light, position + to_light * range);
+#endif
+#ifdef LIGHTING_FALLOFF
+  irradiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, range);
+#endif
+#ifdef LIGHTING_LINKED
+  irradiance *= is_for_set(int(lighting_data[LINK_RECORDS + i].x), light_set) ? 1.0 : 0.0;
+#endif
+  LampLight light;
+  light.to_light = to_light;
+  light.irradiance = irradiance;
+  light.width = width;
+  light.range = range;
+#ifdef PATH_LOBES
+  light.even_irradiance = even_irradiance;
+#endif
+  return light;
+}
+#endif
+
 // Radiance towards the viewer from all lamps. With PICKS_LAMP one of them, by what they would send without shadows,
 // stands for all that cast any (Talbot et al., "Importance resampling for global illumination", 2005).
 vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
@@ -138,66 +226,17 @@ vec3 lamps_on(Surface s, Lobes lobes, vec3 to_viewer)
   int i = 0;
   do {
     int base = HEADER_RECORDS + i * LAMP_RECORDS;
-    vec4 place = lighting_data[base];
-    int kind = int(place.w);
-    vec3 to_light = place.xyz;
-    vec3 irradiance = lighting_data[base + 1].rgb;  // on a plane that faces the lamp
-    float width = lighting_data[base + 1].w;
-    float range = 1e30;
-#ifdef PATH_LOBES
-    vec3 even_irradiance = irradiance;  // of a lamp that shines alike to all sides
-#endif
-#ifdef LIGHTING_NEAR_LAMPS
-    if (kind != LAMP_SUN) {
-      to_light = place.xyz - s.position;
-      float facing = 1.0;
-      if (kind != LAMP_AREA) {
-        // a ball shines as a disk that faces the surface: the sample moved into that disk
-        vec3 middle = lighting_data[base + 2].xyz - s.position;
-        float away2 = max(dot(middle, middle), 1e-30);
-        to_light -= middle * (dot(to_light, middle) / away2 - 1.0);
-#ifdef LIGHTING_BALLS
-        if (lighting_data[base + 5].x > 0.5) {
-          // of a ball the disk inside the cone that touches it is as bright
-          float radius = lighting_data[base + 2].w;
-          float share = max(1.0 - radius * radius / away2, 0.0);
-          to_light = middle * share + (to_light - middle) * sqrt(share);
-          irradiance *= share;
-          away2 *= share * share;
-        }
-#endif
-        facing = sqrt(away2 / max(dot(to_light, to_light), 1e-30));
-      }
-      float distance2 = max(dot(to_light, to_light), 1e-30);
-      range = sqrt(distance2);
-      to_light *= inversesqrt(distance2);
-      width *= inversesqrt(distance2);
-      if (kind == LAMP_AREA) {
-        facing = max(-dot(to_light, lighting_data[base + 3].xyz), 0.0);
-        // no closer than a share of its own size: a point stands for its surroundings
-        distance2 = max(distance2, lighting_data[base + 1].w * lighting_data[base + 1].w);
-#ifdef LIGHTING_SPREAD
-        irradiance *= mean_spread_share(base, s.position);
-#endif
-      }
-      else if (kind == LAMP_SPOT) {
-        irradiance *= spot_share(base, -to_light);
-      }
-      // (Not endless at the lamp's own place.)
-      irradiance = clamp(irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
-#ifdef PATH_LOBES
-      even_irradiance = clamp(even_irradiance * (facing / distance2), vec3(-1e20), vec3(1e20));
-#endif
-    }
-#endif
-#ifdef LIGHTING_LOOKS
-    irradiance *= lamp_look(base, lighting_data[base + 12].x, kind, -to_light, s.position + to_light * range);
-#endif
-#ifdef LIGHTING_FALLOFF
-    irradiance *= kind == LAMP_SUN ? 1.0 : lamp_falloff(base, range);
-#endif
 #ifdef LIGHTING_LINKED
-    irradiance *= is_for_set(int(lighting_data[LINK_RECORDS + i].x), s.light_set) ? 1.0 : 0.0;
+    LampLight light = lamp_light(i, s.position, s.light_set);
+#else
+    LampLight light = lamp_light(i, s.position, 0);
+#endif
+    vec3 to_light = light.to_light;
+    vec3 irradiance = light.irradiance;
+    float width = light.width;
+    float range = light.range;
+#ifdef PATH_LOBES
+    vec3 even_irradiance = light.even_irradiance;
 #endif
     float cos_light = dot(s.normal, to_light);
     bool is_lit = cos_light > 0.0;

@@ -79,6 +79,10 @@ vec3 surfaces_on(Surface s, Lobes lobes)
 }
 #endif
 
+#ifdef LIGHTING_CAUSTICS
+#include "caustics/thrown.glsl"
+#endif
+
 #ifdef LIGHTING_LINKED
 // The surface as something of a light set sees it shine; below 0: as the camera does.
 Surface shining_on(Surface s, int number)
@@ -105,6 +109,9 @@ vec3 shade_surface(Surface s, vec3 to_viewer)
   vec3 sum = emission_of(s, lobes) + lamps_on(s, lobes, to_viewer) + world_on(s, lobes, to_viewer);
 #if defined(LIGHTING_INDIRECT) && !defined(GATHERED)
   sum += surfaces_on(s, lobes);
+#endif
+#ifdef LIGHTING_CAUSTICS
+  sum += thrown_on(s, lobes, to_viewer);
 #endif
   return sum;
 }

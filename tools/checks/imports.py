@@ -32,6 +32,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.indirect",),
     ("renderer.shading",),
     ("renderer.tracing",),
+    ("renderer.caustics",),
     ("renderer.environments",),
     ("renderer.shown",),
     ("renderer.truth",),

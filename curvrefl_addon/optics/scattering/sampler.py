@@ -104,14 +104,14 @@ def path_random(pixels: NDArray[np.integer], sub_frame: int, bounce: int, sub_fr
     sixteen, low = np.uint32(16), np.uint32(0xFFFF)
     with np.errstate(over="ignore"):
         place = _reversed(_scramble_array(_reversed(_morton(x, y)), seed)) >> np.uint32(32 - 2 * _PIXEL_BITS)
-        within = _hash_array(seed ^ _hash_array(x ^ _hash_array(y))) & (np.uint32(1) << bits) - np.uint32(1)
+        within = hash_array(seed ^ hash_array(x ^ hash_array(y))) & (np.uint32(1) << bits) - np.uint32(1)
         number = place << bits | within
         columns = []
         for axis, point in enumerate((first & low, first >> sixteen, second & low, second >> sixteen)):
             value = np.full_like(x, point << sixteen)
             for bit, direction in enumerate(_AXES[axis]):
                 value = value ^ np.where(number >> np.uint32(bit) & np.uint32(1), np.uint32(direction), np.uint32(0))
-            axis_seed = _hash_array(np.array([seed + np.uint32(axis + 1)], np.uint32))
+            axis_seed = hash_array(np.array([seed + np.uint32(axis + 1)], np.uint32))
             columns.append(_reversed(_scramble_array(_reversed(value), axis_seed)))
     return np.stack([(column >> np.uint32(8)) * 2.0**-24 for column in columns], axis=1)
 
@@ -126,7 +126,7 @@ def _morton(x: UInt32Array, y: UInt32Array) -> UInt32Array:
     return code
 
 
-def _hash_array(x: UInt32Array) -> UInt32Array:
+def hash_array(x: UInt32Array) -> UInt32Array:
     x = x ^ x >> np.uint32(16)
     x = x * np.uint32(0x7FEB352D)
     x = x ^ x >> np.uint32(15)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What shaders need to ask for light that comes from other surfaces (`renderer/indirect`)."""
+"""What shaders need to ask for light that comes from other surfaces (`renderer/indirect`, `renderer/caustics`)."""
 
 from __future__ import annotations
 
@@ -21,6 +21,12 @@ CELLS = Piece(
 """What `cells.glsl` needs"""
 
 
+PIECE_RECORDS = 5
+"""Of a piece of a caustic"""
+THROWN = Piece(samplers=named("FLOAT_2D", "thrown"), defines={"PIECE_RECORDS": PIECE_RECORDS})
+"""What `caustics/thrown.glsl` needs"""
+
+
 class At(IntEnum):
     """Which light at patches is asked for."""
 
@@ -37,3 +43,10 @@ class SurfaceLight(Protocol):
 
     def bind(self, shader: Any, at: At) -> None:
         """Set what `CELLS` names on a bound shader, and `patch_light`."""
+
+
+class ThrownLight(Protocol):
+    """What lamps throw over mirrors and through glass onto surfaces."""
+
+    def bind(self, shader: Any, sub_frame: int) -> None:
+        """Set what `THROWN` names on a bound shader."""

@@ -60,6 +60,7 @@ class IndirectLight:
         self._work: Iterator[bool] | None = None
         """Steps that are left, each True where light has changed by it"""
         self._openness, self._share = 0.0, 1.0
+        self._follows_lamps = False
         self.prepare_ms = 0.0
         """Of the last time that all was found at once"""
 
@@ -79,6 +80,13 @@ class IndirectLight:
             # (It may be worth its time now.)
             self._needs_patches |= self.irradiance is None
         if self._needs_light:
+            self._work = None
+
+    def leave_caustics(self, are_followed: bool) -> None:
+        """What lamps send over sharp mirrors and through glass is followed by others, or no more."""
+        if are_followed != self._follows_lamps:
+            self._follows_lamps = are_followed
+            self._needs_patches = self._needs_light = True
             self._work = None
 
     def restart(self) -> None:
@@ -103,8 +111,9 @@ class IndirectLight:
                 return "to be found"
             return "none" if self._share >= LEAST_SHARE else f"left out: {100.0 * self._share:.1f} % of the light"
         rays = RAYS_AT_ONCE * self.irradiance.batches
-        # (What is sharp sends light on as if it scattered it.)
-        caustics = "; caustics spread evenly" if self._scene.caustics else ""
+        # (What is sharp sends light on as if it scattered it, but for that of lamps where it is followed.)
+        others = " but for those of lamps" if self._follows_lamps else ""
+        caustics = f"; caustics{others} spread evenly" if self._scene.caustics else ""
         patches = f"{self.irradiance.patches.count:,} patches, {rays} rays each{caustics}"
         return patches if self.is_settled else f"{patches}, not settled"
 
@@ -152,6 +161,11 @@ class IndirectLight:
             clamp=self._scene.indirect_clamp,
         )
 
+    @property
+    def _even_caustics(self) -> float:
+        """See `Irradiance.follow_rays`."""
+        return float(self._scene.caustics) * (0.5 if self._follows_lamps else 1.0)
+
     def _step(self, means: Means, whole: bool) -> bool:
         if self._work is None:
             self._needs_light = False
@@ -197,7 +211,7 @@ class IndirectLight:
                     means.lighting,
                     means.view_uniforms,
                     self.emitters,
-                    self._scene.caustics,
+                    self._even_caustics,
                 ):
                     yield False
                 if batch == 0:

@@ -142,10 +142,10 @@ class Irradiance:
         lighting: Lighting,
         view_uniforms: Any,
         emitters: Emitters | None,
-        has_caustics: bool,
+        has_caustics: float,
     ) -> Iterator[None]:
         """Another batch of rays, step by step; `emitters`: surfaces that shine, if there are some;
-        `has_caustics`: what reflects sends light on, too."""
+        `has_caustics`: what reflects sends light on, too: 1 all, 0.5 what is rough alone."""
         if self._picture is None:
             self._picture = PatchPicture(self.patches.count)
         picture = self._picture
@@ -156,7 +156,7 @@ class Irradiance:
         def bind(shader: Any) -> None:
             self._bind_cells(shader)
             shader.uniform_sampler("lighting_ggx", lighting.ggx)
-            shader.uniform_float("has_caustics", float(has_caustics))
+            shader.uniform_float("has_caustics", has_caustics)
 
         links = picture.drawn_over(links_shader(materials.buffers, lighting.features), materials, bind)
         self._links.append(links)

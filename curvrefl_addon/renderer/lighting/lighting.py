@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from ...scene.arrays import Float64Array, SceneArrays
+from ...scene.arrays import Float64Array, LightArrays, SceneArrays
 from ...scene.camera.sampling import is_progressive
 from ...scene.camera.view import View
-from ..cells.lookup import CELLS, At, SurfaceLight
+from ..cells.lookup import CELLS, THROWN, At, SurfaceLight, ThrownLight
 from ..device.shaders import Block, Piece, flags, named, uniform_block
 from ..device.textures import texture_2d
 from ..geometry.placed_instances import Difference
@@ -46,14 +46,13 @@ from .programs.lamps import LOOK_DEFINES, LampLooks, look_samplers
 from .programs.textures import WorldTextures, world_samplers
 from .programs.world import baked_world
 from .shadow_alpha import ALPHA, SHADOW_ALPHA, ShadowAlpha
-from .shadow_maps import ShadowCasters, ShadowMaps, fill_shadow_records, window_rows
+from .shadow_maps import DIRECTION_RECORDS, ShadowCasters, ShadowMaps, direction_records, fill_shadow_records
 from .shadow_reach import cube_holds, shadow_pieces
 from .shadow_views import SceneExtent, ShadowView
 from .suns import shines, split_suns, suns_of_kinds
 from .world import WORLD_DEFINES, world_light
 
 HEADER_RECORDS = 8
-DIRECTION_RECORDS = 5
 MAX_DIRECTIONS = 32
 """World directions of one sub-frame"""
 DATA_RECORDS = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + MAX_DIRECTIONS * DIRECTION_RECORDS
@@ -77,7 +76,8 @@ FEATURES: Features = frozenset(
     for name in ("POINT", "SPOT", "SUN", "AREA", "SPREAD", "BALLS", "PARTS", "MAPS", "CUBES", "IMAGE", "WORLD")
 )
 INDIRECT = "LIGHTING_INDIRECT"
-"""Of `FEATURES`: light that comes from other surfaces is known (`renderer/indirect`)"""
+CAUSTICS = "LIGHTING_CAUSTICS"
+"""Of features: light from other surfaces is known (`renderer/indirect`); what mirrors throw (`renderer/caustics`)"""
 LARGEST_RECORD = 1e30
 """What of a lamp is larger would overflow in single precision with what it is multiplied by"""
 
@@ -93,6 +93,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **look_samplers(features),
             **(SHADOW_ALPHA.samplers if ALPHA in features else {}),
             **({**CELLS.samplers, "patch_light": "FLOAT_2D"} if INDIRECT in features else {}),
+            **(THROWN.samplers if CAUSTICS in features else {}),
         },
         constants=CELLS.constants if INDIRECT in features else {},
         blocks={"lighting_data": Block("vec4", length=DATA_RECORDS + linked)},
@@ -107,6 +108,7 @@ def lighting_piece(features: Features = FEATURES) -> Piece:
             **GGX_DEFINES,
             **SHADOW_ALPHA.defines,
             **CELLS.defines,
+            **THROWN.defines,
         },
     )
 
@@ -126,6 +128,8 @@ class Lighting:
         """By sub-frame its uniform block and the views of its lamps' and the world's maps"""
         self._bound: Any = None
         self._surfaces: SurfaceLight | None = None
+        self._thrown: ThrownLight | None = None
+        self._sub_frame = 0
         self._looks = LampLooks()
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
@@ -196,15 +200,14 @@ class Lighting:
         found = lamp_features(self._lights, self._world, self._scene) | shadow_features(self._lamp_places)
         flagged = {"LIGHTING_IMAGE": self._world.image is not None, "LIGHTING_WORLD": self._world_is_lit}
         flagged |= {ALPHA: bool(self._alpha.materials), PICKED: picks_lamp(self._lights, self.sub_frames)}
+        flagged |= {INDIRECT: self._surfaces is not None, CAUSTICS: self._thrown is not None}
         flagged["LIGHTING_CLAMPED"] = bool(self._lights) and self._scene.indirect_clamp > 0.0
         found |= {name for name, is_so in flagged.items() if is_so}
-        if self._surfaces is not None:
-            found.add(INDIRECT)
         return frozenset(found) | self._world_textures.features | self._looks.features | self._of_surfaces
 
-    def use(self, surfaces: SurfaceLight | None) -> None:
-        """Light from other surfaces, or none."""
-        self._surfaces = surfaces
+    def use(self, surfaces: SurfaceLight | None, thrown: ThrownLight | None) -> None:
+        """Light from other surfaces, and what lamps throw over mirrors, or none."""
+        self._surfaces, self._thrown = surfaces, thrown
         self.features = self._found_features()
 
     def too_coarse(self, view: View) -> tuple[bool, bool]:
@@ -220,7 +223,7 @@ class Lighting:
 
         Not inside a frame buffer's `bind()` block whose viewport matters: that is restored, but costs time.
         """
-        index = sub_frame % self.sub_frames
+        index = self._sub_frame = sub_frame % self.sub_frames
         if index not in self._blocks:
             lamp_views, world_views, records = self._records(index)
             # (A strong lamp of nearly no size would shine endlessly there.)
@@ -234,6 +237,11 @@ class Lighting:
         visit = 0 if sky_is_gathered else begun % self._world_visits
         self._world_maps.draw(world_views, self._casters, (visit, self._world_visits))
 
+    def lamp_points(self, sub_frame: int) -> list[tuple[LightArrays, Float64Array]]:
+        """The lamps, in the order of their records, and where on them (4,) a sub-frame's light comes from."""
+        planned = zip(self._lights, self._lamp_places, strict=True)
+        return [(light, places[sub_frame % len(places)][0]) for light, places in planned]
+
     def bind(self, shader: Any) -> None:
         """Set the samplers and the block of the sub-frame last prepared on a bound shader."""
         shader.uniform_block("lighting_data", self._bound)
@@ -246,6 +254,8 @@ class Lighting:
         shader.uniform_sampler("lighting_ggx", self.ggx)
         if self._surfaces is not None:
             self._surfaces.bind(shader, At.ENDS)
+        if self._thrown is not None:
+            self._thrown.bind(shader, self._sub_frame)
 
     def free(self) -> None:
         """Drop the GPU objects; the instance cannot be used afterwards."""
@@ -321,23 +331,12 @@ class Lighting:
             fill_shadow_records(block, self._lamp_maps, layers)
             records[start : start + LAMP_RECORDS] = block
             lamp_layers += [layer for layer in layers if layer >= 0]
-        world_layers: list[int] = []
-        at_once = self._directions_at_once
-        draws = self._world_light.draws
-        for draw in range(index * at_once, (index + 1) * at_once):
-            draw %= len(draws)
-            direction = draws[draw]
-            layer = int(self._world_layers[direction])
-            if layer < 0:
-                continue
-            start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS + len(world_layers) * DIRECTION_RECORDS
-            records[start] = [*self._world_light.directions[direction], layer]
-            weight = self._world_light.weights[draw] * (len(draws) / at_once)
-            view = self._world_maps.views[layer]
-            records[start + 1 : start + 4] = window_rows(view, self._world_maps.resolution)[:3]
-            # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
-            records[[start + 4, 5]] = [*weight, weight.sum()]
-            world_layers.append(layer)
+        draws = range(index * self._directions_at_once, (index + 1) * self._directions_at_once)
+        block, world_layers = direction_records(self._world_light, self._world_layers, self._world_maps, draws)
+        start = HEADER_RECORDS + MAX_LAMPS * LAMP_RECORDS
+        records[start : start + len(block)] = block
+        # (Directions of a sky of one color weigh the same: what is drawn without an image reads it once.)
+        records[5] = block[-1] if len(block) else 0.0
         records[0] = [len(self._lights), len(world_layers), float(self._world.image is not None), picking_turn(index)]
         records[1] = [*self._world.color, min(self._sky.limit, 1e30)]
         world = self._world

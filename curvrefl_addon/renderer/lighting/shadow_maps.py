@@ -13,6 +13,7 @@ from itertools import compress
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...pacing.pieces import piece_of_work
 from ...scene.arrays import EVERY_SET, Float64Array
@@ -26,7 +27,9 @@ from ..geometry.chunk_attributes import CORNER_ATTRIBUTES
 from ..geometry.scene_geometry import SceneGeometry
 from .shadow_alpha import SHADOW_ALPHA, ShadowAlpha
 from .shadow_views import MARGIN_TEXELS, SceneExtent, ShadowView
+from .world import WorldLight
 
+DIRECTION_RECORDS = 5
 SLOPE_LIMIT_TEXELS = 20.0
 """Steepest bias: surfaces steeper than this towards the light get none of its light to speak of"""
 
@@ -203,6 +206,26 @@ def fill_shadow_records(block: Float64Array, maps: ShadowMaps, views: tuple[int,
         block[8] = [layers[4], layers[5], near_term, far_term]
         half = 0.5 * maps.resolution - BORDER
         block[9, :2] = [0.5 * maps.resolution, half * (1.0 - 2.0 * MARGIN_TEXELS / maps.resolution)]
+
+
+def direction_records(
+    light: WorldLight, layers: NDArray[np.int64], maps: ShadowMaps, draws: range
+) -> tuple[Float64Array, list[int]]:
+    """(n, 4) DIRECTION_RECORDS for each of the `draws` of the world's directions that has a map, and these maps;
+    `layers`: of each direction its map, or -1."""
+    found: list[int] = []
+    records = []
+    for number in draws:
+        draw = number % len(light.draws)
+        direction = light.draws[draw]
+        layer = int(layers[direction])
+        if layer < 0:
+            continue
+        weight = light.weights[draw] * (len(light.draws) / len(draws))
+        rows = window_rows(maps.views[layer], maps.resolution)[:3]
+        records.append([[*light.directions[direction], layer], *rows, [*weight, weight.sum()]])
+        found.append(layer)
+    return np.array(records, np.float64).reshape(-1, 4), found
 
 
 _DEPTH = Piece(constants={"world_to_clip": "MAT4", "bias": "VEC3"}, writes_depth=True)

@@ -13,6 +13,8 @@ ROUGH, COAT, GLASS, ALPHA = "PATHS_ROUGH", "PATHS_COAT", "PATHS_GLASS", "PATHS_A
 ANISOTROPY, FILM, ABSORPTION, TINT = "PATHS_ANISOTROPY", "PATHS_FILM", "PATHS_ABSORPTION", "PATHS_TINT"
 SHEEN, VARIES = "PATHS_SHEEN", "PATHS_VARIES"
 """Defines of the shaders of paths"""
+SHARP_ROUGHNESS = 0.3
+"""What lobes of at most this roughness send on of lamps are caustics, not light between surfaces"""
 
 
 def path_features(scene: SceneArrays) -> frozenset[str]:

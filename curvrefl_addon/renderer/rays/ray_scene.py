@@ -150,6 +150,15 @@ class RayScene:
             self._place(is_same)
         self._followed = (scene, dict(numbers))
 
+    def numbers_of(self, index: int) -> tuple[int, NDArray[np.int64]]:
+        """Of an instance of the scene that has triangles, as `packed_hit` of `ray_surface.glsl` has them: its own, and
+        (triangles,) those of its mesh's, -1 of such as have no place."""
+        place = self._place_of[index]
+        item = self._items[place]
+        numbers = np.full(len(item.mesh.triangles), -1)
+        numbers[item.kept[item.hierarchy.order]] = np.arange(len(item.kept))
+        return place, numbers
+
     def _elsewhere(self, scene: SceneArrays, numbers: Mapping[int, int]) -> Elsewhere | None:
         """What is not where it was; None where more has changed, or a tree cannot be fitted where it is."""
         if self._followed is None:

@@ -80,6 +80,19 @@ class PathTracer:
             return (f"Light is followed through {MOST_EVENTS} surfaces, fewer than the file's bounces allow.",)
         return ()
 
+    def surroundings(self, rays: RayScene, view_uniforms: Any, window: Window) -> Surroundings:
+        """What steps of paths have bound, in pictures of which the `window` is drawn."""
+        return Surroundings(
+            self.features | self._materials.links,
+            self._materials,
+            rays,
+            self._lighting.ggx,
+            self._frames,
+            self._absorbing,
+            view_uniforms,
+            window,
+        )
+
     def limits(self, bounces: int) -> Limits:
         """`bounces`: mirrors that are followed at most."""
         most, reflections, interfaces, transparent = self._limits
@@ -115,16 +128,7 @@ class PathTracer:
         if window[2] <= 0 or window[3] <= 0:
             return
         classes, vertices = self._targets.of(seen.width, seen.height)
-        around = Surroundings(
-            self.features | self._materials.links,
-            self._materials,
-            rays,
-            self._lighting.ggx,
-            self._frames,
-            self._absorbing,
-            view_uniforms,
-            window,
-        )
+        around = self.surroundings(rays, view_uniforms, window)
         light = PathLight(around, self._lighting, shadows, film_transparent, self._has_base, gathers)
         gathered: GatherPicture | None = None
         limits = self.limits(bounces)
