@@ -150,4 +150,6 @@ def _untold(scene: bpy.types.Scene, mirrors: list[bpy.types.Object]) -> tuple[li
     if others:
         names = ", ".join(f'"{name}"' for name in others)
         told.append(f'The film is of view layer "{layer.name}": {names} stay as EEVEE shows them.')
+    if scene.render.use_freestyle and layer.use_freestyle:
+        told.append("Freestyle draws no lines over mirrors: these come into its picture.")
     return told, bool(instances)

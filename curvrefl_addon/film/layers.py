@@ -45,6 +45,7 @@ def make_held_out_layer(scene: bpy.types.Scene) -> bpy.types.ViewLayer:
     for item in layer.bl_rna.properties:
         if item.identifier.startswith("use_pass_") and not item.is_readonly:
             set_value(layer, item.identifier, item.identifier == "use_pass_combined")
+    set_value(layer, "use_freestyle", False)
     return layer
 
 
