@@ -5,8 +5,8 @@
     .venv/bin/python tools/measure/film/draw_film.py FILE.blend A[,B] OUT.jpg [--size 320x240] [--samples 160]
         [--sub-frames 96] [--eevee-samples 16] [--focus OBJECT] [--fstop 0.8]
 
-Prints FLIP over the pixels that the film changes, but for those at their edges, which show what is behind the mirrors as
-well: of EEVEE, of the film, and of the picture of the engine Curvrefl.
+Prints FLIP over the pixels that the film changes, but for those at their edges, which show what is behind the mirrors
+as well: of EEVEE, of the film, and of the picture of the engine Curvrefl.
 Needs Pillow and flip-evaluator.
 """
 
