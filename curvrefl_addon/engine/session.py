@@ -142,11 +142,11 @@ class RenderSession:
 
     def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area) -> ReadMoment:
         """Reads what the depsgraph shows at its present time."""
-        scene, shown = filmed(depsgraph.scene), _shown(depsgraph)
+        scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
             overrides = overrides_of(self._mirrors)
-            arrays = self._reader.read(depsgraph, shown, self._mirrors, changes, overrides)
+            arrays = self._reader.read(depsgraph, _shown(depsgraph), self._mirrors, changes, overrides)
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
         return read_now
