@@ -161,6 +161,12 @@ def _passes(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
 
 
+def _film(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
+    given = (str(folder / "demo.blend"), "Kettle,Lacquer jar", str(folder / "film.jpg"), "--focus", "Kettle")
+    _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -180,6 +186,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "convergence": _convergence,
     "lights": _lights,
     "passes": _passes,
+    "film": _film,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -200,6 +207,7 @@ IMAGES: dict[str, Picture] = {
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
+    "film.jpg": Picture("film", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -43,6 +43,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("study",),
     ("viewport",),
     ("engine",),
+    ("film",),
     ("ui",),
     ("operators",),
     ("gpu_caches",),
