@@ -53,8 +53,8 @@ def explained(scene: SceneArrays) -> dict[str, np.ndarray]:
         renderer.add_sub_frame(canvas, reflection, 0, 1.0, diagnostic=Diagnostic(mode))
         found[mode] = read_texture(canvas.texture)
     frame = renderer.render(VIEW)
-    for name, read in OF_MIRRORS.items():
-        found[name] = read(frame)
+    for name, item in OF_MIRRORS.items():
+        found[name] = item.pixels(frame)
     found["mask"] = frame.mask()
     mirrors = Canvas.of_size(VIEW.width, VIEW.height)
     renderer.render(VIEW, mirrors_alone=mirrors)
