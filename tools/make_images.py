@@ -167,6 +167,14 @@ def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
 
 
+def _inspection(folder: Path) -> None:
+    _run(
+        str(ROOT / "tools" / "measure" / "inspection" / "draw_inspection.py"),
+        str(folder),
+        str(folder / "inspection.jpg"),
+    )
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -187,6 +195,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "lights": _lights,
     "passes": _passes,
     "film": _film,
+    "inspection": _inspection,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -208,6 +217,7 @@ IMAGES: dict[str, Picture] = {
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
     "film.jpg": Picture("film", _copied),
+    "inspection.jpg": Picture("inspection", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 
