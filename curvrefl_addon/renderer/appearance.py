@@ -152,6 +152,7 @@ class Appearance:
             found += seen_in_spite_of_links(self._scene)
         if self.tracer is not None:
             found += self.tracer.warnings
+        found += self.caustics.warnings
         return tuple(found)
 
     def free(self) -> None:

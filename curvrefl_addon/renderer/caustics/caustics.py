@@ -20,6 +20,7 @@ from ..tracing.step import Limits, Surroundings
 from ..tracing.tracer import PathTracer
 from .casters import Casters, casters_of
 from .corner_paths import SIDE, CornerPaths, Throw
+from .left_out import not_followed
 from .maps import CausticMap, thrown
 
 MAPS_AT_REST = 8
@@ -62,6 +63,8 @@ class Caustics:
         """And whether they are for materials' programs"""
         self._work: tuple[int, Generator[None, None, CausticMap]] | None = None
         """And the number of the map that it makes"""
+        self._told: tuple[SceneArrays, tuple[str, ...]] | None = None
+        """What is not followed in a state of the scene"""
         self.prepare_ms = 0.0
         """Of the last map that was made at once"""
 
@@ -100,6 +103,15 @@ class Caustics:
         if not self._settings.caustics:
             return True
         return self._wanted is not None and len(self._maps) >= min(self._wanted, MAPS_AT_REST)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is not followed, one sentence each."""
+        if not self._settings.caustics:
+            return ()
+        if self._told is None or self._told[0] is not self._scene:
+            self._told = self._scene, not_followed(self._scene)
+        return self._told[1]
 
     @property
     def state(self) -> str:

@@ -52,7 +52,8 @@ def records_of(pieces: Pieces) -> Float32Array:
         hashes, owners = _cells(low[mine] / size, high[mine] / size, kept[mine], size)
         mask = (1 << max(int(np.ceil(np.log2(max(len(hashes), 1)))), 2)) - 1
         # (Two cells of a piece may share a bucket, which has it once.)
-        keys = np.unique((hashes & np.uint32(mask)).astype(np.int64) << 32 | mine[owners])
+        keys = np.sort((hashes & np.uint32(mask)).astype(np.int64) << 32 | mine[owners])
+        keys = keys[np.diff(keys, prepend=-1) != 0]
         counts = np.bincount(keys >> 32, minlength=mask + 1)
         starts = first_entry + np.cumsum(counts) - counts
         heads.append((size, first_bucket, mask, 0.0))

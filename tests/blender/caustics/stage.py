@@ -104,7 +104,9 @@ def ring_mesh(radius: float, height: float, segments: int) -> MeshArrays:
 
 def drawn(scene: SceneArrays, view: View, **settings: Any) -> Frame:
     """With caustics."""
-    renderer = Renderer(scene, Settings(**{"method": "exact", "samples": 1, "caustics": True, **settings}))
+    renderer = Renderer(
+        scene, Settings(**{"method": "exact", "samples": 1, "caustics": True, "caustic_patches": 16384, **settings})
+    )
     frame = renderer.render(view)
     frame.surfaces  # noqa: B018  (read while the renderer is there)
     renderer.free()

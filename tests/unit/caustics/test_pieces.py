@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.scattering.sampler import hash_array
 from curvrefl.curvrefl_addon.renderer.caustics.casters import casters_of
+from curvrefl.curvrefl_addon.renderer.caustics.left_out import not_followed
 from curvrefl.curvrefl_addon.renderer.caustics.lists import PIECE_RECORDS, records_of
 from curvrefl.curvrefl_addon.renderer.caustics.patches import patches_of
 from curvrefl.curvrefl_addon.renderer.caustics.pieces import Landed, pieces_of
@@ -50,6 +51,15 @@ def test_what_throws() -> None:
     for materials, expected in (((CHROME,), {0}), ((ROUGH,), set()), ((CHROME, CHROME, GLASS), {0, 2})):
         found = casters_of(scene_of(*materials), {0: 1}, facts)
         assert (set() if found is None else set(found.instances.tolist())) == expected
+
+
+def test_what_is_not_followed_is_named() -> None:
+    shining = replace(CHROME, metallic=0.0, emission=(1.0, 1.0, 1.0))
+    scene = scene_of(CHROME, CHROME, ROUGH, GLASS)
+    assert not_followed(scene) == ('Caustics of "strip" are left out: of metal only chosen mirrors throw them.',)
+    assert not_followed(scene_of(CHROME, ROUGH, GLASS)) == ()
+    (sentence,) = not_followed(scene_of(CHROME, shining))
+    assert sentence == 'Caustics of the light of "strip" are spread evenly: only lamps\' are followed.'
 
 
 @pytest.mark.parametrize("turn", [0, 1, 2])
