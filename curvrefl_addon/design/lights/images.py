@@ -19,14 +19,16 @@ from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, LightArrays
 from .reflecting import Reflecting, reflected
 
-SLACK = 0.05
-"""Barycentric, within which a triangle's even change finds what lies on its edge"""
+SLACK = 0.02
+"""Barycentric, within which an image on an edge belongs to both triangles"""
+GUESS_SLACK = 2.0
+"""The same of the place to search from, by a change that is taken to be even"""
 NEWTON_STEPS = 6
 STEP = 1e-4
 """Barycentric, of differences"""
 MOST_MISSED = 1e-5
 """Radians by which a ray may miss the place after all"""
-SAME = 1.0
+SAME = 0.1
 """Pixels between images that are one"""
 OUTSIDE = 1e3
 """Level of rays that go away from a lamp"""
@@ -52,14 +54,14 @@ def place_of(light: LightArrays) -> Float64Array:
 def images(mirror: Reflecting, place: Float64Array) -> Images:
     """All images of the homogeneous place (4,) that the mirror may show, whatever is in the way."""
     missed, ahead = _missed(mirror.points, mirror.directions, place)
-    triangles = mirror.triangles[(ahead[mirror.triangles] > 0.0).all(axis=1)]
+    triangles = mirror.triangles[(ahead[mirror.triangles] > 0.0).any(axis=1)]
     # The part of what a ray misses across the way to the place, in two directions for each triangle.
     way = unit(place[:3] - mirror.points[triangles[:, 0]] * place[3])
     first, second = _across(way)
     miss = missed[triangles]
     u, v = np.einsum("tkc,tc->tk", miss, first), np.einsum("tkc,tc->tk", miss, second)
     weights = _zero_of(u, v)
-    found = (weights >= -SLACK).all(axis=1)
+    found = (weights >= -GUESS_SLACK).all(axis=1)
     triangles, weights = triangles[found], weights[found]
     points, residual, weights = _settled(mirror, triangles, weights, place)
     is_one = (residual < MOST_MISSED) & (weights >= -SLACK).all(axis=1)

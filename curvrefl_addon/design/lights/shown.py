@@ -17,7 +17,6 @@ from ...scene.arrays import Float64Array, LightArrays, MeshArrays
 from ...scene.camera.view import View
 from ...scene.lights import read_light
 from ...scene.meshes.meshes import MeshNeeds, mirrored, read_mesh
-from ...scene.reads import uid_of_block
 from ...scene.visibility import rays_of
 from .goals import upright
 from .images import images, is_met, outline, place_of
@@ -25,7 +24,7 @@ from .paths import MirrorPath
 from .placing import Line
 from .reflecting import PlacedMirror, Reflecting, reflecting
 from .sight import MirrorRules, Sight
-from .worlds import MovedWorld
+from .worlds import KnownSuns, MovedWorld
 
 MOST_TESTED = 160
 """Places of outlines that are asked whether the eye sees them; those between follow their neighbors"""
@@ -70,8 +69,7 @@ class LightsInMirrors:
     """By the address of the evaluated mesh, and whether wound the other way round"""
     _mirrors: list[tuple[str, Reflecting]] = field(default_factory=list)
     _mirrors_key: Any = None
-    _world: MovedWorld | None = None
-    _world_key: Any = None
+    _suns: KnownSuns = field(default_factory=dict)
     _lights: dict[str, tuple[Any, ShownLight]] = field(default_factory=dict)
 
     def forget_meshes(self) -> None:
@@ -109,21 +107,13 @@ class LightsInMirrors:
 
     def _sun_of(self, world: bpy.types.World | None) -> LightArrays | None:
         """As a lamp without a disk; None for a world that cannot be turned. Its image is looked through once."""
-        tree: Any = None if world is None else world.node_tree
-        nodes = () if tree is None else tree.nodes
-        images_of = (getattr(node, "image", None) for node in nodes)
-        key = (uid_of_block(world), len(nodes), *(uid_of_block(image) for image in images_of))
-        if key != self._world_key:
-            self._world_key = key
-            try:
-                self._world = MovedWorld(world, keeps_level=False)
-            except InputError:
-                # (The operator says why.)
-                self._world = None
-        if self._world is None:
+        try:
+            direction = MovedWorld(world, False, self._suns).direction
+        except InputError:
+            # (The operator says why.)
             return None
         matrix = np.eye(4)
-        matrix[:3, :3] = upright(self._world.direction)
+        matrix[:3, :3] = upright(direction)
         return LightArrays(WORLD, "SUN", (1.0, 1.0, 1.0), matrix)
 
     def _read(

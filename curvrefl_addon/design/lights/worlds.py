@@ -25,6 +25,8 @@ from ...scene.world import equirectangular_directions
 from .goals import Goal, upright
 from .moved import Change
 
+type KnownSuns = dict[tuple[Any, ...], Float64Array]
+"""By image and its size, (3,) directions in it"""
 BLOCKS = 64
 """Rows of blocks in which the brightest place of an image without a sun is looked for"""
 _PLACED = 1e-4
@@ -38,8 +40,11 @@ class MovedWorld:
     is_sun = True
     extent = 0.0
 
-    def __init__(self, world: bpy.types.World | None, keeps_level: bool) -> None:
-        """`keeps_level`: it is turned about the vertical alone. Raises InputError for a world that cannot be turned."""
+    def __init__(self, world: bpy.types.World | None, keeps_level: bool, known: KnownSuns | None = None) -> None:
+        """`keeps_level`: it is turned about the vertical alone. `known`: images that have been looked through.
+
+        Raises InputError for a world that cannot be turned.
+        """
         if world is None:
             raise InputError("The scene has no world: add one in the world properties.")
         if not world.is_editable:
@@ -47,7 +52,7 @@ class MovedWorld:
         self.name = world.name
         self._keeps_level = keeps_level
         self._background = _background_of(world)
-        self._sun: _SkySun | _ImageSun = _sun_of(world)
+        self._sun: _SkySun | _ImageSun = _sun_of(world, {} if known is None else known)
         self._strength = None if self._background is None else float(self._background.default_value)
 
     @property
@@ -166,7 +171,7 @@ def _plain(value: Any) -> Any:
     return float(value) if isinstance(value, float) else tuple(value)
 
 
-def _sun_of(world: bpy.types.World) -> _SkySun | _ImageSun:
+def _sun_of(world: bpy.types.World, known: KnownSuns) -> _SkySun | _ImageSun:
     source = output_source(world.node_tree, "Surface")
     found = None if source is None else _texture_of(source, set())
     if found is None:
@@ -191,7 +196,10 @@ def _sun_of(world: bpy.types.World) -> _SkySun | _ImageSun:
         after = after @ (turn.T if mapping.vector_type == "TEXTURE" else turn)
     if node.image is None:
         raise InputError(f'The Environment Texture of world "{world.name}" has no image: choose one.')
-    return _ImageSun(_brightest(node), first, after)
+    key = (node.image.session_uid, tuple(node.image.size), node.projection)
+    if key not in known:
+        known[key] = _brightest(node)
+    return _ImageSun(known[key], first, after)
 
 
 def _texture_of(source: Source, seen: set[int]) -> Source | None:

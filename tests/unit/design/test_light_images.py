@@ -9,7 +9,9 @@ import pytest
 from curvrefl.curvrefl_addon.design.lights.goals import upright
 from curvrefl.curvrefl_addon.design.lights.images import images, is_met, outline, place_of
 from curvrefl.curvrefl_addon.design.lights.reflecting import PlacedMirror, Reflecting, reflecting
-from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.optics.ray import reflect_ray
+from curvrefl.curvrefl_addon.optics.surfaces.mesh_rays import MeshRays
+from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, unit
 from curvrefl.curvrefl_addon.optics.surfaces.sphere import reflection_points
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays
 from curvrefl.curvrefl_addon.scene.camera.view import View
@@ -140,3 +142,27 @@ def _distance(pixel: np.ndarray, edge: np.ndarray) -> float:
     along = edge[1] - edge[0]
     share = np.clip((pixel - edge[0]) @ along / (along @ along), 0.0, 1.0)
     return float(np.linalg.norm(pixel - edge[0] - share * along))
+
+
+def test_what_a_ray_off_a_bumpy_mirror_leads_to_is_shown_where_the_ray_has_left_it() -> None:
+    """By construction: rays of the eye are cast at the mesh and reflected, and places on them looked for."""
+    mesh = star_mesh(Bumpy(0.6), 40)
+    positions = mesh.positions[mesh.corner_vertex].astype(np.float64)
+    normals = unit(mesh.corner_normals.astype(np.float64))
+    mirror = PlacedMirror("bumpy", positions, normals, mesh.triangles, False)
+    looking, rng = view(), np.random.default_rng(2)
+    seen = reflecting(mirror, looking)
+    pixels = rng.uniform((0.0, 0.0), (400.0, 300.0), (400, 2))
+    lines = [looking.line_of_sight(x, y) for x, y in pixels.tolist()]
+    origins, directions = (np.array(part) for part in zip(*lines, strict=True))
+    hits = MeshRays(positions, normals, mesh.triangles).first_hits(origins, directions)
+    is_met = (hits.triangle >= 0) & (np.einsum("ij,ij->i", hits.normal, directions) < -0.1)
+    assert is_met.sum() > 80
+    missed = 0
+    for pixel, origin, direction, distance, normal in zip(
+        pixels[is_met], origins[is_met], directions[is_met], hits.distance[is_met], hits.normal[is_met], strict=True
+    ):
+        ray = reflect_ray(direction, origin + distance * direction, normal)
+        found = images(seen, np.append(ray.at(rng.uniform(0.3, 4.0)), 1.0))
+        missed += not (np.linalg.norm(found.pixels - pixel, axis=1) < 0.05).any()
+    assert missed <= 1
