@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -22,7 +23,8 @@ class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
         "Drag on a mirror to move the active light or object to where it is seen under the cursor.\n"
         "Click or drag the reflection of another light to take that. Ctrl-click selects objects"
     )
-    bl_icon = "ops.generic.cursor"
+    # (A file of our own, made by tools/icons/make_light_icon.py; Blender adds the ending.)
+    bl_icon = str(Path(__file__).resolve().with_suffix(""))
     bl_cursor = "CROSSHAIR"
     bl_keymap = (
         (light_overlay.OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS"}, None),

@@ -16,7 +16,6 @@ from mathutils import Matrix
 
 from ...errors import InputError
 from ...optics.surfaces.radial_surfaces import unit
-from ...renderer.lighting.suns import split_suns
 from ...scene.arrays import Float32Array, Float64Array, WorldArrays
 from ...scene.materials.images import ImageReader
 from ...scene.materials.mappings import euler_matrix
@@ -244,6 +243,9 @@ def _require_rotation(mapping: Any, world: str) -> None:
 def _brightest(node: Any) -> Float64Array:
     """(3,) direction in an Environment Texture's image, as mapped to it: of its strongest sun, else of what is
     brightest."""
+    # (The operator is there as soon as the extension is enabled, without the renderer.)
+    from ...renderer.lighting.suns import split_suns
+
     if node.projection != "EQUIRECTANGULAR":
         raise InputError("The sun of a mirror ball image is not looked for: use an equirectangular one.")
     pixels = ImageReader().read(node.image, node.image_user)[..., :3]

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the demo with a lamp placed by a pixel in each of the three ways, a cross where it was asked for.
+"""Draws the demo with a lamp placed by a pixel in each of the three ways: a cross where it was asked for, and
+the outlines of lamps in the mirrors.
 
     .venv/bin/python tools/measure/light/draw_lights.py FOLDER [--samples 32]
 
@@ -17,13 +18,16 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 import bootstrap
 import bpy
+import numpy as np
 
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon import registration  # noqa: E402
 from curvrefl.curvrefl_addon.demo.scene import MIRRORS, build_demo  # noqa: E402
+from curvrefl.curvrefl_addon.design.lights.shown import LightsInMirrors  # noqa: E402
 from curvrefl.curvrefl_addon.engine.job import Job  # noqa: E402
 from curvrefl.curvrefl_addon.engine.still import render_still  # noqa: E402
+from curvrefl.curvrefl_addon.scene.opened.blend_file import view_of_camera  # noqa: E402
 from curvrefl.curvrefl_addon.settings_table import Settings  # noqa: E402
 
 SIZE = (420, 315)
@@ -58,8 +62,15 @@ def dim(scene: Any) -> None:
     background.inputs["Strength"].default_value *= 0.15
 
 
-def mark(path: Path, pixel: tuple[float, float]) -> None:
-    """A cross at a place in pixels from the bottom left."""
+def outlines(scene: Any) -> Any:
+    """(s, 2, 2) what the tool draws over the mirrors, in pixels from the bottom left."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    view = view_of_camera(scene, scene.camera, *SIZE, depsgraph)
+    return np.concatenate([light.segments for light in LightsInMirrors().of(depsgraph, scene, view, None)])
+
+
+def mark(path: Path, pixel: tuple[float, float], segments: Any) -> None:
+    """A cross at a place in pixels from the bottom left, and lines."""
     from PIL import Image, ImageDraw
 
     with Image.open(path) as opened:
@@ -70,6 +81,8 @@ def mark(path: Path, pixel: tuple[float, float]) -> None:
         for turned in (False, True):
             ends = [(x - CROSS, y), (x + CROSS, y)] if turned else [(x, y - CROSS), (x, y + CROSS)]
             draw.line(ends, fill=color, width=width)
+        for one, other in segments.tolist():
+            draw.line([(one[0], picture.height - one[1]), (other[0], picture.height - other[1])], color, width)
     picture.save(path)
 
 
@@ -95,7 +108,7 @@ def main() -> None:
         operators.curvrefl.place_light(mode=mode, pixel=pixel, **properties)
         path = arguments.folder.resolve() / f"{mode.lower()}.png"
         render_still(scene, Job(MIRRORS, Settings(samples=arguments.samples)), *SIZE, path, None)
-        mark(path, pixel)
+        mark(path, pixel, outlines(scene))
     registration.unregister()
 
 
