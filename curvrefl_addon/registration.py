@@ -16,16 +16,18 @@ from .gpu_caches import clear_gpu_caches
 OPERATORS = (
     "bake_look",
     "bake_reflector",
+    "check_joints",
     "compare_with_cycles",
     "copy_report",
     "measure_device",
     "mirror_settings",
     "place_light",
+    "save_inspection",
     "save_preview",
     "trace_at_cursor",
 )
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels", "light_tool")
+INTERFACE = ("preferences", "properties", "panel", "inspection_panel", "menus", "render_panels", "light_tool")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 ENGINE = "engine.engine"
@@ -59,6 +61,8 @@ def unregister() -> None:
     """Undo what `register` did, last first."""
     if (tracing := sys.modules.get(f"{__package__}.viewport.tracing")) is not None:
         tracing.clear()
+    if (lines := sys.modules.get(f"{__package__}.inspection.shown")) is not None:
+        lines.clear_joints()
     if (viewport := sys.modules.get(f"{__package__}.viewport.handlers")) is not None:
         viewport.unregister()
     if (device_run := sys.modules.get(f"{__package__}.viewport.device_run")) is not None:

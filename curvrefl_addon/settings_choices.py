@@ -50,6 +50,12 @@ LOCK_CHOICES = (
     Choice("OBJECT", "Object", "The pattern turns with each mirror, whose own axes the direction is in"),
     Choice("VIEW", "View", "The pattern turns with the view: X is right, Y is up, Z is towards the eye"),
 )
+PLANE_CHOICES = (
+    Choice("OBJECT", "Object", "Each mirror's own plane, through its origin and across one of its own axes"),
+    Choice("WORLD", "World", "One plane, through the world's origin and across one of its axes"),
+    Choice("CURSOR", "3D Cursor", "One plane, through the 3D cursor and across one of its axes"),
+)
+AXIS_CHOICES = tuple(Choice(name, name, f"The plane is across the {name} axis") for name in "XYZ")
 CURVATURE_CHOICES = (
     Choice("GAUSSIAN", "Gaussian", "Product of the principal curvatures: above 0 on domes and bowls, below on saddles"),
     Choice("MEAN", "Mean", "Half of the principal curvatures' sum: above 0 where the surface bends outwards"),

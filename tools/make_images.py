@@ -161,6 +161,14 @@ def _passes(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
 
 
+def _inspection(folder: Path) -> None:
+    _run(
+        str(ROOT / "tools" / "measure" / "inspection" / "draw_inspection.py"),
+        str(folder),
+        str(folder / "inspection.jpg"),
+    )
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -180,6 +188,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "convergence": _convergence,
     "lights": _lights,
     "passes": _passes,
+    "inspection": _inspection,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -200,6 +209,7 @@ IMAGES: dict[str, Picture] = {
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
+    "inspection.jpg": Picture("inspection", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import pi
 
 from ..setting import Choice, setting
-from ..settings_choices import CURVATURE_CHOICES, DIAGNOSTIC_CHOICES, LOCK_CHOICES
+from ..settings_choices import AXIS_CHOICES, CURVATURE_CHOICES, DIAGNOSTIC_CHOICES, LOCK_CHOICES, PLANE_CHOICES
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,4 +84,40 @@ class DiagnosticSettings:
         text="How much of the viewport's own picture comes through a pattern or curvature",
         hard=(0.0, 1.0),
         panel="Diagnostic View",
+    )
+    comb_show: bool = setting(
+        False,
+        label="Curvature Combs",
+        text="Cut the mirrors by a plane, and show how much each section bends by teeth across it",
+        panel="Inspection",
+    )
+    comb_plane: str = setting(
+        "OBJECT", label="Plane of", text="Where the plane of a section lies", choices=PLANE_CHOICES, panel="Inspection"
+    )
+    comb_axis: str = setting(
+        "X", label="Across", text="Which axis the plane is across", choices=AXIS_CHOICES, panel="Inspection"
+    )
+    comb_offset: float = setting(
+        0.0,
+        label="Offset",
+        text="How far along that axis the plane is moved",
+        soft=(-10.0, 10.0),
+        unit="meters",
+        panel="Inspection",
+    )
+    comb_teeth: int = setting(
+        150,
+        label="Teeth",
+        text="Of each section, at equal distances",
+        hard=(2, 10000),
+        soft=(2, 1000),
+        panel="Inspection",
+    )
+    comb_scale: float = setting(
+        1.0,
+        label="Scale",
+        text="At 1 nineteen of twenty teeth are shorter than a fifth of the largest mirror",
+        hard=(0.001, 1000.0),
+        soft=(0.1, 10.0),
+        panel="Inspection",
     )

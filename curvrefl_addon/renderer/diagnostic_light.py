@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ..diagnostics.colors import DiagnosticOptions
+from ..diagnostics.colors import DiagnosticOptions, Legend, legend_of
 from ..scene.arrays import Float64Array
 from .mirrors.placed_mesh import polar
 from .reflection import Diagnostic, Reflection
+from .shading.combs import Combs
 from .shading.curvature import Curvatures
 from .shading.diagnostics import DiagnosticPass
 from .shown.nothing import ShownNothing
@@ -23,10 +26,16 @@ class DiagnosticLight:
     def __init__(self) -> None:
         self._pass: DiagnosticPass | None = None
         self.curvatures = Curvatures()
+        self.combs = Combs(self.curvatures)
 
     def curvature_end(self, options: DiagnosticOptions) -> float:
         """What the last color of the curvature view stands for."""
         return options.curvature_range or self.curvatures.end_of(options.curvature)
+
+    def legend(self, diagnostic: Diagnostic, methods: Sequence[str]) -> Legend | None:
+        """What the colors of a view mean; `methods`: catalog names by which the mirrors are drawn."""
+        end = self.curvature_end(diagnostic.options) if diagnostic.mode == "CURVATURE" else 1.0
+        return legend_of(diagnostic.mode, diagnostic.colors, diagnostic.options, methods, end)
 
     def add(
         self, canvas: Canvas, reflection: Reflection, sub_frame: SubFrame, weight: float, diagnostic: Diagnostic

@@ -91,9 +91,9 @@ class Renderer:
         self.is_gradual = is_gradual
         self._view_uniforms: Any = None
         self._jitter = offsets(self.settings.samples)
-        self._placement = Placement(self.geometry.facts)
+        self.placement = Placement(self.geometry.facts)
         self._given = scene
-        for _ in self._following_scene(self._placement.placed(scene)):
+        for _ in self._following_scene(self.placement.placed(scene)):
             yield "meshes"
         yield "lights and materials"
         self._appearance = Appearance(self.scene, self.geometry, self._numbers, self.settings, image_memory, is_gradual)
@@ -106,15 +106,15 @@ class Renderer:
         if scene is self._given:
             return
         self._given = scene
-        self._follow(self._placement.placed(scene))
+        self._follow(self.placement.placed(scene))
         self.revision += 1
 
     def _move_to(self, origin: Float64Array) -> None:
         """Have the scene's origin at another point (3,) of the world."""
-        if not np.array_equal(origin, self._placement.origin):
-            self._placement.move_to(origin)
+        if not np.array_equal(origin, self.placement.origin):
+            self.placement.move_to(origin)
             with unpaced():
-                self._follow(self._placement.placed(self._given), anew=True)
+                self._follow(self.placement.placed(self._given), anew=True)
 
     def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
         self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers)
@@ -230,11 +230,11 @@ class Renderer:
         """
         # (At rest costs are counted as while the view moves, when sub-frames come one by one. A picture at less than
         # the full resolution may be drawn another way all the same.)
-        origin = self._placement.origin
+        origin = self.placement.origin
         view = view.about(origin)
         self._move_to(wanted_origin(view, origin, self.geometry, self.mirrors))
-        view = with_depths_that_fit(view.about(self._placement.origin - origin), self.scene, self.geometry)
-        origin = self._placement.origin
+        view = with_depths_that_fit(view.about(self.placement.origin - origin), self.scene, self.geometry)
+        origin = self.placement.origin
         self._view_uniforms = view_block(view)
         if self.settings.entry.is_environment and not self.is_gradual:
             self._find_light()

@@ -27,7 +27,7 @@ class _Tab:
     bl_category = "Curvrefl"
 
 
-class _SubPanel(_Tab):
+class SubPanel(_Tab):
     bl_parent_id = "CURVREFL_PT_main"
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 (Blender's own convention)
 
@@ -83,7 +83,7 @@ class CURVREFL_PT_main(_Tab, bpy.types.Panel):
             draw_message(layout, "Switched off: tick the box in this panel's header", context, "INFO")
 
 
-class CURVREFL_PT_mirror(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_mirror(SubPanel, bpy.types.Panel):
     """How the active object reflects, and the map it is baked into"""
 
     bl_label = "Mirror"
@@ -117,7 +117,7 @@ class CURVREFL_PT_mirror(_SubPanel, bpy.types.Panel):
         bake.resolution = context.scene.curvrefl.map_resolution
 
 
-class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_quality(SubPanel, bpy.types.Panel):
     """How reflections are found and how finely"""
 
     bl_label = "Quality"
@@ -138,7 +138,7 @@ class CURVREFL_PT_quality(_SubPanel, bpy.types.Panel):
                 layout.prop(settings, item.name)
 
 
-class CURVREFL_PT_environment(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_environment(SubPanel, bpy.types.Panel):
     """What lights the reflected scene"""
 
     bl_label = "Environment"
@@ -157,7 +157,7 @@ class CURVREFL_PT_environment(_SubPanel, bpy.types.Panel):
             column.prop(settings, "environment_rotation")
 
 
-class CURVREFL_PT_diagnostics(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_diagnostics(SubPanel, bpy.types.Panel):
     """Views that show how the reflection comes about"""
 
     bl_label = "Diagnostic View"
@@ -169,7 +169,7 @@ class CURVREFL_PT_diagnostics(_SubPanel, bpy.types.Panel):
         draw_show(layout, context.scene.curvrefl)
 
 
-class CURVREFL_PT_tools(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_tools(SubPanel, bpy.types.Panel):
     """Operators that work with the mirrors"""
 
     bl_label = "Tools"
@@ -188,7 +188,7 @@ class CURVREFL_PT_tools(_SubPanel, bpy.types.Panel):
         column.operator("curvrefl.compare_with_cycles", icon="RENDER_RESULT")
 
 
-class CURVREFL_PT_statistics(_SubPanel, bpy.types.Panel):
+class CURVREFL_PT_statistics(SubPanel, bpy.types.Panel):
     """What the last picture took"""
 
     bl_label = "Statistics"

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..setting import Setting
 
-_SUBTYPES = {"pixels": "PIXEL", "radians": "ANGLE", "color": "COLOR", "direction": "DIRECTION"}
+_SUBTYPES = {"pixels": "PIXEL", "radians": "ANGLE", "color": "COLOR", "direction": "DIRECTION", "meters": "DISTANCE"}
 """By unit"""
 _SMALLEST = 1e-6
 """How far above a least value that is not taken itself sliders begin"""

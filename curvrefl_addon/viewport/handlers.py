@@ -24,6 +24,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..diagnostics.colors import MODES
+from ..inspection import shown as surface_lines
 from ..options import current_options, settings_of
 from ..renderer.device.frame_buffers import active_frame_buffer
 from ..renderer.device.state import viewport
@@ -283,6 +284,10 @@ def _draw(context: bpy.types.Context) -> None:
     if chosen.show in MODES or frame_buffer is None:
         frame_buffer = active_frame_buffer()
     picture.composite(frame_buffer, pixels)
+    if not chosen.comb_show:
+        surface_lines.forget_combs()
+    elif not surface_lines.show_combs(renderer, scene, view, SLICE_SECONDS):
+        _draw_soon()
     device_run.advance(is_resting=not picture.is_coarse)
     _draw_again(picture)
 

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import replace
-from math import degrees
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
-from ..diagnostics.colors import MODES, DiagnosticOptions, Legend, legend_of
+from ..diagnostics.colors import Legend
+from ..inspection.chosen import diagnostic_of
 from ..optics.catalog import label_of
 from ..pacing.pieces import OutOfTime, paced
 from ..renderer.appearance import MATERIALS
@@ -26,8 +26,6 @@ from ..renderer.surfaces.canvas import Canvas
 from ..renderer.vertices.solution import statistics
 from ..scene.camera.lens import Lens, lens_of
 from ..scene.camera.view import View
-from ..setting import value_of
-from ..settings_table import NAMED
 from .composite import composite
 from .motion_resolution import FIXED, MotionResolution
 from .opening import SLICE_SECONDS
@@ -191,11 +189,7 @@ class RegionPicture:
     def legend(self) -> Legend | None:
         """What the colors of the diagnostic view mean that is shown; None where they mean nothing."""
         diagnostic = self._state[1]
-        if diagnostic is None:
-            return None
-        options = diagnostic.options
-        end = self.renderer.diagnostics.curvature_end(options) if diagnostic.mode == "CURVATURE" else 1.0
-        return legend_of(diagnostic.mode, diagnostic.colors, options, self.methods, end)
+        return None if diagnostic is None else self.renderer.diagnostics.legend(diagnostic, self.methods)
 
     def composite(self, frame_buffer: Any, viewport: tuple[int, int, int, int]) -> None:
         """Put the picture over the viewport's own."""
@@ -280,30 +274,6 @@ class RegionPicture:
         # (While something moves a picture hardly gets beyond its first sub-frame.)
         self._meter = None if divisor > 1 or diagnostic is not None else NoiseMeter(self._canvas, samples, 1.0)
         counters["solves"] = counters.get("solves", 0) + 1
-
-
-def diagnostic_of(settings: Any, options: Any) -> Diagnostic | None:
-    """The diagnostic view that `Scene.curvrefl` asks for, in the preferences' colors; None for the picture itself."""
-    if settings.show not in MODES:
-        return None
-    x, y, z = settings.stripe_direction
-    return Diagnostic(
-        settings.show,
-        DiagnosticOptions(
-            axis=(x, y, z),
-            lock=value_of(settings, NAMED["stripe_lock"]),
-            stripes=settings.stripe_count,
-            lines=settings.stripe_count,
-            # (As typed: properties are of single precision.)
-            line_width=round(degrees(settings.stripe_width), 5),
-            softness=settings.stripe_softness,
-            transparency=settings.pattern_transparency,
-            curvature=value_of(settings, NAMED["curvature_kind"]),
-            curvature_range=settings.curvature_range,
-            directions=settings.curvature_directions,
-        ),
-        options.colors,
-    )
 
 
 def view_of(context: bpy.types.Context) -> View:

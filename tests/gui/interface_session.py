@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from scripted import Script, arguments, extension, in_view, install, play, rests, screenshot, view_3d
 
 ARCHIVE, DEMO, SMALL, FOLDER = arguments()[:4]
-PANELS = ("main", "mirror", "quality", "environment", "diagnostics", "tools", "statistics")
+PANELS = ("main", "mirror", "quality", "environment", "diagnostics", "inspection", "tools", "statistics")
 seen: dict[str, Any] = {}
 
 
@@ -133,6 +133,40 @@ def diagnostics(space: bpy.types.SpaceView3D) -> Script:
     yield rests
 
 
+def inspection(ball: bpy.types.Object) -> Script:
+    """Patterns of the surface, combs, joints, a picture of the view and tables."""
+    settings = bpy.context.scene.curvrefl
+    for name in ("ISOPHOTES", "HIGHLIGHTS", "CURVATURE"):
+        settings.show = name
+        yield rests
+    settings.comb_show, settings.comb_axis = True, "Y"
+    yield 0.3
+    yield rests
+    lines = extension("curvrefl_addon.inspection.shown")
+    seen["combs"] = dict(lines.comb_rows())
+    mesh = ball.data
+    for edge in mesh.edges:
+        edge.use_seam = bool({*edge.vertices} & {*mesh.polygons[0].vertices})
+    yield 0.3
+    folder = Path(FOLDER)
+    with in_view():
+        bpy.ops.curvrefl.check_joints(edges="SEAM")
+        bpy.ops.curvrefl.save_inspection(filepath=str(folder / "view.png"), samples=1)
+        for what in ("CURVATURE", "COMBS", "JOINTS"):
+            bpy.ops.curvrefl.export_inspection(filepath=str(folder / f"{what.lower()}.csv"), what=what)
+    yield 0.3
+    keep("inspection")
+    seen["joints"] = dict(lines.shown_joints().rows())
+    ball.location.x += 0.001
+    yield 0.3
+    seen["joints are stale"] = lines.joints_are_stale()
+    bpy.ops.curvrefl.clear_joints()
+    ball.location.x -= 0.001
+    settings.comb_show, settings.show = False, "REFLECTION"
+    yield 0.3
+    yield rests
+
+
 def trace(area: bpy.types.Area) -> Script:
     from bpy_extras.view3d_utils import location_3d_to_region_2d
 
@@ -220,6 +254,8 @@ def comparison() -> Script:
         obj.select_set(obj == ball)
     bpy.context.window_manager.curvrefl_enabled = True
     yield rests
+    bpy.context.view_layer.objects.active = ball
+    yield from inspection(ball)
     before = settings()
     output = Path(FOLDER) / "comparison"
     window().screen.areas[0].type = "IMAGE_EDITOR" if window().screen.areas[0].type != "VIEW_3D" else "VIEW_3D"

@@ -21,6 +21,23 @@ def test_no_panel_menu_or_handler_raises(session: Session) -> None:
     assert "Traceback" not in session.printed, session.printed[-3000:]
 
 
+def test_inspection_in_the_window(session: Session) -> None:
+    """Combs and joints are drawn and told, the view is saved at its size, tables have their rows."""
+    import bpy
+
+    assert session.seen["combs"]["Sections"] == "1"
+    assert int(session.seen["joints"]["Edges"]) > 4
+    assert session.seen["joints are stale"]
+    image = bpy.data.images.load(str(session.folder / "view.png"))
+    assert image.size[0] > 400 and image.size[1] > 300
+    tables = {
+        what: (session.folder / f"{what}.csv").read_text().splitlines() for what in ("curvature", "combs", "joints")
+    }
+    assert len(tables["curvature"]) > 100
+    assert len(tables["combs"]) == 151
+    assert len(tables["joints"]) == 1 + int(session.seen["joints"]["Edges"])
+
+
 def test_trace_by_a_click(session: Session) -> None:
     assert session.seen["trace is modal"]
     assert session.seen["trace after escape"] == [False, False]

@@ -41,6 +41,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.measured",),
     ("report", "demo", "design"),
     ("study",),
+    ("inspection",),
     ("viewport",),
     ("engine",),
     ("ui",),

@@ -47,10 +47,13 @@ class MeshCurvature:
         self.mesh, self.stretch = mesh, stretch
         # (Corners that differ by texture coordinates alone are one point of the surface.)
         merged, models = merge_corners(mesh.corner_vertex, len(mesh.positions), [mesh.corner_normals])
-        self._positions = mesh.positions[mesh.corner_vertex[models]].astype(np.float64) @ stretch.T
-        self._normals = unit(mesh.corner_normals[models].astype(np.float64) @ np.linalg.inv(stretch))
+        self.positions: Float64Array = mesh.positions[mesh.corner_vertex[models]].astype(np.float64) @ stretch.T
+        """(points, 3) stretched"""
+        self.normals = unit(mesh.corner_normals[models].astype(np.float64) @ np.linalg.inv(stretch))
+        self.triangles = merged[mesh.triangles]
+        """(triangles, 3) of the points"""
         self._merged = merged
-        self._sum: CurvatureSum | None = CurvatureSum(self._positions, self._normals, merged[mesh.triangles])
+        self._sum: CurvatureSum | None = CurvatureSum(self.positions, self.normals, self.triangles)
         self.tensors: Float64Array = np.zeros((0, 6))
         """(points, 6) once it is complete, in the axes of the stretched mesh"""
         self._records: Any = None
@@ -76,7 +79,7 @@ class MeshCurvature:
     @property
     def principal(self) -> Principal:
         """Of the points."""
-        return principal_curvatures(self.tensors, self._normals)
+        return principal_curvatures(self.tensors, self.normals)
 
     def uploaded(self) -> tuple[Any, Any]:
         """Records and batch of the triangles."""
@@ -156,6 +159,11 @@ class Curvatures:
                 shader.uniform_sampler("curved", records)
                 batch.draw(shader)
         return CurvatureBuffer(target.diagonal, target.across, end)
+
+    def known_of(self, mirrors: Sequence[Mirror]) -> list[MeshCurvature] | None:
+        """Of each mirror; None while some is not found."""
+        found = [self._of(mirror) for mirror in mirrors]
+        return found if all(one.is_complete for one in found) else None
 
     def _of(self, mirror: Mirror) -> MeshCurvature:
         _, stretch = polar(mirror.instance.matrix[:3, :3])

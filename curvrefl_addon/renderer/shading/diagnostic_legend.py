@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the legend of a diagnostic view into the lower right corner of a region (in a POST_PIXEL handler)."""
+"""Draws legends into the lower corners of a region (in a POST_PIXEL handler)."""
 
 from __future__ import annotations
 
@@ -37,20 +37,23 @@ class Layout:
     """x and y of the base line's left end"""
 
 
-def draw_legend(legend: Legend, context: bpy.types.Context) -> None:
-    """Draw beside the sidebar of the context's 3D viewport."""
+def draw_legend(legend: Legend, context: bpy.types.Context, at_left: bool = False) -> None:
+    """Draw beside the sidebar of the context's 3D viewport, or beside its toolbar."""
     region, area, preferences = context.region, context.area, context.preferences
     if region is None or area is None or preferences is None:
         return
     scale = preferences.system.ui_scale
-    right = bottom = 0.0
+    left = right = bottom = 0.0
     if preferences.system.use_region_overlap:
         for other in area.regions:
             if other.type == "UI" and other.alignment == "RIGHT" and other.width > 1:
                 right += other.width
+            if other.type == "TOOLS" and other.alignment == "LEFT" and other.width > 1:
+                left += other.width
             if other.type.startswith("ASSET_SHELF") and other.alignment == "BOTTOM" and other.height > 1:
                 bottom += other.height
-    draw_layout(layout(legend, region.width - right, bottom, scale), scale)
+    placed = layout_at_left if at_left else layout
+    draw_layout(placed(legend, left if at_left else region.width - right, bottom, scale), scale)
 
 
 def layout(legend: Legend, right: float, bottom: float, scale: float = 1.0) -> Layout:
@@ -90,6 +93,12 @@ def layout(legend: Legend, right: float, bottom: float, scale: float = 1.0) -> L
         colors.append(((x, top, swatch, swatch), color))
         texts.append((x + swatch + gap, top + 0.15 * swatch, label))
     return Layout(panel, tuple(colors), tuple(texts))
+
+
+def layout_at_left(legend: Legend, left: float, bottom: float, scale: float = 1.0) -> Layout:
+    """As `layout`: the lower left corner is a margin away from (left, bottom)."""
+    width = layout(legend, 0.0, bottom, scale).panel[2]
+    return layout(legend, left + width + 2.0 * MARGIN * scale, bottom, scale)
 
 
 def draw_layout(placed: Layout, scale: float = 1.0) -> None:

@@ -11,6 +11,7 @@ import pytest
 from curvrefl.curvrefl_addon.diagnostics.colors import DiagnosticOptions, legend_of, ramp_colors, rounded_up
 from curvrefl.curvrefl_addon.errors import InputError
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import unit
+from curvrefl.curvrefl_addon.renderer.device.overlays import matrices_of_pixels
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.shading.diagnostic_legend import draw_layout, layout
 from shading.mirror_ball import COLORS, PLAIN
@@ -95,7 +96,6 @@ def test_ranges_end_at_numbers_that_read_well() -> None:
 
 def test_legend_is_drawn_in_the_corner() -> None:
     import gpu
-    from mathutils import Matrix
 
     width, height = 400, 160
     legend = legend_of("STATUS", COLORS, PLAIN)
@@ -107,10 +107,7 @@ def test_legend_is_drawn_in_the_corner() -> None:
     offscreen = gpu.types.GPUOffScreen(width, height, format="RGBA32F")
     with offscreen.bind():
         gpu.state.active_framebuffer_get().clear(color=(0.0, 0.0, 0.0, 0.0))
-        with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-            gpu.matrix.load_matrix(Matrix.Identity(4))
-            pixels = Matrix(((2 / width, 0, 0, -1), (0, 2 / height, 0, -1), (0, 0, -1, 0), (0, 0, 0, 1)))
-            gpu.matrix.load_projection_matrix(pixels)
+        with matrices_of_pixels(width, height):
             draw_layout(placed)
     assert gpu.state.blend_get() == "NONE"
     picture = read_texture(offscreen.texture_color)

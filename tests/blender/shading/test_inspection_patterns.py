@@ -14,6 +14,7 @@ from curvrefl.curvrefl_addon.pacing.pieces import OutOfTime, paced
 from curvrefl.curvrefl_addon.renderer.device.textures import read_texture
 from curvrefl.curvrefl_addon.renderer.reflection import Diagnostic
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
+from curvrefl.curvrefl_addon.renderer.seen import draw_seen
 from curvrefl.curvrefl_addon.renderer.settings import Settings
 from curvrefl.curvrefl_addon.renderer.shading.curvature import Curvatures
 from curvrefl.curvrefl_addon.renderer.surfaces.canvas import Canvas
@@ -157,6 +158,46 @@ def test_pixels_of_placed_meshes_have_the_closed_forms(name: str) -> None:
     expected = np.sort([0.0, made.largest[middle] / 2.0, made.smallest[middle] / 2.0])
     np.testing.assert_allclose(found, expected, atol=0.01 * np.abs(expected).max())
     assert np.abs(tensor @ normal).max() < 0.01
+
+
+def torus_normals(points: np.ndarray) -> np.ndarray:
+    """(h, w, 3) exact unit normals of the torus at points near it."""
+    ring = points * [1, 1, 0]
+    return unit(points - 2.0 * ring / np.linalg.norm(ring, axis=-1, keepdims=True).clip(1e-9))
+
+
+@pytest.mark.parametrize("mode", ["ISOPHOTES", "ZEBRA", "HIGHLIGHTS", "LINES"])
+def test_patterns_of_a_torus_have_their_closed_forms(mode: str) -> None:
+    """A mesh's pattern is that of the surface itself to 1 percent of a band, where the eye does not look along it.
+
+    Bands are waves of straight lines: brightness tells the place in a band.
+    """
+    renderer = Renderer(mirror_alone("torus", np.eye(4)), Settings(samples=1, method="exact"))
+    view = look_at(np.array([6.0, 2.0, 3.0]), np.array([1.5, 1.0, 0.0]), 160, 120, 0.5)
+    count = 6
+    options = DiagnosticOptions(axis=tuple(AXIS), stripes=count, lines=count, line_width=180.0 / count, softness=1.0)
+    reflection = renderer.reflect(view, solve=False)
+    canvas = Canvas.of_size(160, 120)
+    renderer.add_sub_frame(canvas, reflection, 0, 1.0, mirrors_only=True, diagnostic=Diagnostic(mode, options))
+    seen = draw_seen(renderer._stage, renderer._targets, reflection, renderer.settings)
+    position = read_texture(seen.targets.seen.position)
+    normal = torus_normals(position[..., :3])
+    away = unit(position[..., :3] - view.eye[:3])
+    facing = -(away * normal).sum(-1)
+    looked_up = away + 2.0 * facing[..., None] * normal if mode in ("ZEBRA", "LINES") else normal
+    axis, up, side = options.axes
+    along = np.clip((looked_up * axis).sum(-1), -1, 1)
+    if mode in ("ZEBRA", "ISOPHOTES"):
+        place = np.arccos(along) / np.pi * count
+    else:
+        place = np.arctan2((looked_up * side).sum(-1), (looked_up * up).sum(-1)) / (2 * np.pi) * count + 0.25
+    wave = np.abs(np.abs((place - 0.25) % 1 - 0.5) * 2)
+    # (Towards the axis lamps come together, and waves end where they turn.)
+    fair = (position[..., 3] > 0) & (facing > 0.3) & (np.abs(along) < 0.9) & (np.abs(wave - 0.5) < 0.35)
+    assert fair.sum() > 1000
+    found = (canvas.pixels()[..., 1] - 0.008) / 0.892
+    # (Over a band, half a period, the wave goes from 0 to 1.)
+    assert np.abs(found - wave)[fair].max() < 0.01
 
 
 def test_curvature_is_found_once_in_pieces_and_kept_while_a_mirror_moves() -> None:
