@@ -24,6 +24,8 @@ SOLVED_MODES = frozenset({"ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD"})
 """The views of what the mirror shows; the others need the mirror's surface alone"""
 LAMP_MODES = frozenset({"LINES", "HIGHLIGHTS"})
 """Patterns of lamps along the axis"""
+NORMAL_MODES = frozenset({"ISOPHOTES", "HIGHLIGHTS"})
+"""Patterns of the normal, not of the reflected ray"""
 PATTERN_MODES = frozenset({"ZEBRA", "ISOPHOTES"}) | LAMP_MODES
 """Stripes, bands and lamps"""
 CURVATURES = {choice.name: choice.label for choice in CURVATURE_CHOICES}

@@ -18,7 +18,6 @@ from ..errors import InputError
 from ..optics.meshes.joints import GRADES
 from ..renderer.geometry.mesh_facts import MeshFactsCache
 from ..renderer.mirrors.mirror import Mirror, mirrors_of
-from ..renderer.mirrors.placed_mesh import polar
 from ..renderer.shading.combs import CombOptions, Combs
 from ..renderer.shading.curvature import Curvatures
 from ..scene.changes import Changes
@@ -57,8 +56,8 @@ def curvature_table(mirrors: Sequence[Mirror]) -> str:
         *_xyz("largest_"),
     )
     rows: list[Sequence[Any]] = []
-    for mirror, found in zip(mirrors, curvatures.known_of(mirrors) or (), strict=True):
-        turn, _ = polar(mirror.instance.matrix[:3, :3])
+    for mirror, placed in zip(mirrors, curvatures.known_of(mirrors) or (), strict=True):
+        found, turn = placed.curvature, placed.turn
         principal = found.principal
         numbers = np.column_stack(
             [

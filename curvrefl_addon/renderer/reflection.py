@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..diagnostics.colors import SOLVED_MODES, DiagnosticColors, DiagnosticOptions
+from ..diagnostics.colors import NORMAL_MODES, SOLVED_MODES, DiagnosticColors, DiagnosticOptions
 from ..scene.arrays import Float64Array
 from ..scene.camera.view import View
 from .choice import Choice
@@ -35,6 +35,11 @@ class Diagnostic:
     def needs_solve(self) -> bool:
         """Whether it shows what the mirrors show, not their surface alone."""
         return self.mode in SOLVED_MODES
+
+    @property
+    def of_meshes(self) -> bool:
+        """Whether it shows the normals of the mirrors' meshes, without bumps and what rays need of them."""
+        return self.mode in NORMAL_MODES or self.mode == "CURVATURE"
 
 
 @dataclass(frozen=True)

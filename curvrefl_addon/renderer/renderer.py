@@ -270,8 +270,8 @@ class Renderer:
         if diagnostic is None and not self.is_gradual:
             self._find_light(sub_frame=index)
         jittered = replace(reflection, view=view)
-        everywhere = diagnostic is not None
-        sub_frame = draw_seen(self._stage, self._targets, jittered, self.settings, window, everywhere, index)
+        everywhere, of_meshes = diagnostic is not None, diagnostic is not None and diagnostic.of_meshes
+        sub_frame = draw_seen(self._stage, self._targets, jittered, self.settings, window, everywhere, index, of_meshes)
         groups = reflection.groups
         if diagnostic is not None:
             self.diagnostics.add(canvas, reflection, sub_frame, weight, diagnostic)

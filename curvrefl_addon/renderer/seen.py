@@ -24,10 +24,11 @@ def draw_seen(
     window: Window | None = None,
     everywhere: bool = False,
     index: int = 0,
+    of_meshes: bool = False,
 ) -> SubFrame:
     """Draw it from where the reflection's view looks, in `window` alone if given, but `everywhere` if asked for.
 
-    `index`: number of the sub-frame.
+    `index`: number of the sub-frame. `of_meshes`: the mirrors' normals are those of their meshes, whatever shows them.
     """
     view, geometry = reflection.view, stage.geometry
     targets, shadows = pool.of(view.width, view.height), reflection.ray_shadows(stage.rays)
@@ -38,7 +39,9 @@ def draw_seen(
         gathers = stage.indirect.gathering(Means(stage.rays, stage.materials, stage.lighting, uniforms), index)
     sub_frame = SubFrame(stage, view, uniforms, targets, window, shadows, index, gathers)
     mirrors = [shown.mirror for shown in reflection.shown if shown.has_reliefs]
-    if not reflection.shown and not settings.entry.solves_vertices:
+    if of_meshes:
+        mirrors = []
+    elif not reflection.shown and not settings.entry.solves_vertices:
         mirrors = list(stage.mirrors)
     followed = {id(geometry.of_instance(mirror.index)[0]) for mirror in mirrors}
     # (Reflection points are those of the smooth surface.)

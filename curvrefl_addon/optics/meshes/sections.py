@@ -19,6 +19,9 @@ from .curvature import Float64Array, normal_curvature
 GRAZING = 0.02
 """Cosine of the angle between normal and plane below which the plane only touches the surface"""
 
+SPECK = 1e-9
+"""Share of the mesh's size: a shorter section is that of a corner which the plane touches"""
+
 
 @dataclass(frozen=True, slots=True)
 class Section:
@@ -102,7 +105,8 @@ def sections(
         Section(points[chain], outwards[chain], curvature[chain], is_closed)
         for chain, is_closed in _chains(numbers.reshape(-1, 2), len(points))
     ]
-    return sorted(found, key=lambda section: -section.length)
+    shortest = SPECK * float(np.linalg.norm(np.ptp(positions, axis=0)))
+    return sorted((section for section in found if section.length > shortest), key=lambda section: -section.length)
 
 
 def _chains(segments: NDArray[np.integer], count: int) -> list[tuple[list[int], bool]]:

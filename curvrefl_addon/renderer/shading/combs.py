@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from ...optics.meshes.sections import Section, sections
 from ...scene.arrays import Float64Array
 from ..mirrors.mirror import Mirror
-from ..mirrors.placed_mesh import polar
-from .curvature import PERCENTILE, Curvatures
+from .curvature import PERCENTILE, Curvatures, PlacedCurvature
 
 SHARE = 0.2
 """Of the largest mirror's size: how long teeth are at a scale of 1"""
@@ -113,7 +112,7 @@ class Combs:
 
     def __init__(self, curvatures: Curvatures) -> None:
         self._curvatures = curvatures
-        self._key: Hashable = None
+        self._key: tuple[list[PlacedCurvature], CombOptions, bytes] | None = None
         self._found = CombSet((), 1.0)
 
     def of(self, mirrors: Sequence[Mirror], options: CombOptions, origin: Float64Array) -> CombSet | None:
@@ -121,15 +120,15 @@ class Combs:
         known = self._curvatures.known_of(mirrors)
         if known is None:
             return None
-        matrices = [mirror.instance.matrix for mirror in mirrors]
-        key = (tuple(map(id, known)), np.array(matrices).tobytes(), options, origin.tobytes())
-        if key == self._key:
+        # (Held, so that no other instance gets the address of one.)
+        key = (known, options, origin.tobytes())
+        if self._key is not None and key[1:] == self._key[1:] and _are_same(known, self._key[0]):
             return self._found
         found: list[tuple[str, Section]] = []
         size = 0.0
-        for mirror, curvature, matrix in zip(mirrors, known, matrices, strict=True):
-            turn, _ = polar(matrix[:3, :3])
-            place = matrix[:3, 3] + origin
+        for mirror, placed in zip(mirrors, known, strict=True):
+            curvature, turn = placed.curvature, placed.turn
+            place = placed.instance.matrix[:3, 3] + origin
             point, across = _plane(options, turn, place)
             # (In the axes of the stretched mesh.)
             cut = sections(
@@ -146,6 +145,10 @@ class Combs:
         self._found = _toothed(found, options.scale * SHARE * size)
         self._key = key
         return self._found
+
+
+def _are_same(some: Sequence[PlacedCurvature], others: Sequence[PlacedCurvature]) -> bool:
+    return len(some) == len(others) and all(one is other for one, other in zip(some, others, strict=True))
 
 
 def _plane(options: CombOptions, turn: Float64Array, place: Float64Array) -> tuple[Float64Array, Float64Array]:

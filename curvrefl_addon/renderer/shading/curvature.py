@@ -17,7 +17,7 @@ from ...diagnostics.colors import rounded_up
 from ...optics.meshes.curvature import CurvatureSum, Principal, principal_curvatures
 from ...optics.surfaces.radial_surfaces import unit
 from ...pacing.pieces import piece_of_work
-from ...scene.arrays import Float64Array, MeshArrays
+from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays
 from ...scene.camera.view import View
 from ...scene.meshes.corners import merge_corners
 from ..device.batches import indexed_batch
@@ -105,33 +105,67 @@ class CurvatureBuffer:
     """What the last color stands for"""
 
 
+@dataclass(frozen=True, slots=True)
+class PlacedCurvature:
+    """Of one mirror."""
+
+    instance: InstanceArrays
+    """Which it was found for"""
+    curvature: MeshCurvature
+    turn: Float64Array
+    """(3, 3) rotation of the stretched mesh"""
+
+
 class Curvatures:
-    """Of the mirrors of a scene."""
+    """Of the mirrors of a scene; those that are the same mesh with the same stretch share one."""
 
     def __init__(self) -> None:
-        self._known: list[MeshCurvature] = []
+        self._placed: dict[int, PlacedCurvature] = {}
+        """By the instance's identity: it is another one where anything of it changes"""
         self._targets = BySize(_Target, MOST_SIZES)
         self._ends: dict[str, float] = {}
 
     def prepare(self, mirrors: Sequence[Mirror]) -> None:
         """Find all that is not known, in pieces (see `pacing`); what no mirror has any more is let go."""
-        wanted = [self._of(mirror) for mirror in mirrors]
-        if len(wanted) != len(self._known) or any(a is not b for a, b in zip(wanted, self._known, strict=True)):
-            self._known = wanted
-            self._ends.clear()
-        for mirror, found in zip(mirrors, wanted, strict=True):
+        if any(id(mirror.instance) not in self._placed for mirror in mirrors) or len(mirrors) != len(self._placed):
+            self._place(mirrors)
+        for mirror in mirrors:
+            found = self._placed[id(mirror.instance)].curvature
             while not found.is_complete:
                 with piece_of_work(f"curvature of {mirror.object_name}"):
                     found.advance()
+
+    def _place(self, mirrors: Sequence[Mirror]) -> None:
+        before = self._meshes()
+        by_mesh: dict[int, list[MeshCurvature]] = {}
+        for known in before:
+            by_mesh.setdefault(id(known.mesh), []).append(known)
+        placed: dict[int, PlacedCurvature] = {}
+        for mirror in mirrors:
+            turn, stretch = polar(mirror.instance.matrix[:3, :3])
+            same = by_mesh.setdefault(id(mirror.mesh), [])
+            found = next((known for known in same if known.is_of(mirror.mesh, stretch)), None)
+            if found is None:
+                found = MeshCurvature(mirror.mesh, stretch)
+                same.append(found)
+            placed[id(mirror.instance)] = PlacedCurvature(mirror.instance, found, turn)
+        self._placed = placed
+        if set(map(id, self._meshes())) != set(map(id, before)):
+            self._ends.clear()
+
+    def _meshes(self) -> list[MeshCurvature]:
+        """Each once."""
+        return list({id(placed.curvature): placed.curvature for placed in self._placed.values()}.values())
 
     def end_of(self, kind: str) -> float:
         """An automatic range of one of `diagnostics.colors.CURVATURES`, from the mirrors that are found by now."""
         if kind in self._ends:
             return self._ends[kind]
-        values = [np.abs(curvature_of(found.principal, kind)) for found in self._known if found.is_complete]
+        meshes = self._meshes()
+        values = [np.abs(curvature_of(found.principal, kind)) for found in meshes if found.is_complete]
         each = np.concatenate(values) if values else np.zeros(0)
         end = rounded_up(float(np.percentile(each, PERCENTILE)) if len(each) else 0.0)
-        if len(values) == len(self._known):
+        if len(values) == len(meshes):
             self._ends[kind] = end
         return end
 
@@ -140,37 +174,31 @@ class Curvatures:
         self.prepare(mirrors)
         target = self._targets.of(view.width, view.height)
         depths = depths_of(view)
-        uploaded = [found.uploaded() for found in self._known]
+        all_placed = [self._placed[id(mirror.instance)] for mirror in mirrors]
+        uploaded = [placed.curvature.uploaded() for placed in all_placed]
         with drawing_state("LESS_EQUAL", depth_write=True, mirrored=view.is_mirrored), target.frame_buffer.bind():
             set_viewport(0, 0, view.width, view.height)
             target.frame_buffer.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
             shader = _shader(depths is not None)
-            for mirror, (records, batch) in zip(mirrors, uploaded, strict=True):
+            for mirror, placed, (records, batch) in zip(mirrors, all_placed, uploaded, strict=True):
                 shader.bind()
                 shader.uniform_block("view", view_uniforms)
                 if depths is not None:
                     shader.uniform_float("depths", depths)
                 shader.uniform_float("number", float(mirror.number))
-                matrix = mirror.instance.matrix
-                turn, _ = polar(matrix[:3, :3])
-                for axis, row, turned in zip("xyz", matrix[:3].tolist(), turn.tolist(), strict=True):
+                rows = placed.instance.matrix[:3].tolist()
+                for axis, row, turned in zip("xyz", rows, placed.turn.tolist(), strict=True):
                     shader.uniform_float(f"place_{axis}", row)
                     shader.uniform_float(f"turn_{axis}", turned)
                 shader.uniform_sampler("curved", records)
                 batch.draw(shader)
         return CurvatureBuffer(target.diagonal, target.across, end)
 
-    def known_of(self, mirrors: Sequence[Mirror]) -> list[MeshCurvature] | None:
+    def known_of(self, mirrors: Sequence[Mirror]) -> list[PlacedCurvature] | None:
         """Of each mirror; None while some is not found."""
-        found = [self._of(mirror) for mirror in mirrors]
-        return found if all(one.is_complete for one in found) else None
-
-    def _of(self, mirror: Mirror) -> MeshCurvature:
-        _, stretch = polar(mirror.instance.matrix[:3, :3])
-        for found in self._known:
-            if found.is_of(mirror.mesh, stretch):
-                return found
-        return MeshCurvature(mirror.mesh, stretch)
+        found = [self._placed.get(id(mirror.instance)) for mirror in mirrors]
+        known = [placed for placed in found if placed is not None and placed.curvature.is_complete]
+        return known if len(known) == len(mirrors) else None
 
 
 def curvature_of(principal: Principal, kind: str) -> Float64Array:

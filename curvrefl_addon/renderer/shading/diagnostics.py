@@ -18,6 +18,7 @@ import numpy as np
 from ...diagnostics.colors import (
     LAMP_MODES,
     MODES,
+    NORMAL_MODES,
     ONE_SIDED,
     PATTERN_MODES,
     RAMP_TEXELS,
@@ -46,7 +47,6 @@ from .lookup import Environment, lookup_piece
 
 _SEEN = ("seen_position", "seen_normal", "seen_color")
 _REFLECTED = ("reflected_position", "reflected_normal", "reflected_color")
-_OF_NORMALS = ("ISOPHOTES", "HIGHLIGHTS")
 _FRAME = ("stripe_axis", "stripe_up", "stripe_side")
 _DARK, _BRIGHT = (0.008, 0.008, 0.010), (0.900, 0.900, 0.900)
 
@@ -258,7 +258,7 @@ def _shader(mode: str, lookup: str, marks: bool, with_choice: bool, by_mirror: b
 def _pattern_piece(mode: str, by_mirror: bool) -> Piece:
     is_lamps = mode in LAMP_MODES
     axes = () if by_mirror else _FRAME[1:] if is_lamps else _FRAME[:1]
-    chosen = [(is_lamps, "LAMPS"), (mode in _OF_NORMALS, "OF_NORMALS"), (by_mirror, "FRAMES_BY_MIRROR")]
+    chosen = [(is_lamps, "LAMPS"), (mode in NORMAL_MODES, "OF_NORMALS"), (by_mirror, "FRAMES_BY_MIRROR")]
     return Piece(
         samplers={"stripe_frames": "FLOAT_2D"} if by_mirror else {},
         constants={**named("VEC3", *axes, "dark", "bright"), **named("FLOAT", "count", "duty", "softness", "opacity")},

@@ -193,7 +193,8 @@ def test_patterns_of_a_torus_have_their_closed_forms(mode: str) -> None:
         place = np.arctan2((looked_up * side).sum(-1), (looked_up * up).sum(-1)) / (2 * np.pi) * count + 0.25
     wave = np.abs(np.abs((place - 0.25) % 1 - 0.5) * 2)
     # (Towards the axis lamps come together, and waves end where they turn.)
-    fair = (position[..., 3] > 0) & (facing > 0.3) & (np.abs(along) < 0.9) & (np.abs(wave - 0.5) < 0.35)
+    least = 0.1 if mode == "ISOPHOTES" else 0.3
+    fair = (position[..., 3] > 0) & (facing > least) & (np.abs(along) < 0.9) & (np.abs(wave - 0.5) < 0.35)
     assert fair.sum() > 1000
     found = (canvas.pixels()[..., 1] - 0.008) / 0.892
     # (Over a band, half a period, the wave goes from 0 to 1.)
@@ -214,16 +215,16 @@ def test_curvature_is_found_once_in_pieces_and_kept_while_a_mirror_moves() -> No
         except OutOfTime as left:
             assert str(left) == "curvature of object 1"
     assert pieces == 2, "57,000 triangles"
-    known = curvatures._known[0]
+    known = curvatures._meshes()[0]
     moved = np.eye(4)
     moved[:3, :3], moved[:3, 3] = TURN, (4.0, 0.0, 0.0)
     renderer.update(replace(scene, instances=(replace(scene.instances[0], matrix=moved),)))
     curvatures.prepare(renderer.mirrors)
-    assert curvatures._known[0] is known
+    assert curvatures._meshes() == [known]
     end = curvatures.end_of("STRONGEST")
     renderer.update(replace(scene, instances=(replace(scene.instances[0], matrix=np.diag([2.0, 2.0, 2.0, 1.0])),)))
     curvatures.prepare(renderer.mirrors)
-    assert curvatures._known[0] is not known
+    assert known not in curvatures._meshes()
     assert (end, curvatures.end_of("STRONGEST")) == pytest.approx((2.0, 1.0)), "1 / 0.6 and 1 / 1.2"
 
 

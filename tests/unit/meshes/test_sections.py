@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.meshes.curvature import curvature_tensors
 from curvrefl.curvrefl_addon.optics.meshes.sections import Section, sections
-from scenes.inspected.analytic_surfaces import Analytic, cylinder, ellipsoid, saddle, sphere, torus
+from scenes.inspected.analytic_surfaces import Analytic, cylinder, ellipsoid, saddle, sphere, torus, unit
 
 Z = np.array([0.0, 0.0, 1.0])
 
@@ -105,6 +105,14 @@ def test_where_the_plane_only_touches_there_is_no_curvature() -> None:
     normals = np.tile(Z, (4, 1))
     (section,) = sections(flat, normals, np.ones((4, 6)), np.array([[0, 1, 2], [0, 3, 1]]), np.zeros(3) + 0.1 * Z, Z)
     assert np.isnan(section.curvature).all()
+
+
+def test_a_corner_that_the_plane_touches_is_no_section() -> None:
+    tip = np.array([[0.0, 0, 0], [1, 0, -1], [0, 1, -1], [-1, -1, -1]])
+    fan = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1]])
+    assert sections(tip, np.tile(Z, (4, 1)), np.zeros((4, 6)), fan, np.zeros(3), Z) == []
+    (section,) = sections(tip, np.tile(unit(Z + 0.1), (4, 1)), np.zeros((4, 6)), fan, -1e-3 * Z, Z)
+    assert section.is_closed and len(section.points) == 3
 
 
 def test_a_plane_beside_the_mesh_cuts_nothing_and_a_cut_along_vertices_is_whole() -> None:
