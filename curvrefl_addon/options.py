@@ -99,6 +99,11 @@ def mirrors_in(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
     return list(found.values())
 
 
+def filmed(scene: Any) -> Any:
+    """The scene that a film's scene shows the mirrors of (see `film`), else the scene itself."""
+    return scene.curvrefl.film_source or scene
+
+
 def overrides_of(mirrors: Iterable[bpy.types.Object]) -> dict[int, MaterialArrays]:
     """By session_uid, the materials that mirrors' settings put in place of their own."""
     return {mirror.session_uid: material for mirror in mirrors if (material := _override_of(mirror)) is not None}

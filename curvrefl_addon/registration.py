@@ -19,6 +19,7 @@ OPERATORS = (
     "check_joints",
     "compare_with_cycles",
     "copy_report",
+    "film",
     "measure_device",
     "mirror_settings",
     "place_light",
@@ -33,6 +34,9 @@ INTERFACE = ("preferences", "properties", "panel", "inspection_panel", "menus", 
 ENGINE = "engine.engine"
 """The module of `curvrefl_addon` that is a render engine; as those of INTERFACE"""
 
+FILM = "film.follow"
+"""The module of `curvrefl_addon` that follows scenes that are filmed; likewise"""
+
 _PACKAGE = __package__.rpartition(".")[0]
 _classes: list[type] = []
 _commands: list[Any] = []
@@ -43,7 +47,7 @@ def register() -> None:
     try:
         modules = [_module(f"operators.{name}") for name in OPERATORS]
         modules += [_module(f"curvrefl_addon.ui.{name}") for name in INTERFACE]
-        modules.append(_module(f"curvrefl_addon.{ENGINE}"))
+        modules += [_module(f"curvrefl_addon.{name}") for name in (ENGINE, FILM)]
         for module in modules:
             for cls in module.CLASSES:
                 bpy.utils.register_class(cls)
@@ -67,7 +71,7 @@ def unregister() -> None:
         viewport.unregister()
     if (device_run := sys.modules.get(f"{__package__}.viewport.device_run")) is not None:
         device_run.end_session()
-    for name in (ENGINE, *(f"ui.{name}" for name in reversed(INTERFACE))):
+    for name in (FILM, ENGINE, *(f"ui.{name}" for name in reversed(INTERFACE))):
         module = sys.modules.get(f"{__package__}.{name}")
         if module is not None and hasattr(module, "remove"):
             module.remove()

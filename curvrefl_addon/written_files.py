@@ -4,7 +4,8 @@
 
 Blender's writers of pictures and of .blend files report success on a full disk, and leave a file that breaks off. So
 what they write is read again: the chunks of a PNG with their sums, the table of an OpenEXR file and its last chunk, the
-last block of a .blend file. Python's own writers raise OSError, and their files are taken as they are.
+last block of a .blend file, the boxes of a video. Python's own writers raise OSError, and their files are taken as they
+are.
 """
 
 from __future__ import annotations
@@ -34,21 +35,32 @@ _LARGEST_BLOCK_HEAD = 32
 
 def require_whole(path: Path) -> None:
     """Raises OSError, with the reason where it can be found, when the file breaks off or cannot be kept."""
-    check = _CHECKS.get(path.suffix.lower())
     size = 0
     if path.is_file():
         with path.open("r+b") as file:
-            try:
-                is_whole = check is None or check(file)
-            except (struct.error, ValueError):
-                is_whole = False
-            if is_whole:
+            if _passes_check(path, file):
                 # Some file systems say only now that there was no room.
                 os.fsync(file.fileno())
                 return
             size = file.seek(0, os.SEEK_END)
     _require_room(path.parent, size)
     raise OSError(errno.EIO, "it was not written whole", str(path))
+
+
+def is_whole(path: Path) -> bool:
+    """Whether the file is there and does not break off, as far as its kind tells."""
+    if not path.is_file() or path.stat().st_size == 0:
+        return False
+    with path.open("rb") as file:
+        return _passes_check(path, file)
+
+
+def _passes_check(path: Path, file: BinaryIO) -> bool:
+    check = _CHECKS.get(path.suffix.lower())
+    try:
+        return check is None or check(file)
+    except (struct.error, ValueError):
+        return False
 
 
 def error_in(text: str, path: Path | str) -> OSError:
@@ -144,8 +156,26 @@ def _is_whole_blend(file: BinaryIO) -> bool:
     return end.endswith(_SEEKABLE_END) if is_packed else _BLEND_END in end
 
 
+def _is_whole_video(file: BinaryIO) -> bool:
+    """The boxes of an ISO base media file, MP4 or QuickTime, reach to its end, and the one with the index is there."""
+    size = file.seek(0, os.SEEK_END)
+    kinds, place = [], 0
+    while place < size:
+        file.seek(place)
+        length, kind = struct.unpack(">I4s", file.read(8))
+        if length == 1:
+            (length,) = struct.unpack(">Q", file.read(8))
+        if length < 8:
+            return False
+        kinds.append(kind)
+        place += length
+    return place == size and b"moov" in kinds
+
+
 _CHECKS: dict[str, Callable[[BinaryIO], bool]] = {
     ".png": _is_whole_png,
     ".exr": _is_whole_exr,
     ".blend": _is_whole_blend,
+    ".mp4": _is_whole_video,
+    ".mov": _is_whole_video,
 }

@@ -11,15 +11,22 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
 
-from ..curvrefl_addon.design.lights.placing import Ask, Line, Placed, Placing
+from ..curvrefl_addon.design.lights.moved import Moved
+from ..curvrefl_addon.design.lights.placing import Ask, Line, Placed, Placing, line_given
+from ..curvrefl_addon.design.lights.sight import has_bumps
+from ..curvrefl_addon.design.lights.worlds import MovedWorld
 from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.scene.opened.blend_file import find_camera, view_of_camera
 from ..curvrefl_addon.ui.light_tool import draw_placing
+from ..curvrefl_addon.viewport import light_overlay
 
 MODES = (
     ("REFLECTION", "Reflection", "It is seen in the mirror under the cursor"),
     ("ILLUMINATION", "Illumination", "It stands straight over what is under the cursor, where it gives most light"),
     ("RIM", "Rim", "It grazes the edge nearest to the cursor from behind; beside all objects it goes to the cursor"),
+)
+TARGETS = (
+    ("ACTIVE", "Active", "The active light or object"),
+    ("WORLD", "World", "The world: its sun, or the brightest place of its image, is turned there"),
 )
 STEP = 1.1
 """Of distance, size and power by a step of the wheel"""
@@ -34,6 +41,12 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "BLOCKING"}  # noqa: RUF012 (Blender's own convention)
 
     mode: EnumProperty(name="Mode", description="What it does under the cursor", items=MODES)  # type: ignore[valid-type]
+    target: EnumProperty(name="Place", description="What is placed", items=TARGETS)  # type: ignore[valid-type]
+    level: BoolProperty(  # type: ignore[valid-type]
+        name="Keep Level",
+        description="Turn the world about the vertical alone: its sun may then show above or below the cursor",
+        default=False,
+    )
     keep_distance: BoolProperty(  # type: ignore[valid-type]
         name="Distance", description="Keep its distance from the point that it is placed by", default=True
     )
@@ -120,12 +133,14 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         self._grab = np.zeros(2)
         """Pixels from the mouse to the image that was picked: that goes with it, and does not jump"""
         self._start = np.array((event.mouse_region_x, event.mouse_region_y), np.float64)
-        self._waits, self._has_picked = False, False
+        self._waits = False
+        self._left: bpy.types.Object | None = None
+        """What was active before another light was picked"""
         self._is_held = event.type == "LEFTMOUSE" and event.value in {"PRESS", "CLICK_DRAG"}
         if self._is_held:
             self._pick(context)
         try:
-            self._placing = Placing(_active(context), _scene(context))
+            self._placing = Placing(self._taken(context), _scene(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -158,13 +173,15 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         self._placing.moved.restore()
+        if self._left is not None:
+            _select_alone(context, self._left)
         self._end(context)
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         depsgraph = context.evaluated_depsgraph_get()
         try:
             scene = _scene(context)
-            placing = Placing(_active(context), scene)
+            placing = Placing(self._taken(context), scene)
             placed = placing.place(depsgraph, scene, self._line(scene, depsgraph), self._ask())
         except InputError as error:
             self.report({"ERROR"}, str(error))
@@ -178,6 +195,10 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         draw_placing(layout, self.properties)
         layout.prop(self, "size")
         layout.prop(self, "power")
+
+    def _taken(self, context: bpy.types.Context) -> Moved | MovedWorld:
+        """What is placed. Raises InputError for what cannot be."""
+        return MovedWorld(_scene(context).world, self.level) if self.target == "WORLD" else Moved(_active(context))
 
     def _ask(self) -> Ask:
         return Ask(
@@ -193,52 +214,31 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
 
     def _line(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Line:
         """The line of sight that the properties say."""
-        given = {name for name in ("pixel", "point", "eye", "direction") if self.properties.is_property_set(name)}
-        eye, point = np.array(self.eye, np.float64), np.array(self.point, np.float64)
-        if "direction" in given and "eye" in given:
-            return Line.along(eye, np.array(self.direction, np.float64), self.parallel)
-        if "point" in given and "eye" in given:
-            return Line.along(eye, point - eye)
-        if not given & {"pixel", "point"}:
-            raise InputError("No place is given: set pixel, or point, or eye and direction.")
-        percent = 0.01 * scene.render.resolution_percentage
-        size = (int(scene.render.resolution_x * percent), int(scene.render.resolution_y * percent))
-        view = view_of_camera(scene, find_camera(scene), *size, depsgraph)
-        x, y = self.pixel if "pixel" in given else view.project(point[None])[0].tolist()
-        return Line.through(view, x, y)
+        given = {
+            name: np.array(getattr(self, name), np.float64)
+            for name in ("pixel", "point", "eye", "direction")
+            if self.properties.is_property_set(name)
+        }
+        return line_given(scene, depsgraph, given, self.parallel)
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         """Place it by what is under the mouse; where that does not serve it stays, and the header says why."""
-        from ..curvrefl_addon.viewport.region import view_of
-
         mouse = np.array((event.mouse_region_x, event.mouse_region_y), np.float64)
         if self._waits and np.abs(mouse - self._start).max() < context.preferences.inputs.drag_threshold_mouse:
             return
         self._waits = False
         x, y = mouse + 0.5 + self._grab
-        self._place(context, Line.through(view_of(context), x, y))
+        self._place(context, Line.through(light_overlay.view_in(context), x, y))
 
     def _pick(self, context: bpy.types.Context) -> None:
         """Take the light whose reflection is under the mouse, if there is one."""
-        from ..curvrefl_addon.design.lights.shown import path_at, picked
-        from ..curvrefl_addon.viewport import light_overlay
-        from ..curvrefl_addon.viewport.region import view_of
-
-        shown = () if context.region is None else light_overlay.shown_in(context.region)
-        if not shown:
+        found = light_overlay.picked_at(context, self._start + 0.5, self.target == "WORLD")
+        if found is None:
             return
-        depsgraph, pixel = context.evaluated_depsgraph_get(), self._start + 0.5
-        found = picked(shown, path_at(depsgraph, _scene(context), view_of(context), pixel), pixel)
-        item = None if found is None else context.view_layer.objects.get(found[0])
-        if found is None or item is None:
-            return
-        self._grab, self._waits = found[1] - pixel, True
-        if item != context.object:
-            self._has_picked = True
-            for other in context.selected_objects:
-                other.select_set(False)
-            item.select_set(True)
-            context.view_layer.objects.active = item
+        self._grab, self._waits = found.center - self._start - 0.5, True
+        if found.item is not None and found.item != context.object:
+            self._left = context.object
+            _select_alone(context, found.item)
 
     def _place(self, context: bpy.types.Context, line: Line) -> None:
         assert context.area is not None
@@ -286,7 +286,7 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         self._end(context)
         if self._placed is None and self._waits:
             # A click on the reflection of a light takes that, and is a step of undo where it was another one.
-            return {"FINISHED"} if self._has_picked else {"CANCELLED"}
+            return {"FINISHED"} if self._left is not None else {"CANCELLED"}
         if self._placed is None:
             self.report({"WARNING"}, self._problem)
             return {"CANCELLED"}
@@ -295,7 +295,8 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
 
     def _tell(self, context: bpy.types.Context, placing: Placing, placed: Placed) -> None:
         """Say what came of it, once the scene has followed."""
-        item = placing.moved.item
+        if _scene(context).tool_settings.use_keyframe_insert_auto:
+            placing.moved.insert_keys(self.aim)
         if held := placing.moved.held(placed.goal, context.evaluated_depsgraph_get()):
             self.report({"WARNING"}, held)
             return
@@ -304,7 +305,7 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
             "ILLUMINATION": f'stands over "{placed.on}"',
             "RIM": f'grazes the edge of "{placed.on}"' if placed.on else "is where you clicked",
         }[self.mode]
-        self.report({"INFO"}, f'"{item.name}" {what}{_limits(placed)}')
+        self.report({"INFO"}, f'"{placing.moved.name}" {what}{_limits(placed)}{_bumps(placed)}')
 
     def _end(self, context: bpy.types.Context) -> None:
         context.workspace.status_text_set(None)
@@ -319,6 +320,13 @@ def _active(context: bpy.types.Context) -> bpy.types.Object:
     return context.object
 
 
+def _select_alone(context: bpy.types.Context, item: bpy.types.Object) -> None:
+    for other in context.selected_objects:
+        other.select_set(False)
+    item.select_set(True)
+    context.view_layer.objects.active = item
+
+
 def _scene(context: bpy.types.Context) -> bpy.types.Scene:
     assert context.scene is not None
     return context.scene
@@ -329,6 +337,12 @@ def _limits(placed: Placed) -> str:
     if placed.behind:
         return f', in front of "{placed.behind}"'
     return f', but "{placed.hides}" hides it' if placed.hides else ""
+
+
+def _bumps(placed: Placed) -> str:
+    """That it is placed by the smooth surface, at the end of a sentence."""
+    item = bpy.data.objects.get(placed.on)
+    return "; the bumps of that are left out" if item is not None and has_bumps(item) else ""
 
 
 CLASSES = (CURVREFL_OT_place_light,)

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty, FloatVectorProperty
 
+from ..curvrefl_addon.design.lights.moved import Moved
 from ..curvrefl_addon.design.lights.placing import Ask, Line, Placing
 from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.viewport import tracing
@@ -104,7 +105,7 @@ class CURVREFL_OT_trace_at_cursor(bpy.types.Operator):
             raise InputError("There is no active object to place: select one.")
         assert context.scene is not None
         line = Line.along(np.array(self.origin), np.array(self.direction))
-        placed = Placing(item, context.scene).place(
+        placed = Placing(Moved(item), context.scene).place(
             context.evaluated_depsgraph_get(), context.scene, line, Ask(aims=False)
         )
         distance = placed.goal.distance

@@ -169,6 +169,12 @@ def _inspection(folder: Path) -> None:
     )
 
 
+def _film(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
+    given = (str(folder / "demo.blend"), "Kettle,Lacquer jar", str(folder / "film.jpg"), "--focus", "Kettle")
+    _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -189,6 +195,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "lights": _lights,
     "passes": _passes,
     "inspection": _inspection,
+    "film": _film,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -210,6 +217,7 @@ IMAGES: dict[str, Picture] = {
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
     "inspection.jpg": Picture("inspection", _copied),
+    "film.jpg": Picture("film", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -39,3 +39,14 @@ def resolution(text: str) -> tuple[int, int]:
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {LARGEST_SIDE} pixels a side")
     return width, height
+
+
+def frames_of(text: str) -> range:
+    """An argument type: A, A-B or A-B:STEP, both ends counted in."""
+    match = re.fullmatch(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?", text)
+    if match is None:
+        raise argparse.ArgumentTypeError(f"'{text}' are no frames like 1-24 or 1-24:2")
+    first, last, step = int(match[1]), int(match[2] or match[1]), int(match[3] or 1)
+    if last < first or step < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' has no frames: the last comes after the first")
+    return range(first, last + 1, step)

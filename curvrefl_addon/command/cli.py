@@ -25,8 +25,8 @@ from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, device_verbs, verbs
-from .arguments import between, positive, resolution
+from . import charts, device_verbs, film_verb, verbs
+from .arguments import between, frames_of, positive, resolution
 from .inputs import SETTING, say
 from .signals import StoppedError, answered_signals
 
@@ -140,6 +140,19 @@ def _parser() -> argparse.ArgumentParser:
         help="all passes into the output, an .exr with channels named as in Blender's multilayer files",
     )
     render.add_argument("--output", required=True, metavar="FILE", help=".png (as shown) or .exr (scene-linear)")
+
+    film = verb("film", film_verb.film, "Render a .blend file in EEVEE with true reflections on its mirrors.")
+    _add_scene_options(film, is_marked=True)
+    _add_settings(film, "render")
+    film.add_argument("--frames", type=frames_of, metavar="A-B[:STEP]", help="of the animation (the file's frame)")
+    film.add_argument("--layers", action="store_true", help="also NAME_layers.exr: film, EEVEE, held out, mirrors")
+    film.add_argument("--resume", action="store_true", help="leave out pictures that are there whole")
+    film.add_argument(
+        "--output",
+        required=True,
+        metavar="FILE|DIR",
+        help=f"{', '.join(film_verb.SUFFIXES)}, # for the frame's digits; or a folder, for files as the scene has them",
+    )
 
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
     _add_scene_options(compare)
@@ -261,13 +274,18 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_scene_options(parser: argparse.ArgumentParser) -> None:
+def _add_scene_options(parser: argparse.ArgumentParser, is_marked: bool = False) -> None:
+    """`is_marked`: mirrors are those that the file marks where none are named, and there are `--frames`."""
+    marked = " (those marked)" if is_marked else ""
     parser.add_argument("file", metavar="FILE.blend")
-    parser.add_argument("--reflector", required=True, metavar="A[,B..]", help="names of the mirror objects")
-    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument(
-        "--frame", type=between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
+        "--reflector", required=not is_marked, metavar="A[,B..]", help=f"names of the mirror objects{marked}"
     )
+    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
+    if not is_marked:
+        parser.add_argument(
+            "--frame", type=between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
+        )
     parser.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
 
 

@@ -16,18 +16,22 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
 
 from ..errors import InputError
+from ..options import filmed
 from . import panels
 from .job import current_job
-from .passes import COMBINED, NUMBERED, fill, passes_of
+from .passes import COMBINED, MIRROR, NUMBERED, fill, passes_of
 
 if TYPE_CHECKING:
     from ..renderer.noise import Convergence
     from .session import RenderSession
 
 ENGINE = "CURVREFL"
+TROUBLE = (1.0, 0.0, 1.0, 1.0)
+"""Blender's own color of what is missing"""
 
 
 class RenderCanceledError(Exception):
@@ -80,13 +84,13 @@ class CurvreflEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:  # type: ignore[override]
         """Draw a view layer at a frame."""
+        if not self._trouble:
+            with _state.lock:
+                self._attempt(lambda: self._draw(depsgraph))
         if self._trouble:
             self._refuse(self._trouble)
-            return
-        with _state.lock:
-            self._attempt(lambda: self._draw(depsgraph))
-        if self._trouble:
-            self._refuse(self._trouble)
+            if filmed(depsgraph.scene) != depsgraph.scene:
+                self._show_trouble(depsgraph.view_layer)
 
     def _session(self, depsgraph: Any) -> RenderSession:
         from .session import RenderSession
@@ -97,12 +101,14 @@ class CurvreflEngine(bpy.types.RenderEngine):
         return _state.sessions[key]
 
     def _draw(self, depsgraph: Any) -> None:
-        if depsgraph.scene.render.use_multiview:
+        scene = filmed(depsgraph.scene)
+        if scene.render.use_multiview:
             raise InputError("Stereoscopy is not rendered: switch it off in the output properties.")
         session, layer, job = self._session(depsgraph), depsgraph.view_layer, current_job()
-        camera: Any = self.camera_override or depsgraph.scene.camera
+        camera: Any = self.camera_override if scene == depsgraph.scene else None
+        camera = camera or scene.camera
         if camera is None:
-            raise InputError(f'Scene "{depsgraph.scene.name}" has no camera: add one or make one active.')
+            raise InputError(f'Scene "{scene.name}" has no camera: add one or make one active.')
         passes = passes_of(layer)
         area, pixels = session.draw(
             depsgraph, camera.original, passes, job, self._before_sub_frame, self._go_to, self._pause
@@ -119,6 +125,16 @@ class CurvreflEngine(bpy.types.RenderEngine):
             whole.stamp_data_add_field(f"curvrefl.{layer.name}.objects", json.dumps(session.object_names))
         for warning in session.warnings:
             self._warn(warning)
+
+    def _show_trouble(self, layer: Any) -> None:
+        """Pink mirrors: the film that they go into is written all the same, and must not pass for one that is right."""
+        result: Any = self.begin_result(0, 0, self.resolution_x, self.resolution_y, layer=layer.name)
+        for item in result.layers[0].passes:
+            if item.name in (COMBINED, MIRROR):
+                fill(
+                    result.layers[0], item.name, np.full((self.resolution_y, self.resolution_x, 4), TROUBLE, np.float32)
+                )
+        self.end_result(result)
 
     def _go_to(self, frame: int, subframe: float) -> None:
         self.frame_set(frame, subframe=subframe)

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
-from ..options import current_options, mirrors_in, overrides_of, settings_of
+from ..options import current_options, filmed, mirrors_in, overrides_of, settings_of
 from ..renderer.device.context import require_gpu
 from ..renderer.frame import Frame
 from ..renderer.noise import Convergence
@@ -48,7 +48,7 @@ class RenderSession:
 
     def read(self, depsgraph: Any, job: Job | None) -> None:
         """The scene at the depsgraph's frame. Raises InputError for what a job names and cannot be a mirror."""
-        scene, shown = depsgraph.scene, depsgraph.scene_eval
+        scene, shown = filmed(depsgraph.scene), _shown(depsgraph)
         self._refused = []
         if job is None:
             chosen = settings_of(shown.curvrefl, shown.curvrefl.render_samples)
@@ -94,7 +94,7 @@ class RenderSession:
         cannot be drawn and for mirrors that the method does not show, GpuUnavailableError without a GPU.
         """
         assert self._arrays is not None
-        scene = depsgraph.scene
+        scene = filmed(depsgraph.scene)
         area = area_of(scene.render)
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
         read_now = self._reading(depsgraph, camera, area)
@@ -112,12 +112,12 @@ class RenderSession:
             frame.truth.pause = pause
         if VECTOR in self._asked:
             frame.truth.beside = _beside(scene, read_now, go_to)
-        result = {COMBINED: on_film(frame.color(), depsgraph.scene_eval)}
+        result = {COMBINED: _exposed(frame.color(), depsgraph)}
         for item in passes:
             if item.read is not None:
                 result[item.name] = item.pixels(frame)
             elif alone is not None:
-                result[item.name] = on_film(alone.pixels(), depsgraph.scene_eval)
+                result[item.name] = _exposed(alone.pixels(), depsgraph)
         if job is not None:
             job.convergence = frame.convergence
         if job is not None and not job.object_names:
@@ -142,11 +142,11 @@ class RenderSession:
 
     def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area) -> ReadMoment:
         """Reads what the depsgraph shows at its present time."""
-        scene = depsgraph.scene
+        scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
             overrides = overrides_of(self._mirrors)
-            arrays = self._reader.read(depsgraph, depsgraph.scene_eval, self._mirrors, changes, overrides)
+            arrays = self._reader.read(depsgraph, _shown(depsgraph), self._mirrors, changes, overrides)
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
         return read_now
@@ -190,6 +190,16 @@ def _beside(
         except InputError:
             found.append(None)
     return found[0], found[1]
+
+
+def _shown(depsgraph: Any) -> Any:
+    """The evaluated scene whose settings count."""
+    return filmed(depsgraph.scene).evaluated_get(depsgraph)
+
+
+def _exposed(pixels: Float32Array, depsgraph: Any) -> Float32Array:
+    """As on the film of Cycles; EEVEE's, which a film's scene joins, has no exposure."""
+    return pixels if filmed(depsgraph.scene) != depsgraph.scene else on_film(pixels, depsgraph.scene_eval)
 
 
 def _is_said(refusal: str, warnings: Sequence[str]) -> bool:

@@ -37,7 +37,7 @@ def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path
             for layer in layers:
                 changes.set(layer.curvrefl, **switches)
         use_camera(changes, scene, chosen)
-        for node in _file_outputs(scene.compositing_node_group):
+        for node in file_outputs(scene.compositing_node_group):
             changes.set(node, mute=True)
         reason = ""
         try:
@@ -82,7 +82,7 @@ def _use_engine(
     )
 
 
-def _file_outputs(tree: bpy.types.NodeTree | None) -> Iterator[Any]:
+def file_outputs(tree: bpy.types.NodeTree | None) -> Iterator[Any]:
     """Nodes of a compositor that write files, those in groups too."""
     seen: set[int] = set()
     trees: list[Any] = [] if tree is None else [tree]

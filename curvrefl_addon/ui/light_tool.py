@@ -10,8 +10,6 @@ import bpy
 
 from ..viewport import light_overlay
 
-OPERATOR = "curvrefl.place_light"
-
 
 class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
     """Lights by reflection"""
@@ -27,7 +25,7 @@ class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
     bl_icon = "ops.generic.cursor"
     bl_cursor = "CROSSHAIR"
     bl_keymap = (
-        (OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS"}, None),
+        (light_overlay.OPERATOR, {"type": "LEFTMOUSE", "value": "PRESS"}, None),
         (
             "view3d.select",
             {"type": "LEFTMOUSE", "value": "PRESS", "ctrl": True},
@@ -38,14 +36,20 @@ class CURVREFL_WST_lights(bpy.types.WorkSpaceTool):
     @staticmethod
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
         """In the tool settings: the operator's own."""
-        draw_placing(layout, tool.operator_properties(OPERATOR))
+        draw_placing(layout, tool.operator_properties(light_overlay.OPERATOR))
         if failure := light_overlay.failure():
             layout.label(text=failure, icon="ERROR")
 
 
 def draw_placing(layout: Any, properties: Any) -> None:
     """What the tool's header and the operator's panel show of the operator's properties."""
+    layout.prop(properties, "target")
     layout.prop(properties, "mode")
+    if properties.target == "WORLD":
+        layout.prop(properties, "level")
+        if properties.mode == "RIM":
+            layout.prop(properties, "rim_width")
+        return
     row = layout.row(align=True, heading="Keep")
     for name in ("keep_distance", "keep_size", "keep_power"):
         row.prop(properties, name, toggle=True)

@@ -186,6 +186,8 @@ class CURVREFL_PT_tools(SubPanel, bpy.types.Panel):
         column.separator()
         column.operator("curvrefl.save_preview", icon="RENDER_STILL")
         column.operator("curvrefl.compare_with_cycles", icon="RENDER_RESULT")
+        column.separator()
+        draw_film(column, context)
 
 
 class CURVREFL_PT_statistics(SubPanel, bpy.types.Panel):
@@ -200,6 +202,19 @@ class CURVREFL_PT_statistics(SubPanel, bpy.types.Panel):
         if reason := viewport.reason():
             draw_message(self.layout, reason, context, icon="INFO")
         self.layout.operator("curvrefl.copy_report", icon="COPYDOWN")
+
+
+def draw_film(layout: Any, context: bpy.types.Context) -> None:
+    """Whether EEVEE's renders of the scene have true mirrors, and how to get and to lose them."""
+    from ..film.film import film_of
+
+    assert context.scene is not None
+    has_film = film_of(context.scene) is not None
+    layout.operator(
+        "curvrefl.set_up_film", text="Set Up Film Again" if has_film else "Set Up Film", icon="RENDER_ANIMATION"
+    )
+    if has_film:
+        layout.operator("curvrefl.remove_film", icon="X")
 
 
 def draw_show(layout: Any, settings: Any) -> None:

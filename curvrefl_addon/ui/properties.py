@@ -24,8 +24,10 @@ def _is_switched(_self: Any, context: bpy.types.Context) -> None:
 
 
 def _mirrors_changed(_self: Any, _context: bpy.types.Context | None) -> None:
+    from ..film.follow import follow_films
     from ..viewport import handlers as viewport
 
+    follow_films()
     viewport.mirrors_changed()
 
 
@@ -52,13 +54,39 @@ class CurvreflScene(bpy.types.PropertyGroup):
     __annotations__ = {
         **properties_of(OF_SCENES, _settings_changed),
         "version": IntProperty(options={"HIDDEN"}, default=0),
+        "film_source": PointerProperty(
+            type=bpy.types.Scene,
+            name="Film Of",
+            description="The scene whose mirrors this one renders for its film",
+            options={"HIDDEN"},
+        ),
+        "film_collection": PointerProperty(
+            type=bpy.types.Collection,
+            name="Film's Mirrors",
+            description="The mirrors that are held out of the film's second view layer",
+            options={"HIDDEN"},
+        ),
+        "film_composited": BoolProperty(
+            name="Composited Before the Film",
+            description="Whether the scene was composited before its film was set up",
+            options={"HIDDEN"},
+            default=True,
+        ),
     }
 
 
 class CurvreflViewLayer(bpy.types.PropertyGroup):
     """Settings of one view layer"""
 
-    __annotations__ = properties_of(OF_VIEW_LAYERS, _passes_changed)
+    __annotations__ = {
+        **properties_of(OF_VIEW_LAYERS, _passes_changed),
+        "is_held_out": BoolProperty(
+            name="Held Out for the Film",
+            description="The view layer of a film in which its mirrors are held out",
+            options={"HIDDEN"},
+            default=False,
+        ),
+    }
 
 
 CLASSES = (CurvreflObject, CurvreflScene, CurvreflViewLayer)

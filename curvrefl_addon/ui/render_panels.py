@@ -9,7 +9,10 @@ from typing import Any
 import bpy
 
 from ..engine.engine import ENGINE
+from ..film.film import EEVEE
+from ..options import marked_mirrors
 from ..settings_table import OF_SCENES, OF_VIEW_LAYERS
+from .panel import draw_film
 
 
 def _column(layout: Any) -> Any:
@@ -54,4 +57,27 @@ class CURVREFL_VIEW_LAYER_PT_passes(_OfEngine, bpy.types.Panel):
             layout.prop(context.view_layer.curvrefl, item.name)
 
 
-CLASSES = (CURVREFL_RENDER_PT_quality, CURVREFL_VIEW_LAYER_PT_passes)
+class CURVREFL_RENDER_PT_film(bpy.types.Panel):
+    """EEVEE's renders with true mirrors"""
+
+    bl_label = "Curved Reflections"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 (Blender's own convention)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return (
+            getattr(context, "engine", "") == EEVEE
+            and context.scene is not None
+            and bool(marked_mirrors(context.scene))
+        )
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _column(self.layout)
+        layout.prop(context.scene.curvrefl, "render_samples")
+        draw_film(layout, context)
+
+
+CLASSES = (CURVREFL_RENDER_PT_film, CURVREFL_RENDER_PT_quality, CURVREFL_VIEW_LAYER_PT_passes)

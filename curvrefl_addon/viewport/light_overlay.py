@@ -8,6 +8,7 @@ Where it is not a redraw costs the question for the tool's name, and nothing is 
 from __future__ import annotations
 
 import traceback
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -17,9 +18,12 @@ from bpy.app.handlers import persistent
 if TYPE_CHECKING:
     from ..design.lights.shown import LightsInMirrors, ShownLight
     from ..scene.arrays import Float64Array
+    from ..scene.camera.view import View
 
 TOOL = "curvrefl.lights"
 """`bl_idname` of the tool"""
+OPERATOR = "curvrefl.place_light"
+"""And of what it calls"""
 SETTLED_SECONDS = 0.1
 """A view that has moved is looked at once it rests so long"""
 WIDTH, SHADE_WIDTH = 1.5, 3.5
@@ -72,12 +76,50 @@ def shown_in(region: bpy.types.Region) -> tuple[ShownLight, ...]:
     return _overlay.shown.get(region.as_pointer(), ())
 
 
+def view_in(context: bpy.types.Context) -> View:
+    """The eye of the context's region."""
+    from .region import view_of
+
+    return view_of(context)
+
+
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """By a click on its reflection."""
+
+    item: bpy.types.Object | None
+    """None for the world"""
+    center: Float64Array
+    """(2,) of its image, pixels from the bottom left"""
+
+
+def picked_at(context: bpy.types.Context, pixel: Float64Array, is_world: bool) -> Picked | None:
+    """The light of those drawn last in the region whose image is at a pixel (2,); of the world where that is asked for.
+    None where there is none."""
+    from ..design.lights.shown import path_at, picked
+
+    shown = () if context.region is None else shown_in(context.region)
+    lights = tuple(light for light in shown if light.is_world == is_world)
+    if not lights or context.scene is None:
+        return None
+    path = path_at(context.evaluated_depsgraph_get(), context.scene, view_in(context), pixel)
+    found = picked(lights, path, pixel)
+    if found is None:
+        return None
+    item = None if is_world else context.view_layer.objects.get(found[0])
+    return None if item is None and not is_world else Picked(item, found[1])
+
+
 def is_active(context: bpy.types.Context) -> bool:
     """Whether the tool is, in the 3D views of the context's workspace."""
+    return _tool(context) is not None
+
+
+def _tool(context: bpy.types.Context) -> Any | None:
     if context.workspace is None or context.mode != "OBJECT":
-        return False
+        return None
     tool = context.workspace.tools.from_space_view3d_mode("OBJECT", create=False)
-    return tool is not None and tool.idname == TOOL
+    return tool if tool is not None and tool.idname == TOOL else None
 
 
 def _draw() -> None:
@@ -100,14 +142,13 @@ def _draw() -> None:
 
 def _look(context: bpy.types.Context) -> tuple[ShownLight, ...]:
     from ..design.lights.shown import LightsInMirrors
-    from .region import view_of
 
     if _overlay.lights is None:
         _overlay.lights = LightsInMirrors()
         bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
         bpy.app.handlers.frame_change_post.append(_frame_changed)
         bpy.app.handlers.load_pre.append(_loaded)
-    view, region = view_of(context), context.region.as_pointer()
+    view, region = view_in(context), context.region.as_pointer()
     key = view.world_to_clip.tobytes()
     has_moved = _overlay.views.get(region, key) != key
     _overlay.views[region] = key
@@ -115,8 +156,10 @@ def _look(context: bpy.types.Context) -> tuple[ShownLight, ...]:
         # (An orbit is not slowed down.)
         _draw_soon()
         return ()
-    assert context.scene is not None
-    return _overlay.lights.of(context.evaluated_depsgraph_get(), context.scene, view, context.object)
+    scene, tool = context.scene, _tool(context)
+    assert scene is not None and tool is not None
+    has_world = tool.operator_properties(OPERATOR).target == "WORLD"
+    return _overlay.lights.of(context.evaluated_depsgraph_get(), scene, view, context.object, has_world)
 
 
 def _draw_lights(context: bpy.types.Context, shown: tuple[ShownLight, ...]) -> None:
@@ -125,8 +168,13 @@ def _draw_lights(context: bpy.types.Context, shown: tuple[ShownLight, ...]) -> N
     scale = context.preferences.system.ui_scale
     chosen = (*context.preferences.themes[0].view_3d.object_active, 1.0)
     active = None if context.object is None else context.object.name
-    for light in sorted(shown, key=lambda light: light.name == active):
-        color = chosen if light.name == active else OTHERS
+    is_world = any(light.is_world for light in shown)
+
+    def is_taken(light: ShownLight) -> bool:
+        return light.is_world if is_world else light.name == active
+
+    for light in sorted(shown, key=is_taken):
+        color = chosen if is_taken(light) else OTHERS
         lit, faint = [light.segments], [np.zeros((0, 2, 2))]
         for center, is_lit in zip(light.centers, light.is_lit, strict=True):
             (lit if is_lit else faint).append(_mark(light, center, RADIUS * scale))

@@ -44,6 +44,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("inspection",),
     ("viewport",),
     ("engine",),
+    ("film",),
     ("ui",),
     ("operators",),
     ("gpu_caches",),

@@ -43,6 +43,7 @@ class Moved:
         if not item.is_editable:
             raise InputError(f'"{item.name}" is linked and cannot be moved: make a library override.')
         self.item = item
+        self.name = item.name
         self._matrix = np.array(item.matrix_world, np.float64)
         self._channels: dict[str, tuple[float, ...]] = {name: tuple(getattr(item, name)) for name in _CHANNELS}
         light: Any = item.data
@@ -98,6 +99,15 @@ class Moved:
         for name, value in self._of_light.items():
             if getattr(self.item.data, name) != value:
                 setattr(self.item.data, name, value)
+
+    def insert_keys(self, aims: bool) -> None:
+        """At the present frame, of what it was placed by."""
+        if not self.is_sun:
+            self.item.keyframe_insert("location")
+        if self.is_sun or (aims and self.kind in AIMED):
+            mode = self.item.rotation_mode
+            names = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
+            self.item.keyframe_insert(names.get(mode, "rotation_euler"))
 
     def held(self, goal: Goal, depsgraph: bpy.types.Depsgraph) -> str:
         """A sentence where constraints, drivers or the like keep it from the goal, in the updated scene."""

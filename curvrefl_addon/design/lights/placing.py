@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,10 +15,12 @@ from ...errors import InputError
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array
 from ...scene.camera.view import View
+from ...scene.opened.blend_file import find_camera, view_of_camera
 from .goals import Goal, background, illumination, outward, reflection, rim
 from .moved import Change, Moved
 from .paths import limited
 from .sight import MirrorRules, Sight, SurfaceHit
+from .worlds import MovedWorld
 
 NEAREST = 1e-3
 """A distance below so much of the size of what is under the cursor is none: the size is taken"""
@@ -88,18 +91,12 @@ class Placed:
 
 
 class Placing:
-    """Of one object, from when it is taken up until it is let go or restored."""
+    """Of one thing, from when it is taken up until it is let go or restored."""
 
-    def __init__(self, item: bpy.types.Object, scene: bpy.types.Scene) -> None:
-        """Raises InputError for what cannot be moved."""
-        self.moved = Moved(item)
+    def __init__(self, moved: Moved | MovedWorld, scene: bpy.types.Scene) -> None:
+        self.moved = moved
         self._rules = MirrorRules.of(scene)
         self._kept: float | None = None
-
-    @property
-    def kept(self) -> float | None:
-        """Meters to the point that it was first placed by, before it moved there."""
-        return self._kept
 
     def place(self, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene, line: Line, ask: Ask) -> Placed:
         """Move it. Raises InputError, and moves nothing, where the line meets nothing that serves."""
@@ -124,7 +121,7 @@ class Placing:
     def _require_another(self, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene, line: Line) -> None:
         """At first: what is dragged later may come before the mirror."""
         item: Any = self.moved.item
-        if self._kept is None and item.curvrefl.is_mirror:
+        if self._kept is None and item is not None and item.curvrefl.is_mirror:
             hit = Sight(depsgraph, scene, self._rules).first(line.origin, line.direction)
             if hit is not None and hit.obj == item:
                 raise InputError("The mirror cannot be placed in its own reflection: make another object active.")
@@ -195,3 +192,21 @@ class Placing:
         size = ask.size * (1.0 if ask.keeps_size else farther)
         power = ask.power * (1.0 if ask.keeps_power else farther**2)
         return Change(ask.aims, size, power)
+
+
+def line_given(
+    scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, given: Mapping[str, Float64Array], is_parallel: bool
+) -> Line:
+    """The line of sight by what a script names of `eye` (3,), `direction` (3,), `point` (3,) on it, and `pixel` (2,) of
+    the active camera's picture from the bottom left. Raises InputError where that says none."""
+    if "direction" in given and "eye" in given:
+        return Line.along(given["eye"], given["direction"], is_parallel)
+    if "point" in given and "eye" in given:
+        return Line.along(given["eye"], given["point"] - given["eye"])
+    if not given.keys() & {"pixel", "point"}:
+        raise InputError("No place is given: set pixel, or point, or eye and direction.")
+    percent = 0.01 * scene.render.resolution_percentage
+    size = (int(scene.render.resolution_x * percent), int(scene.render.resolution_y * percent))
+    view = view_of_camera(scene, find_camera(scene), *size, depsgraph)
+    pixel = given["pixel"] if "pixel" in given else view.project(given["point"][None])[0]
+    return Line.through(view, *pixel.tolist())

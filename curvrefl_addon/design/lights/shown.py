@@ -17,17 +17,22 @@ from ...scene.arrays import Float64Array, LightArrays, MeshArrays
 from ...scene.camera.view import View
 from ...scene.lights import read_light
 from ...scene.meshes.meshes import MeshNeeds, mirrored, read_mesh
+from ...scene.reads import uid_of_block
 from ...scene.visibility import rays_of
+from .goals import upright
 from .images import images, is_met, outline, place_of
 from .paths import MirrorPath
 from .placing import Line
 from .reflecting import PlacedMirror, Reflecting, reflecting
 from .sight import MirrorRules, Sight
+from .worlds import MovedWorld
 
 MOST_TESTED = 160
 """Places of outlines that are asked whether the eye sees them; those between follow their neighbors"""
 SAME_DEPTH = 1e-3
 """Of the distance"""
+WORLD = "\0world"
+"""In place of an object's name"""
 CLOSE = 12.0
 """Pixels from a light's image that a click picks it in"""
 
@@ -45,6 +50,8 @@ class ShownLight:
     """For each of them, whether nothing is between the mirror and the light"""
     segments: Float64Array
     """(s, 2, 2) of its outline"""
+    is_world: bool = False
+    """It is the sun of the world, or what is brightest there"""
 
 
 @dataclass(slots=True)
@@ -63,6 +70,8 @@ class LightsInMirrors:
     """By the address of the evaluated mesh, and whether wound the other way round"""
     _mirrors: list[tuple[str, Reflecting]] = field(default_factory=list)
     _mirrors_key: Any = None
+    _world: MovedWorld | None = None
+    _world_key: Any = None
     _lights: dict[str, tuple[Any, ShownLight]] = field(default_factory=dict)
 
     def forget_meshes(self) -> None:
@@ -71,10 +80,17 @@ class LightsInMirrors:
         self._mirrors_key = None
 
     def of(
-        self, depsgraph: bpy.types.Depsgraph, scene: bpy.types.Scene, view: View, active: bpy.types.Object | None
+        self,
+        depsgraph: bpy.types.Depsgraph,
+        scene: bpy.types.Scene,
+        view: View,
+        active: bpy.types.Object | None,
+        has_world: bool = False,
     ) -> tuple[ShownLight, ...]:
-        """All lamps that the view layer shows, and the active object if it is none."""
+        """All lamps that the view layer shows, the active object if it is none; last the world's sun if `has_world`."""
         placed, lights = self._read(depsgraph, active)
+        if has_world and (sun := self._sun_of(scene.world)) is not None:
+            lights.append((WORLD, sun, place_of(sun)))
         key = (view.world_to_clip.tobytes(), view.width, view.height, tuple(key for key, _ in placed))
         if key != self._mirrors_key:
             self._mirrors_key = key
@@ -90,6 +106,25 @@ class LightsInMirrors:
                 self.counters["lights"] += 1
             shown.append(self._lights[name][1])
         return tuple(shown)
+
+    def _sun_of(self, world: bpy.types.World | None) -> LightArrays | None:
+        """As a lamp without a disk; None for a world that cannot be turned. Its image is looked through once."""
+        tree: Any = None if world is None else world.node_tree
+        nodes = () if tree is None else tree.nodes
+        images_of = (getattr(node, "image", None) for node in nodes)
+        key = (uid_of_block(world), len(nodes), *(uid_of_block(image) for image in images_of))
+        if key != self._world_key:
+            self._world_key = key
+            try:
+                self._world = MovedWorld(world, keeps_level=False)
+            except InputError:
+                # (The operator says why.)
+                self._world = None
+        if self._world is None:
+            return None
+        matrix = np.eye(4)
+        matrix[:3, :3] = upright(self._world.direction)
+        return LightArrays(WORLD, "SUN", (1.0, 1.0, 1.0), matrix)
 
     def _read(
         self, depsgraph: bpy.types.Depsgraph, active: bpy.types.Object | None
@@ -152,6 +187,7 @@ class LightsInMirrors:
             np.array(centers).reshape(-1, 2),
             tuple(lit),
             np.concatenate(segments),
+            name == WORLD,
         )
 
 

@@ -224,6 +224,12 @@ def _off(place: Any, size: float) -> float:
     return max(SELF_HIT * size, 4.0 * float(np.spacing(np.float32(max(map(abs, place))))))
 
 
+def has_bumps(item: bpy.types.Object) -> bool:
+    """Whether materials of an object bend its normals, which lines of sight do not know."""
+    trees = [slot.material.node_tree for slot in item.material_slots if slot.material is not None]
+    return any(node.type in ("BUMP", "NORMAL_MAP") for tree in trees if tree is not None for node in tree.nodes)
+
+
 def _on_triangle(
     evaluated: Any,
     face: int,

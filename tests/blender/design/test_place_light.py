@@ -244,3 +244,21 @@ def test_an_edge_is_found_behind_other_things() -> None:
     bpy.context.view_layer.update()
     run(mode="RIM", keep_distance=False, distance=3.0)
     np.testing.assert_allclose(place_of(item), expected, atol=1e-3)
+
+
+def test_keys_are_inserted_where_that_is_on() -> None:
+    item = bpy.context.object
+    bpy.context.scene.tool_settings.use_keyframe_insert_auto = True
+    run(mode="ILLUMINATION")
+    curves = [curve.data_path for curve in item.animation_data.action.layers[0].strips[0].channelbags[0].fcurves]
+    assert set(curves) == {"location", "rotation_euler"}
+
+
+def test_bumps_that_are_left_out_are_told(capfd: pytest.CaptureFixture[str]) -> None:
+    material = bpy.data.materials.new("Bumpy")
+    bpy.data.objects["Mirror"].data.materials.append(material)
+    run()
+    assert "bumps" not in capfd.readouterr().out
+    material.node_tree.nodes.new("ShaderNodeBump")
+    run()
+    assert "the bumps of that are left out" in capfd.readouterr().out

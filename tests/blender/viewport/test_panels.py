@@ -121,7 +121,14 @@ def test_sub_panels_are_closed_by_default() -> None:
 def test_panels_of_the_render_engine() -> None:
     for cls in render_panels.CLASSES:
         assert draw(cls, context(engine="CYCLES")) is None
-    quality, passes = (draw(cls, context(engine="CURVREFL")) for cls in render_panels.CLASSES)
+    of_eevee = draw(render_panels.CURVREFL_RENDER_PT_film, context(engine="BLENDER_EEVEE"))
+    assert of_eevee is None, "nothing is to be filmed"
+    _mirror()
+    of_eevee = draw(render_panels.CURVREFL_RENDER_PT_film, context(engine="BLENDER_EEVEE"))
+    assert {"render_samples", "curvrefl.set_up_film"} <= set(of_eevee.shown)
+    assert "curvrefl.remove_film" not in of_eevee.shown
+    of_engine = (render_panels.CURVREFL_RENDER_PT_quality, render_panels.CURVREFL_VIEW_LAYER_PT_passes)
+    quality, passes = (draw(cls, context(engine="CURVREFL")) for cls in of_engine)
     assert "render_samples" in quality.shown and "samples" not in quality.shown
     assert {"use_pass_mirror", "use_pass_position", "use_pass_object"} <= set(passes.shown)
     bpy.context.scene.render.engine = "CURVREFL"

@@ -24,6 +24,7 @@ import numpy as np
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon import registration  # noqa: E402
+from curvrefl.curvrefl_addon.design.lights.moved import Moved  # noqa: E402
 from curvrefl.curvrefl_addon.design.lights.placing import Ask, Line, Placing  # noqa: E402
 from curvrefl.curvrefl_addon.errors import InputError  # noqa: E402
 from curvrefl.curvrefl_addon.scene.opened.blend_file import find_camera, open_blend, view_of_camera  # noqa: E402
@@ -49,7 +50,7 @@ def main() -> None:
     view = view_of_camera(scene, find_camera(scene), 640, 480, depsgraph)
     pixels = np.random.default_rng(0).uniform((0, 0), (view.width, view.height), (MOVES, 2))
     for mode in ("REFLECTION", "ILLUMINATION", "RIM"):
-        placing = Placing(lamp, scene)
+        placing = Placing(Moved(lamp), scene)
         times = []
         for x, y in pixels.tolist():
             start = process_time()

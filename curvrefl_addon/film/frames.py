@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Frames of the open scene into files: each is there whole or not at all, and a video as one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..engine.job import Job, asked_for
+from ..engine.still import file_outputs
+from ..errors import InputError
+from ..output import folder_to_publish
+from ..scene.opened.blend_file import find_camera
+from ..scene.opened.render_depsgraph import use_camera
+from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
+from ..written_files import error_in, is_whole, require_whole
+from .wiring import layers_files
+
+STILLS = {".png": "PNG", ".exr": "OPEN_EXR"}
+VIDEOS = {".mp4": "MPEG4", ".mov": "QUICKTIME", ".mkv": "MKV", ".webm": "WEBM"}
+_OTHER_VIDEOS = {"AVI": ".avi", "DV": ".dv", "FLASH": ".flv", "MPEG1": ".mpg", "MPEG2": ".mpg", "OGG": ".ogv"}
+LAYERS_END = "_layers"
+"""Behind a picture's name, of the file with its layers"""
+
+type Said = Callable[[str], None]
+
+
+def render_frames(
+    scene: Any,
+    frames: range,
+    output: Path,
+    job: Job,
+    camera: str | None = None,
+    resume: bool = False,
+    say: Said = print,
+) -> int:
+    """Render `frames` of a scene that has its film into `output`; returns how many were rendered.
+
+    `output`: a file .png or .exr, with the frame's number in place of #, or before the suffix where there are more; a
+    video; or a folder, for files as the scene's output says. `resume` leaves out frames that are there whole. Settings
+    are as before at the end. Raises InputError for what the user can put right, OSError where files cannot be written,
+    RuntimeError where Blender was stopped.
+    """
+    chosen = find_camera(scene, camera)
+    with temporary_settings() as changes:
+        changes.set(scene.render, use_sequencer=False, save_output=True, use_overwrite=True, use_placeholder=False)
+        use_camera(changes, scene, chosen)
+        own = set(layers_files(scene))
+        for node in file_outputs(scene.compositing_node_group):
+            if node not in own:
+                changes.set(node, mute=True)
+        suffix = output.suffix.lower()
+        if suffix in VIDEOS:
+            _use_video(changes, scene, VIDEOS[suffix])
+        elif suffix in STILLS:
+            _use_still(changes, scene, STILLS[suffix])
+        if scene.render.is_movie_format:
+            if suffix not in VIDEOS:
+                endings = {container: suffix for suffix, container in VIDEOS.items()} | _OTHER_VIDEOS
+                ending = endings[scene.render.ffmpeg.format]
+                output = output / f"{Path(scene.render.filepath).name or scene.name}{ending}"
+            return _video(changes, scene, frames, output, job, say)
+        if suffix not in STILLS:
+            output = output / f"{Path(scene.render.filepath).name}####{scene.render.file_extension}"
+        left = [frame for frame in frames if not (resume and is_whole(path_of(output, frame, len(frames) > 1)))]
+        if len(left) < len(frames):
+            say(f"{len(frames) - len(left)} of {len(frames)} frames are there already")
+        for number, frame in enumerate(left):
+            _still(changes, scene, frame, path_of(output, frame, len(frames) > 1), job)
+            say(f"Frame {frame} ({number + 1} of {len(left)})")
+        return len(left)
+
+
+def path_of(output: Path, frame: int, is_numbered: bool) -> Path:
+    """The file of a frame: its number in place of #, or behind `output`'s name where there are several frames."""
+    stem = output.stem
+    if "#" not in stem:
+        if not is_numbered:
+            return output
+        stem = f"{stem}_####"
+    start, digits = stem.index("#"), stem.count("#")
+    sign = "-" if frame < 0 else ""
+    return output.with_name(
+        f"{stem[:start]}{sign}{abs(frame):0{digits}d}{stem[start:].replace('#', '')}{output.suffix}"
+    )
+
+
+def _still(changes: TemporarySettings, scene: Any, frame: int, path: Path, job: Job) -> None:
+    scene.frame_set(frame)
+    with folder_to_publish(path.parent) as folder:
+        changes.set(scene.render, filepath=str(folder / path.name), use_file_extension=False)
+        for node in layers_files(scene):
+            changes.set(node, directory=str(folder), file_name=f"{path.stem}{LAYERS_END}")
+        _render(scene, job, folder / path.name, write_still=True)
+        for layers in folder.glob(f"{path.stem}{LAYERS_END}*"):
+            # (Blender puts the frame's number behind the name, which has it already.)
+            layers.rename(folder / f"{path.stem}{LAYERS_END}.exr")
+
+
+def _video(changes: TemporarySettings, scene: Any, frames: range, path: Path, job: Job, say: Said) -> int:
+    changes.set(scene, frame_start=frames[0], frame_end=frames[-1], frame_step=frames.step, use_preview_range=False)
+    with folder_to_publish(path.parent) as folder, _told(frames, say):
+        changes.set(scene.render, filepath=str(folder / path.name), use_file_extension=False)
+        for node in layers_files(scene):
+            changes.set(node, directory=str(folder), file_name=f"{path.stem}{LAYERS_END}_")
+        _render(scene, job, folder / path.name, animation=True)
+    return len(frames)
+
+
+def _render(scene: Any, job: Job, path: Path, **how: Any) -> None:
+    """Raises what went wrong, also where Blender has written a file all the same."""
+    reason = ""
+    with asked_for(job):
+        try:
+            bpy.ops.render.render(scene=scene.name, **how)
+        except RuntimeError as error:
+            reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+    if job.error is not None:
+        raise job.error
+    if reason:
+        raise error_in(reason, path)
+    if job.missing:
+        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
+        raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
+    if not path.is_file():
+        raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": it was stopped.')
+    require_whole(path)
+
+
+@contextmanager
+def _told(frames: Sequence[int], say: Said) -> Iterator[None]:
+    """A line for each frame that a video has got."""
+    count = 0
+
+    def written(scene: Any, *_arguments: Any) -> None:
+        nonlocal count
+        count += 1
+        say(f"Frame {scene.frame_current} ({count} of {len(frames)})")
+
+    bpy.app.handlers.render_write.append(written)
+    try:
+        yield
+    finally:
+        bpy.app.handlers.render_write.remove(written)
+
+
+def _use_still(changes: TemporarySettings, scene: Any, file_format: str) -> None:
+    settings = scene.render.image_settings
+    is_png = file_format == "PNG"
+    changes.set(
+        settings,
+        media_type="IMAGE",
+        file_format=file_format,
+        color_management="FOLLOW_SCENE",
+        color_mode="RGBA",
+        color_depth="8" if is_png else "32",
+    )
+
+
+def _use_video(changes: TemporarySettings, scene: Any, container: str) -> None:
+    """The scene's own codec where it writes such a container already, else that which plays everywhere."""
+    settings, ffmpeg = scene.render.image_settings, scene.render.ffmpeg
+    if scene.render.is_movie_format and ffmpeg.format == container:
+        return
+    changes.set(settings, media_type="VIDEO", file_format="FFMPEG", color_management="FOLLOW_SCENE", color_mode="RGB")
+    changes.set(ffmpeg, format=container, codec="WEBM" if container == "WEBM" else "H264", audio_codec="NONE")
+    changes.set(ffmpeg, constant_rate_factor="HIGH")
