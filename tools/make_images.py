@@ -161,6 +161,14 @@ def _passes(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
 
 
+def _inspection(folder: Path) -> None:
+    _run(
+        str(ROOT / "tools" / "measure" / "inspection" / "draw_inspection.py"),
+        str(folder),
+        str(folder / "inspection.jpg"),
+    )
+
+
 def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
     given = (str(folder / "demo.blend"), "Kettle,Lacquer jar", str(folder / "film.jpg"), "--focus", "Kettle")
@@ -194,6 +202,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "convergence": _convergence,
     "lights": _lights,
     "passes": _passes,
+    "inspection": _inspection,
     "film": _film,
     "inspection": _inspection,
 }
@@ -216,6 +225,7 @@ IMAGES: dict[str, Picture] = {
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
+    "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "inspection.jpg": Picture("inspection", _copied),
 }
