@@ -153,11 +153,11 @@ def _convergence(folder: Path) -> None:
 
 
 def _passes(folder: Path) -> None:
-    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
-    asked = "object,normal,albedo,uv,depth,incidence,mirror_id"
-    given = ("--reflector", "Kettle,Lacquer jar", "--resolution", "640x480", "--samples", "32")
-    file = str(folder / "passes.exr")
-    _verb("render", str(folder / "demo.blend"), *given, "--passes", asked, "--multilayer", "--output", file)
+    scene, file = str(folder / "moving.blend"), str(folder / "passes.exr")
+    _run(str(ROOT / "tools" / "measure" / "truth" / "moving_demo.py"), scene)
+    asked = "object,normal,albedo,uv,depth,incidence,vector,mirror_id"
+    given = ("--reflector", "Kettle,Lacquer jar", "--frame", "1", "--resolution", "640x480", "--samples", "32")
+    _verb("render", scene, *given, "--passes", asked, "--multilayer", "--output", file)
     _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
 
 
@@ -165,6 +165,12 @@ def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
     given = (str(folder / "demo.blend"), "Kettle,Lacquer jar", str(folder / "film.jpg"), "--focus", "Kettle")
     _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
+
+
+def _dataset(folder: Path) -> None:
+    _verb("dataset", "--output", str(folder / "dataset"), "--resolution", "320x240", "--samples", "64")
+    tool = str(ROOT / "tools" / "measure" / "truth" / "draw_dataset.py")
+    _run(tool, str(folder / "dataset"), str(folder / "dataset.jpg"))
 
 
 def _verb(*arguments: str) -> None:
@@ -187,6 +193,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "lights": _lights,
     "passes": _passes,
     "film": _film,
+    "dataset": _dataset,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -208,6 +215,7 @@ IMAGES: dict[str, Picture] = {
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
     "film.jpg": Picture("film", _copied),
+    "dataset.jpg": Picture("dataset", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 
