@@ -153,11 +153,11 @@ def _convergence(folder: Path) -> None:
 
 
 def _passes(folder: Path) -> None:
-    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
-    asked = "object,normal,albedo,uv,depth,incidence,mirror_id"
-    given = ("--reflector", "Kettle,Lacquer jar", "--resolution", "640x480", "--samples", "32")
-    file = str(folder / "passes.exr")
-    _verb("render", str(folder / "demo.blend"), *given, "--passes", asked, "--multilayer", "--output", file)
+    scene, file = str(folder / "moving.blend"), str(folder / "passes.exr")
+    _run(str(ROOT / "tools" / "measure" / "truth" / "moving_demo.py"), scene)
+    asked = "object,normal,albedo,uv,depth,incidence,vector,mirror_id"
+    given = ("--reflector", "Kettle,Lacquer jar", "--frame", "1", "--resolution", "640x480", "--samples", "32")
+    _verb("render", scene, *given, "--passes", asked, "--multilayer", "--output", file)
     _run(str(ROOT / "tools" / "measure" / "truth" / "draw_passes.py"), file, str(folder / "passes.jpg"))
 
 
@@ -175,12 +175,10 @@ def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
 
 
-def _inspection(folder: Path) -> None:
-    _run(
-        str(ROOT / "tools" / "measure" / "inspection" / "draw_inspection.py"),
-        str(folder),
-        str(folder / "inspection.jpg"),
-    )
+def _dataset(folder: Path) -> None:
+    _verb("dataset", "--output", str(folder / "dataset"), "--resolution", "320x240", "--samples", "64")
+    tool = str(ROOT / "tools" / "measure" / "truth" / "draw_dataset.py")
+    _run(tool, str(folder / "dataset"), str(folder / "dataset.jpg"))
 
 
 def _verb(*arguments: str) -> None:
@@ -204,7 +202,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "passes": _passes,
     "inspection": _inspection,
     "film": _film,
-    "inspection": _inspection,
+    "dataset": _dataset,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -227,7 +225,7 @@ IMAGES: dict[str, Picture] = {
     "passes.jpg": Picture("passes", _copied),
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
-    "inspection.jpg": Picture("inspection", _copied),
+    "dataset.jpg": Picture("dataset", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

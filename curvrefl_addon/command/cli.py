@@ -22,7 +22,7 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, device_verbs, film_verb, verbs
+from . import charts, dataset_verb, device_verbs, film_verb, verbs
 from .arguments import between, positive, resolution
 from .inputs import say
 from .scene_arguments import add_reference_samples, add_scene_options, add_settings
@@ -243,6 +243,9 @@ def _parser() -> argparse.ArgumentParser:
     benchmark.add_argument(
         "--output", default="output/benchmark", metavar="DIR", help="folder to write to (%(default)s)"
     )
+
+    text = "Make scenes with references that methods can be judged by, or judge results."
+    dataset_verb.add_arguments(verb("dataset", dataset_verb.dataset, text))
 
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.set_defaults(camera=None, frame=None, resolution=None)
