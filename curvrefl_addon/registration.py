@@ -18,6 +18,7 @@ OPERATORS = (
     "bake_reflector",
     "compare_with_cycles",
     "copy_report",
+    "make_anamorphosis",
     "measure_device",
     "mirror_settings",
     "place_light",
@@ -25,7 +26,7 @@ OPERATORS = (
     "trace_at_cursor",
 )
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "menus", "render_panels", "light_tool")
+INTERFACE = ("preferences", "properties", "panel", "design", "menus", "render_panels", "light_tool")
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 ENGINE = "engine.engine"

@@ -148,6 +148,10 @@ def _lights(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "light" / "draw_lights.py"), str(folder))
 
 
+def _anamorphosis(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "design" / "draw_anamorphosis.py"), str(folder / "anamorphosis.jpg"))
+
+
 def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
@@ -180,6 +184,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "convergence": _convergence,
     "lights": _lights,
     "passes": _passes,
+    "anamorphosis": _anamorphosis,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -200,6 +205,7 @@ IMAGES: dict[str, Picture] = {
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
     "passes.jpg": Picture("passes", _copied),
+    "anamorphosis.jpg": Picture("anamorphosis", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -39,3 +39,15 @@ def resolution(text: str) -> tuple[int, int]:
     if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
         raise argparse.ArgumentTypeError(f"{width}x{height} is out of range: 1 to {LARGEST_SIDE} pixels a side")
     return width, height
+
+
+def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
+    """An argument type: so many numbers with commas between them."""
+
+    def read(text: str) -> tuple[float, ...]:
+        parts = text.split(",")
+        if len(parts) != count or not all(re.fullmatch(r"[+-]?\d{1,9}(\.\d{1,9})?", part) for part in parts):
+            raise argparse.ArgumentTypeError(f"'{text}' is not {count} numbers like {','.join(['0.25'] * count)}")
+        return tuple(map(float, parts))
+
+    return read
