@@ -20,6 +20,7 @@ OPERATORS = (
     "compare_with_cycles",
     "copy_report",
     "film",
+    "make_anamorphosis",
     "measure_device",
     "mirror_settings",
     "place_light",
@@ -28,7 +29,10 @@ OPERATORS = (
     "trace_at_cursor",
 )
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "inspection_panel", "menus", "render_panels", "light_tool")
+INTERFACE = (
+    *("preferences", "properties", "panel", "inspection_panel", "design", "menus", "render_panels"),
+    "light_tool",
+)
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 ENGINE = "engine.engine"

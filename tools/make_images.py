@@ -148,6 +148,10 @@ def _lights(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "light" / "draw_lights.py"), str(folder))
 
 
+def _anamorphosis(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "design" / "draw_anamorphosis.py"), str(folder / "anamorphosis.jpg"))
+
+
 def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
@@ -203,6 +207,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "inspection": _inspection,
     "film": _film,
     "dataset": _dataset,
+    "anamorphosis": _anamorphosis,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -226,6 +231,7 @@ IMAGES: dict[str, Picture] = {
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "dataset.jpg": Picture("dataset", _copied),
+    "anamorphosis.jpg": Picture("anamorphosis", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

@@ -22,7 +22,7 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, dataset_verb, device_verbs, film_verb, verbs
+from . import charts, dataset_verb, design_verbs, device_verbs, film_verb, verbs
 from .arguments import between, positive, resolution
 from .inputs import say
 from .scene_arguments import add_reference_samples, add_scene_options, add_settings
@@ -253,6 +253,8 @@ def _parser() -> argparse.ArgumentParser:
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
     add_settings(bake, "bake")
     bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    design_verbs.add_anamorphosis(verb)
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
     build.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
