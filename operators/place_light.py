@@ -127,8 +127,9 @@ class CURVREFL_OT_place_light(bpy.types.Operator):
         return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
-        if context.area is None or context.area.type != "VIEW_3D" or context.region_data is None:
-            self.report({"ERROR"}, "Start it in a 3D viewport")
+        region = context.region
+        if region is None or region.type != "WINDOW" or context.region_data is None:
+            self.report({"ERROR"}, "Start it with the mouse over a 3D view")
             return {"CANCELLED"}
         self._grab = np.zeros(2)
         """Pixels from the mouse to the image that was picked: that goes with it, and does not jump"""

@@ -11,6 +11,7 @@ from curvrefl.curvrefl_addon.design.lights.images import images, is_met, outline
 from curvrefl.curvrefl_addon.design.lights.reflecting import PlacedMirror, Reflecting, reflecting
 from curvrefl.curvrefl_addon.optics.ray import reflect_ray
 from curvrefl.curvrefl_addon.optics.surfaces.mesh_rays import MeshRays
+from curvrefl.curvrefl_addon.optics.surfaces.mesh_reflections import ReflectingMesh
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Bumpy, Ellipsoid, unit
 from curvrefl.curvrefl_addon.optics.surfaces.sphere import reflection_points
 from curvrefl.curvrefl_addon.scene.arrays import LightArrays
@@ -152,12 +153,12 @@ def test_what_a_ray_off_a_bumpy_mirror_leads_to_is_shown_where_the_ray_has_left_
     mirror = PlacedMirror("bumpy", positions, normals, mesh.triangles, False)
     looking, rng = view(), np.random.default_rng(2)
     seen = reflecting(mirror, looking)
-    pixels = rng.uniform((0.0, 0.0), (400.0, 300.0), (400, 2))
+    pixels = rng.uniform((0.0, 0.0), (400.0, 300.0), (150, 2))
     lines = [looking.line_of_sight(x, y) for x, y in pixels.tolist()]
     origins, directions = (np.array(part) for part in zip(*lines, strict=True))
     hits = MeshRays(positions, normals, mesh.triangles).first_hits(origins, directions)
     is_met = (hits.triangle >= 0) & (np.einsum("ij,ij->i", hits.normal, directions) < -0.1)
-    assert is_met.sum() > 80
+    assert is_met.sum() > 30
     missed = 0
     for pixel, origin, direction, distance, normal in zip(
         pixels[is_met], origins[is_met], directions[is_met], hits.distance[is_met], hits.normal[is_met], strict=True
@@ -165,4 +166,24 @@ def test_what_a_ray_off_a_bumpy_mirror_leads_to_is_shown_where_the_ray_has_left_
         ray = reflect_ray(direction, origin + distance * direction, normal)
         found = images(seen, np.append(ray.at(rng.uniform(0.3, 4.0)), 1.0))
         missed += not (np.linalg.norm(found.pixels - pixel, axis=1) < 0.05).any()
+    assert missed == 0
+
+
+def test_images_on_a_bumpy_mirror_are_those_that_the_exhaustive_search_finds() -> None:
+    """But for one in some hundred at most."""
+    mesh = star_mesh(Bumpy(0.6), 24)
+    positions = mesh.positions[mesh.corner_vertex].astype(np.float64)
+    normals = unit(mesh.corner_normals.astype(np.float64))
+    looking, rng = view(), np.random.default_rng(6)
+    seen = reflecting(PlacedMirror("bumpy", positions, normals, mesh.triangles, False), looking)
+    places = np.column_stack([unit(rng.normal(size=(60, 3))) * rng.uniform(1.5, 5.0, (60, 1)), np.ones(60)])
+    known = ReflectingMesh(positions, normals, mesh.triangles).points(looking.eye, places)
+    pixels = looking.project(known.point)
+    inside = ((pixels > 0.0) & (pixels < (400.0, 300.0))).all(axis=1)
+    counts, missed = [], 0
+    for number, place in enumerate(places):
+        wanted, found = pixels[(known.row == number) & inside], images(seen, place).pixels
+        counts.append(len(wanted))
+        missed += sum(np.linalg.norm(found - pixel, axis=1).min(initial=np.inf) > 0.1 for pixel in wanted)
+    assert max(counts) > 3 and sum(counts) > 150
     assert missed <= 1

@@ -34,7 +34,7 @@ SIZE = (420, 315)
 ASKED: dict[str, tuple[tuple[float, float], dict[str, Any], float]] = {
     "REFLECTION": ((152.5, 118.5), {"keep_distance": False, "distance": 0.4, "size": 2.5}, 5.0),
     "ILLUMINATION": ((118.5, 30.5), {"keep_distance": False, "distance": 0.09}, 0.9),
-    "RIM": ((398.5, 112.5), {"keep_distance": False, "distance": 0.3, "rim_width": 0.6}, 4.0),
+    "RIM": ((97.5, 166.5), {"keep_distance": False, "distance": 0.18, "rim_width": 0.8}, 3.0),
 }
 """For each mode the pixel from the bottom left, how, and the lamp's power in watts"""
 BOX = (0.16, 0.07)
