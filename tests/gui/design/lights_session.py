@@ -82,6 +82,7 @@ def pick(place: tuple[int, int]) -> Script:
     """Another object is made active; a click on the lamp's reflection takes the lamp back, a drag takes it along."""
     overlay = extension("curvrefl_addon.viewport.light_overlay")
     _area, _space, region = view_3d()
+    yield lambda: any(light.name == "Light" and len(light.centers) for light in overlay.shown_in(region))
     seen["lights shown"] = [(light.name, light.centers.tolist()) for light in overlay.shown_in(region)]
     seen["middle"] = [place[0] - region.x + 0.5, place[1] - region.y + 0.5]
     bpy.context.view_layer.objects.active = bpy.data.objects["Camera"]
@@ -143,15 +144,10 @@ def script() -> Script:
     yield lambda: not is_modal()
     after = state()
     seen["moved"] = [before, dragged, after]
-    yield rests
-    yield 0.5
-    screenshot(Path(FOLDER) / "placed.png")
     yield from pick(last)
-    bpy.ops.ed.undo()
-    yield 0.3
-    bpy.ops.ed.undo()
-    yield 0.3
-    bpy.ops.ed.undo()
+    for _ in range(3):
+        bpy.ops.ed.undo()
+        yield 0.1
     yield 0.5
     seen["undone"] = state() == before
     yield from done("LEFTMOUSE", "PRESS", first)
