@@ -16,7 +16,7 @@ from .gpu_caches import clear_gpu_caches
 OPERATORS = (
     "bake_look",
     "bake_reflector",
-    "check_joints",
+    "inspection.check_joints",
     "compare_with_cycles",
     "copy_report",
     "film",
@@ -24,7 +24,7 @@ OPERATORS = (
     "measure_device",
     "mirror_settings",
     "place_light",
-    "save_inspection",
+    "inspection.save_inspection",
     "save_preview",
     "trace_at_cursor",
 )

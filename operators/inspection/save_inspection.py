@@ -10,10 +10,10 @@ from typing import Any, Literal
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.settings_table import NAMED, STILL_SAMPLES
-from ..curvrefl_addon.ui.table_properties import property_of
-from .paths import output_path
+from ...curvrefl_addon.errors import InputError
+from ...curvrefl_addon.settings_table import NAMED, STILL_SAMPLES
+from ...curvrefl_addon.ui.table_properties import property_of
+from ..paths import output_path
 
 
 class CURVREFL_OT_save_inspection(bpy.types.Operator):
@@ -52,10 +52,10 @@ class CURVREFL_OT_save_inspection(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.inspection import shown as surface_lines
-        from ..curvrefl_addon.inspection.picture import save_picture
-        from ..curvrefl_addon.output import checked_file
-        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
+        from ...curvrefl_addon.inspection import shown as surface_lines
+        from ...curvrefl_addon.inspection.picture import save_picture
+        from ...curvrefl_addon.output import checked_file
+        from ...curvrefl_addon.renderer.device.context import GpuUnavailableError
 
         scene = context.scene
         assert scene is not None
@@ -74,9 +74,9 @@ class CURVREFL_OT_save_inspection(bpy.types.Operator):
 
     def _view(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> Any:
         """Of the 3D viewport that it is called in, or of the camera."""
-        from ..curvrefl_addon.scene.camera.film import rendered_size
-        from ..curvrefl_addon.scene.opened.blend_file import find_camera, view_of_camera
-        from ..curvrefl_addon.viewport.region import view_of
+        from ...curvrefl_addon.scene.camera.film import rendered_size
+        from ...curvrefl_addon.scene.opened.blend_file import find_camera, view_of_camera
+        from ...curvrefl_addon.viewport.region import view_of
 
         scene, area = context.scene, _view_area(context)
         assert scene is not None
@@ -122,7 +122,7 @@ class CURVREFL_OT_export_inspection(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.output import checked_file, write_whole
+        from ...curvrefl_addon.output import checked_file, write_whole
 
         try:
             path = checked_file(output_path(self.filepath, "a file for the table"), (".csv",))
@@ -135,10 +135,10 @@ class CURVREFL_OT_export_inspection(bpy.types.Operator):
         return {"FINISHED"}
 
     def _table(self, context: bpy.types.Context) -> str:
-        from ..curvrefl_addon.inspection import shown as surface_lines
-        from ..curvrefl_addon.inspection import tables
-        from ..curvrefl_addon.inspection.chosen import combs_of
-        from ..curvrefl_addon.options import mirrors_in
+        from ...curvrefl_addon.inspection import shown as surface_lines
+        from ...curvrefl_addon.inspection import tables
+        from ...curvrefl_addon.inspection.chosen import combs_of
+        from ...curvrefl_addon.options import mirrors_in
 
         scene = context.scene
         assert scene is not None

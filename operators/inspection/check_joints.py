@@ -11,8 +11,8 @@ from typing import Any, Literal
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
-from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.scene.opened.blend_file import SURFACE_TYPES
+from ...curvrefl_addon.errors import InputError
+from ...curvrefl_addon.scene.opened.blend_file import SURFACE_TYPES
 
 
 class CURVREFL_OT_check_joints(bpy.types.Operator):
@@ -88,8 +88,8 @@ class CURVREFL_OT_check_joints(bpy.types.Operator):
             layout.prop(self, "reach")
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.inspection import shown as surface_lines
-        from ..curvrefl_addon.inspection.joints import Tolerances, check_edges, check_objects
+        from ...curvrefl_addon.inspection import shown as surface_lines
+        from ...curvrefl_addon.inspection.joints import Tolerances, check_edges, check_objects
 
         item = context.object
         assert item is not None
@@ -121,12 +121,12 @@ class CURVREFL_OT_clear_joints(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
-        from ..curvrefl_addon.inspection import shown as surface_lines
+        from ...curvrefl_addon.inspection import shown as surface_lines
 
         return surface_lines.shown_joints() is not None
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
-        from ..curvrefl_addon.inspection import shown as surface_lines
+        from ...curvrefl_addon.inspection import shown as surface_lines
 
         surface_lines.clear_joints()
         redraw_views(context)
