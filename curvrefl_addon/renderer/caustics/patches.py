@@ -14,7 +14,8 @@ from ...scene.arrays import Float64Array, LightArrays
 from .casters import Casters, Int64Array
 
 MOST_TIMES = 4
-"""As many patches as asked for are made of finer meshes at most; of those that are finer still each map takes a part"""
+"""So many times the patches that are asked for are made of finer meshes at most; of those that are finer still each map
+takes a part, and so it does of all that are finer where patches share no corners"""
 ENOUGH = 1.42
 """What wants more patches than this is cut"""
 SHIFT = 0.06
@@ -86,9 +87,12 @@ class Patches:
         return Patches(points, corners, self.weights, self.triangles, self.areas)
 
 
-def patches_of(casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: int) -> Patches:
+def patches_of(
+    casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: int, share_corners: bool = True
+) -> Patches:
     """About so many, in shares by the light that triangles get; `turn`: number of the map, each of which is cut
     otherwise."""
+    most = (MOST_TIMES if share_corners else 1) * wanted
     middles = casters.corners.mean(axis=1)
     found = []
     shares = [_light_on(casters, middles, lamp) for lamp in lamps]
@@ -99,7 +103,7 @@ def patches_of(casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: 
         if totals[number] <= 0.0:
             continue
         mine = wanted * worth[number] / worth.sum()
-        found.append(_cut(casters, share / totals[number] * mine, number, turn, MOST_TIMES * wanted))
+        found.append(_cut(casters, share / totals[number] * mine, number, turn, most))
     return joined(found)
 
 
