@@ -67,6 +67,13 @@ def _placed_lights(results: Path, picture: Path) -> None:
     )
 
 
+def _caustics(results: Path, picture: Path) -> None:
+    """Scenes side by side, below them the same by Cycles."""
+    names = ("ring", "bowl", "disco", "glass", "facade")
+    pictures = [results / f"{name}{by}.png" for by in ("", "_cycles") for name in names]
+    _save_grid(pictures, 5, None, (256, 192), picture)
+
+
 def _cut(name: str, box: tuple[int, int, int, int]) -> Maker:
     """A part of one picture of the window."""
     size = (box[2] - box[0], box[3] - box[1])
@@ -152,6 +159,10 @@ def _anamorphosis(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "design" / "draw_anamorphosis.py"), str(folder / "anamorphosis.jpg"))
 
 
+def _thrown(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "caustics" / "draw_caustics.py"), str(folder))
+
+
 def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
@@ -203,6 +214,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "materials": _materials,
     "convergence": _convergence,
     "lights": _lights,
+    "caustics": _thrown,
     "passes": _passes,
     "inspection": _inspection,
     "film": _film,
@@ -227,6 +239,7 @@ IMAGES: dict[str, Picture] = {
     "materials.jpg": Picture("materials", _copied),
     "convergence.png": Picture("convergence", _copied),
     "lights.jpg": Picture("lights", _placed_lights),
+    "caustics.jpg": Picture("caustics", _caustics),
     "passes.jpg": Picture("passes", _copied),
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),

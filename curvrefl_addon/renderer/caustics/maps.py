@@ -18,6 +18,9 @@ from .lists import records_of
 from .patches import LampPoint, Patches, Points, patches_of, to_lamp
 from .pieces import Landed, Pieces, joined_pieces, pieces_of
 
+MOST_PARTED = 1.0
+"""Quarters of parted patches over all that are asked for: more are left as they are"""
+
 
 @dataclass(frozen=True, slots=True)
 class CausticMap:
@@ -40,7 +43,7 @@ def thrown(
 ) -> Generator[None, None, CausticMap]:
     """A map with about so many patches, in steps. Those that are parted where they land are quartered, so many
     `rounds`."""
-    patches = patches_of(casters, lamps, wanted, throw.turn)
+    patches = patches_of(casters, lamps, wanted, throw.turn, not throw.by_chance)
     found: list[Pieces] = []
     count = 0
     for turn in range(rounds + 1):
@@ -52,7 +55,10 @@ def thrown(
         there = yield from _followed(scene, casters, lamps, patches, paths, throw)
         count += patches.count
         yield
-        is_parted = there.is_parted if turn < rounds else np.zeros(patches.count, bool)
+        is_parted = there.is_parted
+        # (Where most are parted there is no edge to be found.)
+        if turn == rounds or 4 * np.count_nonzero(is_parted) > MOST_PARTED * max(wanted, patches.count):
+            is_parted[:] = False
         facing = _cosines(casters, lamps, patches)
         whole = ~is_parted
         sizes = _sizes(casters, patches)[whole]

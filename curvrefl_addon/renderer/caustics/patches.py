@@ -14,7 +14,8 @@ from ...scene.arrays import Float64Array, LightArrays
 from .casters import Casters, Int64Array
 
 MOST_TIMES = 4
-"""As many patches as asked for are made of finer meshes at most; of those that are finer still each map takes a part"""
+"""So many times the patches that are asked for are made of finer meshes at most; of those that are finer still each map
+takes a part, and so it does of all that are finer where patches share no corners"""
 ENOUGH = 1.42
 """What wants more patches than this is cut"""
 SHIFT = 0.06
@@ -86,12 +87,15 @@ class Patches:
         return Patches(points, corners, self.weights, self.triangles, self.areas)
 
 
-def patches_of(casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: int) -> Patches:
+def patches_of(
+    casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: int, share_corners: bool = True
+) -> Patches:
     """About so many, in shares by the light that triangles get; `turn`: number of the map, each of which is cut
     otherwise."""
-    middles = casters.corners.mean(axis=1)
+    most = (MOST_TIMES if share_corners else 1) * wanted
     found = []
-    shares = [_light_on(casters, middles, lamp) for lamp in lamps]
+    every = np.arange(casters.count)
+    shares = [_light_on(casters, every, casters.corners, casters.areas, lamp) for lamp in lamps]
     totals = np.array([share.sum() for share in shares])
     # (A weak lamp's caustic is seen where no other is.)
     worth = np.sqrt(totals)
@@ -99,7 +103,7 @@ def patches_of(casters: Casters, lamps: Sequence[LampPoint], wanted: int, turn: 
         if totals[number] <= 0.0:
             continue
         mine = wanted * worth[number] / worth.sum()
-        found.append(_cut(casters, share / totals[number] * mine, number, turn, MOST_TIMES * wanted))
+        found.append(_cut(casters, lamps[number], number, mine, share, turn, most))
     return joined(found)
 
 
@@ -134,14 +138,17 @@ def to_lamp(points: Float64Array, place: Float64Array) -> tuple[Float64Array, Fl
     return way / np.maximum(distance, 1e-300)[..., None], distance
 
 
-def _light_on(casters: Casters, middles: Float64Array, lamp: LampPoint) -> Float64Array:
-    """(n,) what triangles may get of a lamp, about; 0 where they surely get nothing."""
+def _light_on(
+    casters: Casters, chosen: Int64Array, corners: Float64Array, areas: Float64Array, lamp: LampPoint
+) -> Float64Array:
+    """(n,) what parts of the `chosen` triangles (n,), with these corners (n, 3, 3) and areas, may get of a lamp, about;
+    0 where they surely get nothing."""
     light, place = lamp
     strength = float(np.abs(light.color).sum())
-    way, distance = to_lamp(casters.corners, place)
-    cosine = np.einsum("nkc,nc->nk", way, casters.facing)
-    cosine = np.where(casters.is_closed[:, None], cosine, np.abs(cosine)).max(axis=1)
-    share = strength * casters.areas * np.maximum(cosine, 0.0)
+    way, distance = to_lamp(corners, place)
+    cosine = np.einsum("nkc,nc->nk", way, casters.facing[chosen])
+    cosine = np.where(casters.is_closed[chosen, None], cosine, np.abs(cosine)).max(axis=1)
+    share = strength * areas * np.maximum(cosine, 0.0)
     if light.kind == "SUN":
         return share
     nearest = np.maximum(distance.min(axis=1), 1e-6)
@@ -151,17 +158,22 @@ def _light_on(casters: Casters, middles: Float64Array, lamp: LampPoint) -> Float
     if light.kind == "AREA":
         return np.where((ahead > 0.0).any(axis=1), share, 0.0)
     if light.kind == "SPOT":
-        reach = np.linalg.norm(casters.corners - middles[:, None], axis=2).max(axis=1)
-        off = np.arccos(np.clip(ahead, -1.0, 1.0)).min(axis=1) - np.arcsin(np.clip(reach / nearest, 0.0, 1.0))
-        share = np.where((off < 0.5 * light.spot_angle) | (reach > nearest), share, 0.0)
+        middles = corners.mean(axis=1)
+        to_middle, away = to_lamp(middles, place)
+        reach = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
+        off = np.arccos(np.clip(-to_middle @ (shines / np.linalg.norm(shines)), -1.0, 1.0))
+        spread = np.arcsin(np.clip((reach + light.radius) / np.maximum(away, 1e-300), 0.0, 1.0))
+        share = np.where((off - spread < 0.5 * light.spot_angle) | (reach + light.radius > away), share, 0.0)
     return share
 
 
-def _cut(casters: Casters, wanted: Float64Array, lamp: int, turn: int, most: int) -> Patches:
-    """Triangles into about the `wanted` (n,) pieces each, by bisection of the longest sides, which leaves few long and
-    thin (Rosenberg and Stenger, "A lower bound on the angles of triangles constructed by bisecting the longest side",
-    1975); none of those that want 0."""
-    lit = np.flatnonzero(wanted > 0.0)
+def _cut(
+    casters: Casters, point: LampPoint, lamp: int, wanted: float, share: Float64Array, turn: int, most: int
+) -> Patches:
+    """Triangles into about the `wanted` pieces of as much light of lamp number `lamp` each, by bisection of the longest
+    sides, which leaves few long and thin (Rosenberg and Stenger, "A lower bound on the angles of triangles constructed
+    by bisecting the longest side", 1975). `share` (n,): light of whole triangles; none of those that get 0."""
+    lit = np.flatnonzero(share > 0.0)
     stride = -(-len(lit) // most)
     # (Golden steps: each map takes others.)
     lit = lit[int(turn * 0.618 * stride) % stride :: stride]
@@ -170,10 +182,11 @@ def _cut(casters: Casters, wanted: Float64Array, lamp: int, turn: int, most: int
     owners, places = [lit[first // 3]], [np.eye(3)[first % 3]]
     count = len(numbers)
     weights = np.tile(np.eye(3), (len(lit), 1, 1))
-    triangles, left, areas = lit, wanted[lit], stride * casters.areas[lit]
+    triangles, left, areas = lit, wanted / share.sum() * share[lit], casters.areas[lit]
     # Cut elsewhere in each map, so that their mean has no facets.
     where = 0.5 + SHIFT * (turn % 3 - 1) if turn else 0.5
-    while (cut := left > ENOUGH).any():
+    scale = wanted / share.sum()
+    while (cut := left > ENOUGH).any() and len(left) < max(2 * wanted, len(lit) + 1):
         ends = np.einsum("nkw,nwc->nkc", weights[cut], casters.corners[triangles[cut]])
         longest = np.linalg.norm(np.roll(ends, -1, axis=1) - ends, axis=2).argmax(axis=1)
         # (The longest side first.)
@@ -192,8 +205,12 @@ def _cut(casters: Casters, wanted: Float64Array, lamp: int, turn: int, most: int
         corners = np.concatenate([corners, np.stack([number, q, r], axis=1)])
         triangles = np.concatenate([triangles, triangles[cut]])
         areas = np.concatenate([areas, (1.0 - where) * areas[cut]])
-        left = np.concatenate([left, (1.0 - where) * left[cut]])
         areas[: len(cut)][cut] *= where
-        left[: len(cut)][cut] *= where
+        # (A lamp may shine on some of them alone: of a large triangle its light is known once that is cut.)
+        made = np.concatenate([np.flatnonzero(cut), np.arange(len(cut), len(areas))])
+        ends = np.einsum("nkw,nwc->nkc", weights[made], casters.corners[triangles[made]])
+        left = np.concatenate([left, np.zeros(len(areas) - len(left))])
+        left[made] = scale * _light_on(casters, triangles[made], ends, areas[made], point)
     points = Points(np.concatenate(owners), np.concatenate(places), np.full(count, lamp))
-    return Patches(points, corners, weights, triangles, areas)
+    kept = left > 0.0
+    return Patches(points, corners[kept], weights[kept], triangles[kept], stride * areas[kept])

@@ -66,6 +66,33 @@ def test_point_lamp() -> None:
     assert inside.sum() > 500
 
 
+@pytest.mark.parametrize(
+    "lamp",
+    [
+        LightArrays("spot", "SPOT", (90.0, 60.0, 30.0), np.eye(4), radius=0.1, spot_angle=1.2, spot_blend=0.5),
+        LightArrays("area", "AREA", (90.0, 60.0, 30.0), np.eye(4), size=(0.6, 0.3)),
+    ],
+)
+def test_soft_lamps(lamp: LightArrays) -> None:
+    """Over a flat mirror, which they shine down on, they light a screen above as from behind it."""
+    lamp = replace(lamp, visible_camera=False)
+    above, behind = np.eye(4), np.diag([1.0, -1.0, -1.0, 1.0])
+    above[2, 3], behind[2, 3] = 1.0, -1.0
+    view = look_at(np.array([0.0, -1e-3, -2.0]), np.array([0.0, 0.0, 2.0]), 64, 64, 0.6)
+    thrown = Stage((replace(lamp, matrix=above),))
+    thrown.add(quad_mesh("flat", 4.0 * SQUARE, (0.0, 0.0, 1.0)), CHROME_THING, visible_camera=False)
+    direct = Stage((replace(lamp, matrix=behind),))
+    for stage in (thrown, direct):
+        stage.add_screen(2.0, 2.0)
+    found, expected = (
+        drawn(stage.arrays(), view, samples=16, caustic_patches=8192).color() for stage in (thrown, direct)
+    )
+    # (Over blocks of as many pixels as a patch lights.)
+    found, expected = (part[..., :3].reshape(8, 8, 8, 8, 3).mean(axis=(1, 3)) for part in (found, expected))
+    assert expected.min() > 0.005
+    np.testing.assert_allclose(found, expected, rtol=0.03)
+
+
 def test_through_glass() -> None:
     """Under a pane of glass as much light arrives as two interfaces let through, where there was shadow."""
     stage = Stage()
