@@ -55,6 +55,18 @@ def checked_file(path: Path | str, suffixes: tuple[str, ...]) -> Path:
     return file
 
 
+def numbered(path: Path, frame: int, is_numbered: bool = True) -> Path:
+    """The file of a frame: its number in place of #, or behind the name where `is_numbered` and there is no #."""
+    stem = path.stem
+    if "#" not in stem:
+        if not is_numbered:
+            return path
+        stem = f"{stem}_####"
+    start, digits = stem.index("#"), stem.count("#")
+    sign = "-" if frame < 0 else ""
+    return path.with_name(f"{stem[:start]}{sign}{abs(frame):0{digits}d}{stem[start:].replace('#', '')}{path.suffix}")
+
+
 @contextmanager
 def folder_to_publish(folder: Path) -> Iterator[Path]:
     """A temporary folder; its files are moved into `folder` at the end, and dropped if something fails before.

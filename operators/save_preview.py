@@ -104,15 +104,11 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
         return names
 
     def _path(self, frame: int | None) -> Path:
-        from ..curvrefl_addon.output import checked_file
+        from ..curvrefl_addon.output import checked_file, numbered
 
         path = output_path(self.filepath, "a file for the picture")
         if frame is not None:
-            stem = path.stem if "#" in path.stem else f"{path.stem}_####"
-            digits = stem.count("#")
-            start = stem.index("#")
-            stem = stem[:start] + str(frame).zfill(digits) + stem[start:].replace("#", "")
-            path = path.with_name(stem + path.suffix)
+            path = numbered(path, frame)
         return checked_file(path, SUFFIXES)
 
 

@@ -15,26 +15,22 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable, Sequence
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
-from ..setting import Flag, Setting
-from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
-from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
 from . import charts, device_verbs, film_verb, verbs
-from .arguments import between, frames_of, positive, resolution
-from .inputs import SETTING, say
+from .arguments import between, positive, resolution
+from .inputs import say
+from .scene_arguments import add_reference_samples, add_scene_options, add_settings
 from .signals import StoppedError, answered_signals
 
 DONE, OUR_FAILURE, BAD_INPUT = 0, 1, 2
 
 PEERS_HELP = "eevee, cycles1, cycles2, cycles4 and so on to cycles64; or none (%(default)s)"
-MAX_FRAME = 1048574
-"""Blender's own limit"""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -126,8 +122,8 @@ def _parser() -> argparse.ArgumentParser:
     render = verb(
         "render", verbs.render, "Render a picture of a .blend file with true reflections on the named mirrors."
     )
-    _add_scene_options(render)
-    _add_settings(render, "render")
+    add_scene_options(render)
+    add_settings(render, "render")
     render.add_argument(
         "--passes",
         default="color",
@@ -142,11 +138,9 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--output", required=True, metavar="FILE", help=".png (as shown) or .exr (scene-linear)")
 
     film = verb("film", film_verb.film, "Render a .blend file in EEVEE with true reflections on its mirrors.")
-    _add_scene_options(film, is_marked=True)
-    _add_settings(film, "render")
-    film.add_argument("--frames", type=frames_of, metavar="A-B[:STEP]", help="of the animation (the file's frame)")
+    add_scene_options(film, is_marked=True)
+    add_settings(film, "render")
     film.add_argument("--layers", action="store_true", help="also NAME_layers.exr: film, EEVEE, held out, mirrors")
-    film.add_argument("--resume", action="store_true", help="leave out pictures that are there whole")
     film.add_argument(
         "--output",
         required=True,
@@ -155,10 +149,10 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
-    _add_scene_options(compare)
+    add_scene_options(compare)
     compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
-    _add_settings(compare, "compare")
-    _add_reference_samples(compare, 256, "of the reference")
+    add_settings(compare, "compare")
+    add_reference_samples(compare, 256, "of the reference")
     compare.add_argument(
         "--light",
         default="full",
@@ -189,7 +183,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     chart.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
     chart.add_argument("--method", metavar="M[,M..]", help="or all (all; five of them with --against)")
-    _add_reference_samples(chart, charts.OF_ERRORS["samples"], "of the references")
+    add_reference_samples(chart, charts.OF_ERRORS["samples"], "of the references")
     chart.add_argument("--light", default="direct", metavar="L", help="direct or full, as for compare (%(default)s)")
     chart.add_argument("--peers", default=charts.OF_ERRORS["peers"], metavar="P[,P..]", help=PEERS_HELP)
     chart.add_argument(
@@ -254,7 +248,7 @@ def _parser() -> argparse.ArgumentParser:
     bake.set_defaults(camera=None, frame=None, resolution=None)
     bake.add_argument("file", metavar="FILE.blend")
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
-    _add_settings(bake, "bake")
+    add_settings(bake, "bake")
     bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
@@ -272,74 +266,3 @@ def _parser() -> argparse.ArgumentParser:
     release.add_argument("--images", action="store_true", help="make the pictures of the documents anew, too")
     release.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
     return parser
-
-
-def _add_scene_options(parser: argparse.ArgumentParser, is_marked: bool = False) -> None:
-    """`is_marked`: mirrors are those that the file marks where none are named, and there are `--frames`."""
-    marked = " (those marked)" if is_marked else ""
-    parser.add_argument("file", metavar="FILE.blend")
-    parser.add_argument(
-        "--reflector", required=not is_marked, metavar="A[,B..]", help=f"names of the mirror objects{marked}"
-    )
-    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
-    if not is_marked:
-        parser.add_argument(
-            "--frame", type=between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
-        )
-    parser.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
-
-
-def _add_settings(parser: argparse.ArgumentParser, verb: str) -> None:
-    """The verb's arguments that the table of settings knows. What `render` is not told is as the file has it."""
-    for item in RENDERER:
-        for flag in item.flags:
-            if flag.verb == verb:
-                _add_setting(parser, item, flag, is_of_file=verb == "render")
-
-
-def _add_setting(parser: argparse.ArgumentParser, item: Setting, flag: Flag, is_of_file: bool) -> None:
-    value = item.flag_value(flag)
-    dest = f"{SETTING}{item.name}"
-    default = argparse.SUPPRESS if is_of_file else value
-    if isinstance(value, bool):
-        action = "store_false" if value else "store_true"
-        parser.add_argument(flag.spelling, dest=dest, action=action, default=default, help=flag.text)
-        return
-    parser.add_argument(
-        flag.spelling,
-        dest=dest,
-        type=_value_of(item),
-        default=default,
-        metavar=flag.metavar,
-        help=f"{flag.text} ({"the scene's" if is_of_file else value})",
-    )
-
-
-def _value_of(item: Setting) -> Callable[[str], Any]:
-    """The argument type of a setting's values."""
-    if isinstance(item.default, int):
-        least, most = item.hard
-        assert least is not None and most is not None, f"{item.name} is a whole number without a range"
-        return between(int(least), int(most))
-
-    def value(text: str) -> Any:
-        if item.choices:
-            item.check(text)
-            return text
-        try:
-            item.check(float(text))
-        except (ValueError, InputError) as error:
-            raise argparse.ArgumentTypeError(f"'{text}' is not a number in range: choose {item.range_text}") from error
-        return float(text)
-
-    return value
-
-
-def _add_reference_samples(parser: argparse.ArgumentParser, default: int, text: str) -> None:
-    parser.add_argument(
-        "--samples",
-        type=between(1, MOST_REFERENCE_SAMPLES),
-        default=default,
-        metavar="N",
-        help=f"{text} (%(default)s)",
-    )

@@ -21,7 +21,7 @@ def film(options: argparse.Namespace) -> int:
     output = _checked(options.output)
     reflectors = None if options.reflector is None else read_names(options.reflector, "reflector")
     start_gpu()
-    scene: Any = open_scene(options.file)
+    scene: Any = open_scene(options.file, options.frame)
 
     from ..scene.opened.blend_file import find_reflectors
 

@@ -8,7 +8,7 @@ import argparse
 import contextlib
 import importlib.util
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -52,6 +52,19 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
     if frame is not None:
         scene.frame_set(frame)
     return scene
+
+
+def frames_left(options: argparse.Namespace, scene: bpy.types.Scene, is_done: Callable[[int], bool]) -> Iterator[int]:
+    """The frames of `--frames`, each shown by the scene; with `--resume` without those that are done. Tells of each."""
+    frames = options.frames or range(0)
+    left = [frame for frame in frames if not (options.resume and is_done(frame))]
+    if len(left) < len(frames):
+        print(f"{len(frames) - len(left)} of {len(frames)} frames are there already", flush=True)
+    for number, frame in enumerate(left):
+        with dropped(STDOUT):
+            scene.frame_set(frame)
+        print(f"Frame {frame} ({number + 1} of {len(left)})", flush=True)
+        yield frame
 
 
 def resolution_of(options: argparse.Namespace, scene: bpy.types.Scene) -> tuple[int, int]:

@@ -16,11 +16,13 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
-from ..output import checked_file, checked_folder, folder_to_publish
+from ..output import checked_file, checked_folder, folder_to_publish, numbered
 from ..streams import STDOUT, dropped
 from ..supervised import ended_softly
+from ..written_files import is_whole
 from .inputs import (
     chosen_settings,
+    frames_left,
     open_scene,
     read_names,
     read_scene,
@@ -44,6 +46,8 @@ DEMO_SAMPLES, DEMO_SUB_FRAMES = 32, 16
 DEMO_METHODS = ("auto", "secant_star", "environment_cube")
 """(`exact` is what `auto` chooses there.)"""
 LAYERS = ("unit", "blender", "gui")
+REPORT = "report.html"
+"""The page of a comparison"""
 AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = (
@@ -55,7 +59,7 @@ NUMBERED = {"object", "mirror_id"}
 
 
 def render(options: argparse.Namespace) -> int:
-    """Render the file's picture by the engine of F12, and what is behind it as passes."""
+    """Render the file by the engine of F12, and what is behind the picture as passes: one frame, or a range."""
     passes = read_names(options.passes, "pass")
     require_known(passes, PASSES, "pass")
     reflectors = read_names(options.reflector, "reflector")
@@ -63,19 +67,44 @@ def render(options: argparse.Namespace) -> int:
     start_gpu()
     scene = open_scene(options.file, options.frame)
 
-    from ..engine.job import Job
-    from ..engine.still import render_still
-    from ..report.images import save_exr
     from ..scene.opened.blend_file import find_reflectors
 
     find_reflectors(scene, reflectors)
-    with registered(), folder_to_publish(output.parent) as folder:
-        job = Job(
-            reflectors=tuple(reflectors),
-            settings=settings_of_file(options, scene),
-            passes=tuple(name for name in passes if name != "color"),
-            multilayer=options.multilayer,
-        )
+    apart = () if options.multilayer else tuple(name for name in passes if name != "color")
+
+    def is_done(frame: int) -> bool:
+        path = numbered(output, frame)
+        files = [_pass_file(path, name) for name in apart]
+        if options.multilayer or "color" in passes:
+            files.append(path)
+        return all(is_whole(file) for file in files)
+
+    numbers: dict[int, str] = {}
+    with registered():
+        if options.frames is None:
+            numbers = _render_frame(options, scene, reflectors, passes, numbered(output, scene.frame_current, False))
+        for frame in frames_left(options, scene, is_done):
+            numbers |= _render_frame(options, scene, reflectors, passes, numbered(output, frame))
+    if NUMBERED.intersection(passes):
+        print("\n".join(f"object {number}: {name}" for number, name in sorted(numbers.items())))
+    return 0
+
+
+def _render_frame(
+    options: argparse.Namespace, scene: bpy.types.Scene, reflectors: list[str], passes: list[str], output: Path
+) -> dict[int, str]:
+    """The present frame; returns the names of objects by their numbers in its passes. The extension is registered."""
+    from ..engine.job import Job
+    from ..engine.still import render_still
+    from ..report.images import save_exr
+
+    job = Job(
+        reflectors=tuple(reflectors),
+        settings=settings_of_file(options, scene),
+        passes=tuple(name for name in passes if name != "color"),
+        multilayer=options.multilayer,
+    )
+    with folder_to_publish(output.parent) as folder:
         with dropped(STDOUT):
             render_still(scene, job, *resolution_of(options, scene), folder / output.name, options.camera)
         warn_of(job.warnings)
@@ -84,10 +113,12 @@ def render(options: argparse.Namespace) -> int:
         if "color" not in passes and not options.multilayer:
             (folder / output.name).unlink()
         for name, pixels in job.arrays.items():
-            save_exr(folder / f"{output.stem}_{name}.exr", pixels)
-    if NUMBERED.intersection(passes):
-        print("\n".join(f"object {number}: {name}" for number, name in sorted(job.object_names.items())))
-    return 0
+            save_exr(_pass_file(folder / output.name, name), pixels)
+    return job.object_names
+
+
+def _pass_file(picture: Path, name: str) -> Path:
+    return picture.with_name(f"{picture.stem}_{name}.exr")
 
 
 def compare(options: argparse.Namespace) -> int:
@@ -111,8 +142,18 @@ def compare(options: argparse.Namespace) -> int:
     scene = open_scene(options.file, options.frame)
     width, height = resolution_of(options, scene)
     comparison = replace(comparison, width=width, height=height)
-    _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
+    if options.frames is None:
+        _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
+    # (Reports are moved into their folder last: where one is, all of its comparison is.)
+    for frame in frames_left(options, scene, lambda frame: (_folder_of(output, frame) / REPORT).is_file()):
+        folder = _folder_of(output, frame)
+        _print_report(_compare(scene, reflectors, comparison, folder, options.camera), folder)
     return 0
+
+
+def _folder_of(output: Path, frame: int) -> Path:
+    """Of the comparison of a frame."""
+    return numbered(output / "frame", frame)
 
 
 def stability(options: argparse.Namespace) -> int:

@@ -14,7 +14,7 @@ import bpy
 from ..engine.job import Job, asked_for
 from ..engine.still import file_outputs
 from ..errors import InputError
-from ..output import folder_to_publish
+from ..output import folder_to_publish, numbered
 from ..scene.opened.blend_file import find_camera
 from ..scene.opened.render_depsgraph import use_camera
 from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
@@ -67,27 +67,13 @@ def render_frames(
             return _video(changes, scene, frames, output, job, say)
         if suffix not in STILLS:
             output = output / f"{Path(scene.render.filepath).name}####{scene.render.file_extension}"
-        left = [frame for frame in frames if not (resume and is_whole(path_of(output, frame, len(frames) > 1)))]
+        left = [frame for frame in frames if not (resume and is_whole(numbered(output, frame, len(frames) > 1)))]
         if len(left) < len(frames):
             say(f"{len(frames) - len(left)} of {len(frames)} frames are there already")
         for number, frame in enumerate(left):
-            _still(changes, scene, frame, path_of(output, frame, len(frames) > 1), job)
+            _still(changes, scene, frame, numbered(output, frame, len(frames) > 1), job)
             say(f"Frame {frame} ({number + 1} of {len(left)})")
         return len(left)
-
-
-def path_of(output: Path, frame: int, is_numbered: bool) -> Path:
-    """The file of a frame: its number in place of #, or behind `output`'s name where there are several frames."""
-    stem = output.stem
-    if "#" not in stem:
-        if not is_numbered:
-            return output
-        stem = f"{stem}_####"
-    start, digits = stem.index("#"), stem.count("#")
-    sign = "-" if frame < 0 else ""
-    return output.with_name(
-        f"{stem[:start]}{sign}{abs(frame):0{digits}d}{stem[start:].replace('#', '')}{output.suffix}"
-    )
 
 
 def _still(changes: TemporarySettings, scene: Any, frame: int, path: Path, job: Job) -> None:

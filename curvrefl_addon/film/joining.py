@@ -8,9 +8,14 @@ EEVEE's own coverage of the mirrors is c = alpha(E) - alpha(H), after its depth 
     joined = H + c C  where c > 0, else E, bit for bit.
 
 H is nowhere divided by what is left of its alpha, so that a difference between EEVEE's and our samples leaves no
-seam: on a plain background of color B, H is (1 - c) B. C is spread a little beyond the pixels that we found the mirror
-in, for those that EEVEE's filter or its blur reaches alone. Mirrors that are only there as instances cannot be held
-out: for them `Instances` takes our own coverage where it is more than EEVEE's.
+seam: on a plain background of color B, H is (1 - c) B. With M our mirror (premultiplied) and a its alpha, and both
+blurred by some pixels as M~ and a~,
+
+    C = (M + (1 - a) M~) / (a + (1 - a) a~),
+
+which is M inside of mirrors, and where few of our sub-frames have met one not their noise alone. It is spread a little
+beyond, for pixels that EEVEE's filter or its blur reaches alone. Mirrors that are only there as instances cannot be
+held out: for them `Instances` takes our own coverage where it is more than EEVEE's.
 """
 
 from __future__ import annotations
@@ -22,6 +27,8 @@ import bpy
 NAME = "Curvrefl Film"
 LEAST_COVERAGE = 1.0 / 1024.0
 """Below it EEVEE's pixel stays: alpha has half precision"""
+LEAST_WEIGHT = 1e-4
+"""Of a color that was blurred: below it rounding tells"""
 REACH = 0.01
 """How far colors of mirrors are spread, of the picture's greater side"""
 LEAST_REACH = 3.0
@@ -65,8 +72,12 @@ class _Builder:
         total = self._math("MAXIMUM", covered, own)
         beyond = self._math("DIVIDE", self._math("SUBTRACT", total, covered), self._math("SUBTRACT", 1.0, covered))
 
-        is_found = self._math("GREATER_THAN", found, 0.0)
-        spread = self._spread(self._with_alpha(self._vector("DIVIDE", mirror, found), is_found), image)
+        reach = self._reach(image)
+        soft, rest = self._blurred(mirror, reach), self._math("SUBTRACT", 1.0, found)
+        weight = self._math("MULTIPLY_ADD", self._alpha(soft), rest, found)
+        color = self._vector("DIVIDE", self._vector("MULTIPLY_ADD", soft, rest, mirror), weight)
+        is_found = self._math("GREATER_THAN", weight, LEAST_WEIGHT)
+        spread = self._spread(self._with_alpha(color, is_found), reach)
         joined = self._vector("MULTIPLY_ADD", spread, covered, held_out)
         joined = self._mix(beyond, joined, spread)
         is_seen = self._math("GREATER_THAN", total, LEAST_COVERAGE)
@@ -75,12 +86,20 @@ class _Builder:
         end = self._node("NodeGroupOutput")
         self._tree.links.new(self._with_alpha(chosen, whole), end.inputs[0])
 
-    def _spread(self, color: Any, image: Any) -> Any:
+    def _reach(self, image: Any) -> Any:
         size = self._node("CompositorNodeRelativeToPixel")
         size.data_type, size.reference_dimension = "FLOAT", "Greater"
         self._set(size.inputs["Float Value"], REACH)
         self._set(size.inputs["Image"], image)
-        reach = self._math("MAXIMUM", size.outputs["Float Value"], LEAST_REACH)
+        return self._math("MAXIMUM", size.outputs["Float Value"], LEAST_REACH)
+
+    def _blurred(self, color: Any, reach: Any) -> Any:
+        node = self._node("CompositorNodeBlur")
+        self._set(node.inputs["Image"], color)
+        self._set(node.inputs["Size"], reach)
+        return node.outputs[0]
+
+    def _spread(self, color: Any, reach: Any) -> Any:
         node = self._node("CompositorNodeInpaint")
         self._set(node.inputs["Image"], color)
         self._set(node.inputs["Size"], reach)

@@ -14,7 +14,6 @@ from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.film.film import film_of
 from curvrefl.curvrefl_addon.film.follow import follow_films
-from curvrefl.curvrefl_addon.film.frames import path_of
 from curvrefl.curvrefl_addon.film.layers import held_out_layer
 from film.film_scene import BALL, build
 
@@ -165,13 +164,6 @@ def test_what_cannot_be_filmed_is_said_and_left_as_it_was(scene: Any, problem: s
     with pytest.raises(RuntimeError, match=named):
         bpy.ops.curvrefl.set_up_film()
     assert state(scene) == before
-
-
-def test_frames_have_their_number_in_their_name() -> None:
-    assert path_of(Path("a.png"), 3, False).name == "a.png"
-    assert path_of(Path("a.png"), 3, True).name == "a_0003.png"
-    assert path_of(Path("a_##_b.png"), 123, False).name == "a_123_b.png"
-    assert path_of(Path("##.png"), -4, True).name == "-04.png"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`render` and `compare` over frames: each with its own files, and what is there whole is not done again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from curvrefl.curvrefl_addon.command import cli
+from curvrefl.curvrefl_addon.output import numbered
+from curvrefl.curvrefl_addon.report.images import load_exr
+from small_scene import saved
+
+BALL = ("--reflector", "Mirror Ball")
+
+
+def across(ball: bpy.types.Object) -> None:
+    """The ball goes up, one unit a frame."""
+    for frame in (1, 3):
+        ball.location.z = frame - 2.0
+        ball.keyframe_insert("location", frame=frame)
+    for curve in ball.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+
+
+def done(capfd: pytest.CaptureFixture[str], *arguments: str) -> str:
+    capfd.readouterr()
+    code = cli.main(list(arguments))
+    out, err = capfd.readouterr()
+    assert (code, err) == (0, "")
+    return out
+
+
+def test_files_have_their_frames_number() -> None:
+    assert numbered(Path("a.png"), 3, False).name == "a.png"
+    assert numbered(Path("a.png"), 3).name == "a_0003.png"
+    assert numbered(Path("a_##_b.png"), 123, False).name == "a_123_b.png"
+    assert numbered(Path("##.png"), -4).name == "-04.png"
+
+
+@pytest.mark.usefixtures("gpu")
+def test_render_over_frames_goes_on_where_it_was_stopped(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    file, out = saved(tmp_path, across), tmp_path / "out"
+    given = ("render", str(file), *BALL, "--samples", "1", "--passes", "color,object", "--output", str(out / "a.exr"))
+    said = done(capfd, *given, "--frames", "1-3:2")
+    assert "Frame 3 (2 of 2)" in said and said.count("object 1:") == 1
+    names = [f"a_000{frame}{end}.exr" for frame in (1, 3) for end in ("", "_object")]
+    assert sorted(path.name for path in out.iterdir()) == sorted(names)
+    heights = [np.argwhere(load_exr(out / f"a_000{frame}_object.exr")[..., 0] > 0)[:, 0].mean() for frame in (1, 3)]
+    # (Rows count from the bottom; the block beside it is reflected higher and lower.)
+    assert heights[1] - heights[0] > 4.0
+    first = load_exr(out / "a_0001.exr")
+    (out / "a_0001_object.exr").unlink()
+    kept = (out / "a_0003.exr").stat().st_mtime_ns
+    said = done(capfd, *given, "--frames", "1-3", "--resume")
+    assert "1 of 3 frames are there already" in said and "Frame 2 (2 of 2)" in said
+    assert np.array_equal(load_exr(out / "a_0001.exr"), first)
+    assert (out / "a_0003.exr").stat().st_mtime_ns == kept and len(list(out.iterdir())) == 6
+
+
+@pytest.mark.usefixtures("gpu")
+def test_compare_over_frames_has_a_report_each(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    file, out = saved(tmp_path, across), tmp_path / "out"
+    given = ("compare", str(file), *BALL, "--method", "exact", "--samples", "1", "--peers", "none")
+    said = done(capfd, *given, "--frames", "1-2", "--resolution", "16x12", "--output", str(out))
+    assert "Frame 2 (2 of 2)" in said
+    assert sorted(path.name for path in out.iterdir()) == ["frame_0001", "frame_0002"]
+    assert all((folder / "report.html").is_file() for folder in out.iterdir())
+    again = done(capfd, *given, "--frames", "1-2", "--resolution", "16x12", "--resume", "--output", str(out))
+    assert "2 of 2 frames are there already" in again and "Frame" not in again.replace("frames", "")
+
+
+def test_one_frame_or_several(capfd: pytest.CaptureFixture[str]) -> None:
+    given = ["render", "x.blend", *BALL, "--output", "x.png"]
+    assert cli.main([*given, "--frame", "1", "--frames", "1-2"]) == 2
+    assert "not allowed with" in capfd.readouterr().err
+    assert cli.main([*given, "--frames", "2-1"]) == 2
+    assert "the last comes after the first" in capfd.readouterr().err
