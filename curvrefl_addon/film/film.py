@@ -12,6 +12,7 @@ from ..engine.engine import ENGINE
 from ..errors import InputError
 from ..options import marked_mirrors
 from .layers import filmed_layer, follow_layer, held_out_layer, make_held_out_layer, set_value
+from .untold import untold
 from .wiring import unwire, wire
 
 EEVEE: Literal["BLENDER_EEVEE"] = "BLENDER_EEVEE"
@@ -58,7 +59,7 @@ def set_up(scene: bpy.types.Scene) -> list[str]:
         double = make_held_out_layer(scene)
         follow(scene, film)
         scene.render.use_compositing = True
-        told, has_instances = _untold(scene, mirrors)
+        told, has_instances = untold(scene, mirrors)
         wire(scene, filmed_layer(scene), double, film, has_instances)
     except BaseException:
         remove(scene)
@@ -134,22 +135,3 @@ def _problem(scene: bpy.types.Scene, mirrors: list[bpy.types.Object]) -> str:
     if scene.render.use_single_layer:
         return "A film needs two view layers: switch Render Single Layer off in the view layer properties."
     return ""
-
-
-def _untold(scene: bpy.types.Scene, mirrors: list[bpy.types.Object]) -> tuple[list[str], bool]:
-    """What stays EEVEE's, and whether there are mirrors that are only instances."""
-    layer = filmed_layer(scene)
-    instances = [obj.name for obj in mirrors if obj.name not in layer.objects]
-    told = []
-    if instances:
-        names = ", ".join(f'"{name}"' for name in instances)
-        told.append(
-            f"{names}: only there as instances, which EEVEE cannot hold out: edges show its own reflection too."
-        )
-    others = [other.name for other in scene.view_layers if other.use and other not in (layer, held_out_layer(scene))]
-    if others:
-        names = ", ".join(f'"{name}"' for name in others)
-        told.append(f'The film is of view layer "{layer.name}": {names} stay as EEVEE shows them.')
-    if scene.render.use_freestyle and layer.use_freestyle:
-        told.append("Freestyle draws no lines over mirrors: these come into its picture.")
-    return told, bool(instances)

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from curvrefl.curvrefl_addon.report.images import load_exr
 
-SIZE = 48
+SIZE = 32
 WORLD = (0.2, 0.5, 0.8)
 FALSE = (0.0, 1.0, 0.0)
 """What the ball looks like in EEVEE: a color that its film must show nowhere"""

@@ -94,7 +94,7 @@ def test_mirrors_that_are_only_instances_are_joined_by_our_own_coverage(tmp_path
     (told,) = set_up(scene)
     assert f'"{BALL}"' in told and "instances" in told
     film = picture(scene, tmp_path / "film.exr")
-    middle = slice(SIZE // 2 - 6, SIZE // 2 + 6)
+    middle = slice(SIZE // 2 - 4, SIZE // 2 + 4)
     assert np.abs(shown(film[middle, middle, :3]) - shown(WORLD)).max() < LEVEL
 
 

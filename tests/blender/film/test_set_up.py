@@ -12,7 +12,7 @@ import bpy
 import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
-from curvrefl.curvrefl_addon.film.film import film_of
+from curvrefl.curvrefl_addon.film.film import film_of, set_up
 from curvrefl.curvrefl_addon.film.follow import follow_films
 from curvrefl.curvrefl_addon.film.layers import held_out_layer
 from film.film_scene import BALL, build
@@ -131,6 +131,32 @@ def test_a_film_is_undone_in_one_step(scene: Any) -> None:
     bpy.ops.ed.undo()
     assert state(bpy.context.scene) == before
     assert film_of(bpy.context.scene) is None
+
+
+def test_what_mirrors_may_stay_behind_is_named(scene: Any) -> None:
+    def put(name: str, *kinds: str) -> Any:
+        material = bpy.data.materials.new(name)
+        nodes: Any = material.node_tree.nodes
+        mesh = bpy.data.objects[BALL].data.copy()
+        mesh.materials.clear()
+        mesh.materials.append(material)
+        scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+        for kind in kinds:
+            nodes.new(kind)
+        return nodes
+
+    put("wood")
+    assert set_up(scene) == []
+    put("pane", "ShaderNodeBsdfGlass")
+    put("lace")["Principled BSDF"].inputs["Alpha"].default_value = 0.5
+    group = bpy.data.node_groups.new("nested", "ShaderNodeTree")
+    group.nodes.new("ShaderNodeBsdfTransparent")
+    put("leaf", "ShaderNodeGroup")["Group"].node_tree = group
+    (told,) = set_up(scene)
+    assert told.startswith('Behind "') and all(f'"{name}"' in told for name in ("pane", "lace", "leaf"))
+    assert "wood" not in told and BALL not in told
+    scene.view_layers.new("another")
+    assert any('"another" stay' in sentence for sentence in set_up(scene))
 
 
 @pytest.mark.parametrize(
