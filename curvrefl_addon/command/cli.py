@@ -25,7 +25,7 @@ from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, device_verbs, film_verb, verbs
+from . import charts, dataset_verb, device_verbs, film_verb, verbs
 from .arguments import between, frames_of, positive, resolution
 from .inputs import SETTING, say
 from .signals import StoppedError, answered_signals
@@ -249,6 +249,9 @@ def _parser() -> argparse.ArgumentParser:
     benchmark.add_argument(
         "--output", default="output/benchmark", metavar="DIR", help="folder to write to (%(default)s)"
     )
+
+    text = "Make scenes with references that methods can be judged by, or judge results."
+    dataset_verb.add_arguments(verb("dataset", dataset_verb.dataset, text))
 
     bake = verb("bake", verbs.bake, "Bake a reflector into cube maps and say how well they fit it.")
     bake.set_defaults(camera=None, frame=None, resolution=None)

@@ -73,10 +73,8 @@ DRAWN: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "UV": plain,
     "Depth": scaled,
     "Incidence": scaled,
-    "Mirror ID": numbered,
     "Object": numbered,
     "Vector": moved,
-    "Images": scaled,
 }
 
 
