@@ -19,6 +19,7 @@ OPERATORS = (
     "check_joints",
     "compare_with_cycles",
     "copy_report",
+    "design.make_anamorphosis",
     "film",
     "measure_device",
     "mirror_settings",
@@ -28,7 +29,16 @@ OPERATORS = (
     "trace_at_cursor",
 )
 """Modules of `operators`; each lists its classes in CLASSES"""
-INTERFACE = ("preferences", "properties", "panel", "inspection_panel", "menus", "render_panels", "light_tool")
+INTERFACE = (
+    "preferences",
+    "properties",
+    "panel",
+    "design",
+    "inspection_panel",
+    "menus",
+    "render_panels",
+    "light_tool",
+)
 """Modules of `ui`; those with `add()` and `remove()` also attach things to Blender's types and menus"""
 
 ENGINE = "engine.engine"

@@ -148,6 +148,10 @@ def _lights(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "light" / "draw_lights.py"), str(folder))
 
 
+def _anamorphosis(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "design" / "draw_anamorphosis.py"), str(folder / "anamorphosis.jpg"))
+
+
 def _convergence(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "paths" / "convergence.py"), str(folder))
 
@@ -196,6 +200,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "passes": _passes,
     "film": _film,
     "inspection": _inspection,
+    "anamorphosis": _anamorphosis,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -218,6 +223,7 @@ IMAGES: dict[str, Picture] = {
     "passes.jpg": Picture("passes", _copied),
     "film.jpg": Picture("film", _copied),
     "inspection.jpg": Picture("inspection", _copied),
+    "anamorphosis.jpg": Picture("anamorphosis", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
 

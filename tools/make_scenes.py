@@ -7,7 +7,8 @@
 
 Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `torus` and `bowl` (mirrors
 that show themselves), `lamps` (point lamp, spot and sun in the dark), `million` (a million vertices) and `hidden` (one
-small file per hidden-surface case) are written when asked for.
+small file per hidden-surface case) are written when asked for, and `anamorphosis`: a cylinder on paper, and a picture
+that it could show.
 """
 
 from __future__ import annotations
@@ -22,10 +23,13 @@ import bpy
 bootstrap.load_package()
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
+from curvrefl.curvrefl_addon.demo.anamorphosis import build_anamorphosis, picture  # noqa: E402
 from curvrefl.curvrefl_addon.demo.scene import build_demo  # noqa: E402
+from curvrefl.curvrefl_addon.design.anamorphosis.png_file import png_bytes  # noqa: E402
 from scenes.builders import SCENES, build_case  # noqa: E402
 from scenes.hidden_surfaces import CASES  # noqa: E402
 
+OTHERS = ("demo", "anamorphosis", "hidden")
 USUAL = ("sphere", "ellipsoid", "bumpy", "demo")
 
 
@@ -41,6 +45,11 @@ def write(name: str, folder: Path) -> list[Path]:
     if name == "demo":
         build_demo(path)
         return [path]
+    if name == "anamorphosis":
+        build_anamorphosis()
+        shown = folder / f"{name}.png"
+        shown.write_bytes(png_bytes(picture()))
+        return [_save(path), shown]
     SCENES[name]()
     return [_save(path)]
 
@@ -53,9 +62,9 @@ def _save(path: Path) -> Path:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Writes the test scenes and the demo as .blend files.")
     parser.add_argument("folder", type=Path, metavar="OUTDIR")
-    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join([*SCENES, "demo", "hidden"]))
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join([*SCENES, *OTHERS]))
     arguments = parser.parse_args()
-    unknown = [name for name in arguments.names if name not in {*SCENES, "demo", "hidden"}]
+    unknown = [name for name in arguments.names if name not in {*SCENES, *OTHERS}]
     if unknown:
         parser.error(f"there is no scene {unknown[0]!r}")
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -50,3 +50,15 @@ def frames_of(text: str) -> range:
     if last < first or step < 1:
         raise argparse.ArgumentTypeError(f"'{text}' has no frames: the last comes after the first")
     return range(first, last + 1, step)
+
+
+def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
+    """An argument type: so many numbers with commas between them."""
+
+    def read(text: str) -> tuple[float, ...]:
+        parts = text.split(",")
+        if len(parts) != count or not all(re.fullmatch(r"[+-]?\d{1,9}(\.\d{1,9})?", part) for part in parts):
+            raise argparse.ArgumentTypeError(f"'{text}' is not {count} numbers like {','.join(['0.25'] * count)}")
+        return tuple(map(float, parts))
+
+    return read

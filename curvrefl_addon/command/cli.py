@@ -25,7 +25,7 @@ from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, device_verbs, film_verb, verbs
+from . import charts, design_verbs, device_verbs, film_verb, verbs
 from .arguments import between, frames_of, positive, resolution
 from .inputs import SETTING, say
 from .signals import StoppedError, answered_signals
@@ -256,6 +256,8 @@ def _parser() -> argparse.ArgumentParser:
     bake.add_argument("--reflector", required=True, metavar="A", help="name of the mirror object")
     _add_settings(bake, "bake")
     bake.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    design_verbs.add_anamorphosis(verb, MAX_FRAME)
 
     build = verb("build", verbs.build, "Validate and pack the extension as a .zip to install in Blender.")
     build.add_argument("--output", default="dist", metavar="DIR", help="folder to write to (%(default)s)")
