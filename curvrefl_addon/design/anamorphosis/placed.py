@@ -35,6 +35,8 @@ BENT = 0.25
 """How far that may be from where it should be, in such sides"""
 SAME_PLACE = 3.0
 """Cells within which a texel's place in the picture is the one that is asked for"""
+MOST_NAMED = 5
+"""Other objects in a landing's sentences"""
 SEEN_MARGIN = 3
 """Texels past the end of what the mirror shows that are filled, as that is known to a cell alone"""
 MARGIN = 8
@@ -69,14 +71,16 @@ class Landing:
     outside: float
     """Is past the edges of the image"""
     elsewhere: dict[str, float] = field(default_factory=dict)
-    """By the names of other objects, which the mirror shows there"""
+    """By the names of other objects, which the mirror shows there, the largest first"""
 
     def sentences(self, names: str) -> list[str]:
         """How much is shown, and what becomes of the rest; `names` of the surfaces."""
+        others = list(self.elsewhere.items())
         rest = [
             (self.off_mirror, "is not on the mirror"),
             (self.background, "shows the background"),
-            *((share, f'lands on "{name}"') for name, share in self.elsewhere.items()),
+            *((share, f'lands on "{name}"') for name, share in others[:MOST_NAMED]),
+            (sum(share for _, share in others[MOST_NAMED:]), "lands on other things"),
             (self.twice, "would be where another part of it is seen, too"),
             (self.outside, "lands past the edges of the image"),
         ]

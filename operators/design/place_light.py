@@ -11,13 +11,13 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty
 
-from ..curvrefl_addon.design.lights.moved import Moved
-from ..curvrefl_addon.design.lights.placing import Ask, Line, Placed, Placing, line_given
-from ..curvrefl_addon.design.lights.sight import has_bumps
-from ..curvrefl_addon.design.lights.worlds import MovedWorld
-from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.ui.light_tool import draw_placing
-from ..curvrefl_addon.viewport import light_overlay
+from ...curvrefl_addon.design.lights.moved import Moved
+from ...curvrefl_addon.design.lights.placing import Ask, Line, Placed, Placing, line_given
+from ...curvrefl_addon.design.lights.sight import has_bumps
+from ...curvrefl_addon.design.lights.worlds import MovedWorld
+from ...curvrefl_addon.errors import InputError
+from ...curvrefl_addon.ui.light_tool import draw_placing
+from ...curvrefl_addon.viewport import light_overlay
 
 MODES = (
     ("REFLECTION", "Reflection", "It is seen in the mirror under the cursor"),

@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from ..curvrefl_addon.errors import InputError
-from ..curvrefl_addon.options import marked_mirrors
-from .paths import output_path
+from ...curvrefl_addon.errors import InputError
+from ...curvrefl_addon.options import marked_mirrors
+from ..paths import output_path
 
 type Result = set[Literal["CANCELLED", "FINISHED", "RUNNING_MODAL"]]
 BEYOND = 0.5
@@ -179,7 +179,7 @@ class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
             layout.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> Result:  # type: ignore[override]
-        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
+        from ...curvrefl_addon.renderer.device.context import GpuUnavailableError
 
         make = {"IMAGE": self._images, "UVS": self._uvs, "MESH": self._mesh, "PRINT": self._prints}[self.result]
         context.window.cursor_set("WAIT") if context.window is not None else None
@@ -196,21 +196,21 @@ class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
         return {"FINISHED"}
 
     def _images(self, context: bpy.types.Context) -> list[str]:
-        from ..curvrefl_addon.design.anamorphosis.applied import put_images
+        from ...curvrefl_addon.design.anamorphosis.applied import put_images
 
         like, making = self._begin(context, uv_map=self.uv_map)
         shading = None if self.material == "NONE" else self.material
         return put_images(making, like, self.size, self.uv_map, shading, tuple(self.paper))
 
     def _uvs(self, context: bpy.types.Context) -> list[str]:
-        from ..curvrefl_addon.design.anamorphosis.applied import put_uvs
+        from ...curvrefl_addon.design.anamorphosis.applied import put_uvs
 
         image, making = self._begin(context, beyond=BEYOND)
         shading: Any = "PRINCIPLED" if self.material == "NONE" else self.material
         return put_uvs(making, image, self.cuts, shading, tuple(self.paper))
 
     def _mesh(self, context: bpy.types.Context) -> list[str]:
-        from ..curvrefl_addon.design.anamorphosis.applied import Bending, add_bent
+        from ...curvrefl_addon.design.anamorphosis.applied import Bending, add_bent
 
         image, making = self._begin(context, needs_surfaces=self.stands == "SURFACE")
         shading = None if self.material == "NONE" else self.material
@@ -220,9 +220,9 @@ class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
         return add_bent(making, image, bending, shading, tuple(self.paper), context.scene, depsgraph)
 
     def _prints(self, context: bpy.types.Context) -> list[str]:
-        from ..curvrefl_addon.design.anamorphosis.prints import write_prints
-        from ..curvrefl_addon.design.anamorphosis.sheet import Paper
-        from ..curvrefl_addon.output import checked_folder
+        from ...curvrefl_addon.design.anamorphosis.prints import write_prints
+        from ...curvrefl_addon.design.anamorphosis.sheet import Paper
+        from ...curvrefl_addon.output import checked_folder
 
         folder = checked_folder(output_path(self.folder, "a folder for the prints"))
         _, making = self._begin(context)
@@ -234,11 +234,11 @@ class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
     def _begin(
         self, context: bpy.types.Context, uv_map: str | None = None, beyond: float = 0.0, needs_surfaces: bool = True
     ) -> tuple[bpy.types.Image, Any]:
-        from ..curvrefl_addon.design.anamorphosis.making import begin
-        from ..curvrefl_addon.design.anamorphosis.picture_frame import FrameChoice
-        from ..curvrefl_addon.design.anamorphosis.results import read_picture
-        from ..curvrefl_addon.design.stage import read_stage, read_viewed_stage
-        from ..curvrefl_addon.scene.camera.film import rendered_size
+        from ...curvrefl_addon.design.anamorphosis.making import begin
+        from ...curvrefl_addon.design.anamorphosis.picture_frame import FrameChoice
+        from ...curvrefl_addon.design.anamorphosis.results import read_picture
+        from ...curvrefl_addon.design.stage import read_stage, read_viewed_stage
+        from ...curvrefl_addon.scene.camera.film import rendered_size
 
         scene, view_layer = context.scene, context.view_layer
         assert scene is not None and view_layer is not None
@@ -264,7 +264,7 @@ def _names(text: str) -> list[str]:
 
 
 def _view_of(context: bpy.types.Context) -> Any:
-    from ..curvrefl_addon.scene.camera.view import View
+    from ...curvrefl_addon.scene.camera.view import View
 
     area = context.area
     if area is None or area.type != "VIEW_3D":
