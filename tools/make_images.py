@@ -36,6 +36,16 @@ POPUP = (80, 160, 440, 480)
 DEMO_SIZE = (560, 420)
 """Of each of the three pictures of the demo"""
 VIEWS = ("iterations", "status", "angle_error", "method", "zebra", "lines")
+STEP_SIZE = (378, 250)
+"""Of each picture of the quick start"""
+STEPS = {
+    "install": "Install the zip",
+    "mark": "Tick: is a Mirror",
+    "on": "Tick the panel's header",
+    "view": "Look around: it follows",
+    "inspect": "Inspect: zebra stripes",
+    "compare": "Compare: Curvrefl | Cycles",
+}
 CHARTED = ("sphere", "ellipsoid", "bumpy")
 type Maker = Callable[[Path, Path], None]
 """Writes a picture out of a folder of results: (results, picture)"""
@@ -110,16 +120,20 @@ def _window(folder: Path) -> None:
     """Pictures of the window, by the session of the tests."""
     import build_extension
     from window import run_interface_session
+
+    (folder / "zip").mkdir()
+    found = run_interface_session(_window_blender(), folder, build_extension.build(folder / "zip"))
+    if found.seen["error"]:
+        raise RuntimeError(found.seen["error"])
+
+
+def _window_blender() -> Any:
     from window_blender import NoWindowBlenderError, find_or_make
 
     try:
-        blender = find_or_make()
+        return find_or_make()
     except NoWindowBlenderError as error:
         raise InputError(f"There is no Blender that opens a window: {str(error).rstrip('.')}.") from error
-    (folder / "zip").mkdir()
-    found = run_interface_session(blender, folder, build_extension.build(folder / "zip"))
-    if found.seen["error"]:
-        raise RuntimeError(found.seen["error"])
 
 
 def _chart(folder: Path) -> None:
@@ -185,6 +199,52 @@ def _dataset(folder: Path) -> None:
     _run(tool, str(folder / "dataset"), str(folder / "dataset.jpg"))
 
 
+def _quick_start(folder: Path) -> None:
+    """The steps in a window, and the demo by us and by Cycles."""
+    import build_extension
+    from window import run_session
+
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "demo")
+    (folder / "zip").mkdir()
+    archive, demo = build_extension.build(folder / "zip"), folder / "demo.blend"
+    session = ROOT / "tests" / "gui" / "strip" / "strip_session.py"
+    found = run_session(_window_blender(), session, folder, archive, demo, folder)
+    if found.seen["error"]:
+        raise RuntimeError(found.seen["error"])
+    given = ("--reflector", "Kettle,Lacquer jar", "--method", "exact", "--peers", "none", "--samples", "64")
+    size = ("--resolution", f"{STEP_SIZE[0]}x{STEP_SIZE[1]}")
+    _verb("compare", str(demo), *given, *size, "--output", str(folder / "compared"))
+
+
+def _drawn_steps(results: Path, picture: Path) -> None:
+    """Steps with their captions, in two rows; the last is ours and Cycles' half by half."""
+    from PIL import Image, ImageDraw, ImageFont
+
+    half = Image.new("RGB", STEP_SIZE)
+    for name, side in (("exact", 0), ("reference", 1)):
+        with Image.open(results / "compared" / f"{name}.png") as opened:
+            part = (side * STEP_SIZE[0] // 2, 0, (side + 1) * STEP_SIZE[0] // 2, STEP_SIZE[1])
+            half.paste(opened.convert("RGB").crop(part), part[:2])
+    ImageDraw.Draw(half).line([(STEP_SIZE[0] // 2, 0), (STEP_SIZE[0] // 2, STEP_SIZE[1])], (255, 255, 255))
+    grid = Image.new("RGB", (3 * STEP_SIZE[0], 2 * STEP_SIZE[1]))
+    for number, (name, caption) in enumerate(STEPS.items()):
+        if name == "compare":
+            cell = half
+        else:
+            path = results / f"step_{name}.png"
+            if not path.is_file():
+                raise InputError(f"There is no {path.name}: taking pictures of the window needs ImageMagick.")
+            with Image.open(path) as opened:
+                cell = opened.convert("RGB").crop(VIEW).resize(STEP_SIZE, Image.Resampling.LANCZOS)
+        drawing = ImageDraw.Draw(cell)
+        drawing.rectangle((0, STEP_SIZE[1] - 24, STEP_SIZE[0], STEP_SIZE[1]), (20, 20, 20))
+        font = ImageFont.load_default(15)
+        drawing.text((8, STEP_SIZE[1] - 21), f"{number + 1}  {caption}", (255, 255, 255), font)
+        row, column = divmod(number, 3)
+        grid.paste(cell, (column * STEP_SIZE[0], row * STEP_SIZE[1]))
+    grid.save(picture, quality=QUALITY)
+
+
 def _verb(*arguments: str) -> None:
     _run(str(ROOT / "tools" / "run_verb.py"), "--", *arguments)
 
@@ -207,6 +267,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "inspection": _inspection,
     "film": _film,
     "dataset": _dataset,
+    "quick_start": _quick_start,
     "anamorphosis": _anamorphosis,
 }
 """What pictures are made from: each fills a folder"""
@@ -231,6 +292,7 @@ IMAGES: dict[str, Picture] = {
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "dataset.jpg": Picture("dataset", _copied),
+    "quick_start.jpg": Picture("quick_start", _drawn_steps),
     "anamorphosis.jpg": Picture("anamorphosis", _copied),
 }
 """The pictures of the documents by their names in docs/images"""
