@@ -279,6 +279,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "inspection": _inspection,
     "film": _film,
     "dataset": _dataset,
+    "quick_start": _quick_start,
     "anamorphosis": _anamorphosis,
     "quick_start": _quick_start,
 }
@@ -305,6 +306,7 @@ IMAGES: dict[str, Picture] = {
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "dataset.jpg": Picture("dataset", _copied),
+    "quick_start.jpg": Picture("quick_start", _drawn_steps),
     "anamorphosis.jpg": Picture("anamorphosis", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),
 }
