@@ -281,7 +281,6 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "dataset": _dataset,
     "quick_start": _quick_start,
     "anamorphosis": _anamorphosis,
-    "quick_start": _quick_start,
 }
 """What pictures are made from: each fills a folder"""
 
@@ -308,7 +307,6 @@ IMAGES: dict[str, Picture] = {
     "dataset.jpg": Picture("dataset", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),
     "anamorphosis.jpg": Picture("anamorphosis", _copied),
-    "quick_start.jpg": Picture("quick_start", _drawn_steps),
 }
 """The pictures of the documents by their names in docs/images"""
 
