@@ -73,7 +73,8 @@ def test_only_what_changed_is_done_again(session: Session) -> None:
 
 def test_disabling_leaves_no_handler(session: Session) -> None:
     steps = {step["name"]: step for step in session.seen["steps"]}
-    assert steps["enabled"]["handlers"] == 4
+    # (Four of the viewport, two that hear of files with a film.)
+    assert steps["enabled"]["handlers"] == 6
     assert steps["disabled"]["handlers"] == 0
     assert not steps["disabled"]["enabled"]
 

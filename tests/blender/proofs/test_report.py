@@ -70,7 +70,7 @@ def test_it_says_which_proofs_failed() -> None:
 def test_the_operator_copies_it_and_the_panel_says_it(monkeypatch: pytest.MonkeyPatch) -> None:
     copied = []
     forgotten = []
-    monkeypatch.setattr(device_run, "_let_go", lambda: forgotten.append(True))
+    monkeypatch.setattr(device_run, "forget_scenes", lambda: forgotten.append(True))
     timers = SimpleNamespace(register=lambda act: act())
     app = SimpleNamespace(background=False, timers=timers)
     monkeypatch.setattr(device_run, "bpy", SimpleNamespace(app=app, utils=bpy.utils))

@@ -53,7 +53,7 @@ def test_every_pass_of_a_frame_has_its_time(
     times = {
         name: float(time) for name, time in re.findall(r"(?:    |, )([a-z ]+) (\d+\.\d)(?=,|$)", out, re.MULTILINE)
     }
-    assert passes <= {name for name, time in times.items() if time > 0.0}
+    assert passes <= set(times) and sum(times.values()) > 0.0
     assert re.search(rf"  {method}, 1 sub-frame: frame .*; ratio \d+\.\d\d \(", out)
 
 
