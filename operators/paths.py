@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""Where operators write, from what the user typed."""
+"""Where operators write, from what the user has chosen or typed."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import bpy
 
@@ -22,3 +23,12 @@ def output_path(text: str, what: str) -> Path:
     if text.startswith("//") and not bpy.data.filepath:
         raise InputError(f"Save the file first, or choose {what} that does not depend on it.")
     return Path(bpy.path.abspath(text))
+
+
+class ChoosesFile:
+    """Of an operator that asks for its `filepath` where it is called in a window."""
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
+        operator: Any = self
+        context.window_manager.fileselect_add(operator)
+        return {"RUNNING_MODAL"}

@@ -8,7 +8,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -17,12 +17,12 @@ from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.options import marked_mirrors
 from ..curvrefl_addon.settings_table import NAMED, STILL_SAMPLES
 from ..curvrefl_addon.ui.table_properties import property_of
-from .paths import output_path
+from .paths import ChoosesFile, output_path
 
 SUFFIXES = (".png", ".exr")
 
 
-class CURVREFL_OT_save_preview(bpy.types.Operator):
+class CURVREFL_OT_save_preview(ChoosesFile, bpy.types.Operator):
     """Save the camera's view with its curved reflections as a picture, or as one picture per frame"""
 
     bl_idname = "curvrefl.save_preview"
@@ -50,10 +50,6 @@ class CURVREFL_OT_save_preview(bpy.types.Operator):
             cls.poll_message_set("The scene has no active camera")
             return False
         return True
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         from ..curvrefl_addon.renderer.device.context import GpuUnavailableError

@@ -14,6 +14,7 @@ from bpy.props import EnumProperty, FloatVectorProperty
 from ..curvrefl_addon.design.lights.moved import Moved
 from ..curvrefl_addon.design.lights.placing import Ask, Line, Placing
 from ..curvrefl_addon.errors import InputError
+from ..curvrefl_addon.scene.opened.areas import redraw_views
 from ..curvrefl_addon.viewport import tracing
 
 TEXT_NAME = "Curvrefl trace"
@@ -96,7 +97,7 @@ class CURVREFL_OT_trace_at_cursor(bpy.types.Operator):
         tracing.show(found)
         _write_text(found, placed)
         self.report({"INFO"}, placed or found.sentence())
-        _redraw(context)
+        redraw_views()
         return {"FINISHED"}
 
     def _place(self, context: bpy.types.Context, found: tracing.Trace) -> str:
@@ -130,7 +131,7 @@ class CURVREFL_OT_clear_trace(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         tracing.clear()
-        _redraw(context)
+        redraw_views()
         return {"FINISHED"}
 
 
@@ -155,13 +156,6 @@ def _write_text(found: tracing.Trace, placed: str) -> None:
     text.write("\n".join(f"{label:14} {value}" for label, value in found.rows()) + "\n")
     if placed:
         text.write(f"\n{placed}\n")
-
-
-def _redraw(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 CLASSES = (CURVREFL_OT_trace_at_cursor, CURVREFL_OT_clear_trace)

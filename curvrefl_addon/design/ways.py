@@ -131,15 +131,8 @@ class WaysByMirrors:
 
 
 def lines_through(view: View, places: Float64Array) -> tuple[Float64Array, Float64Array]:
-    """Where lines of sight through places (n, 2) of the view begin, at the near end of what it sees, and their unit
-    directions (n, 3). Places are shares of its width and height from the lower left, also beyond 0 and 1."""
-    ndc = np.column_stack([2.0 * places - 1.0, np.full(len(places), -1.0), np.ones(len(places))])
-    near = ndc @ np.linalg.inv(view.view_to_clip).T
-    near = near[:, :3] / near[:, 3:]
-    to_world = np.linalg.inv(view.world_to_view)
-    ways = np.broadcast_to([0.0, 0.0, -1.0], near.shape) if view.is_orthographic else near
-    ways = ways @ to_world[:3, :3].T
-    return near @ to_world[:3, :3].T + to_world[:3, 3], ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    """`View.lines_of_sight` through places (n, 2) in shares of the view's width and height from the lower left."""
+    return view.lines_of_sight(places * (view.width, view.height))
 
 
 @gpu_cache

@@ -39,20 +39,30 @@ def render_still(scene: bpy.types.Scene, job: Job, width: int, height: int, path
         use_camera(changes, scene, chosen)
         for node in file_outputs(scene.compositing_node_group):
             changes.set(node, mute=True)
-        reason = ""
-        try:
-            bpy.ops.render.render(write_still=True, scene=scene.name)
-        except RuntimeError as error:
-            reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+        reason = why_not_rendered(scene, write_still=True)
     if job.error is not None:
         raise job.error
-    if job.missing:
-        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
-        raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
+    require_all_shown(job)
     if not path.is_file():
         if reason:
             raise error_in(reason, path)
         raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": it was stopped.')
+
+
+def why_not_rendered(scene: bpy.types.Scene, **how: Any) -> str:
+    """Render the scene as Blender's operator does; what that says where it fails, nothing where it does not."""
+    try:
+        bpy.ops.render.render(scene=scene.name, **how)
+    except RuntimeError as error:
+        return " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+    return ""
+
+
+def require_all_shown(job: Job) -> None:
+    """Raises InputError where no view layer has shown some of the job's reflectors."""
+    if job.missing:
+        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
+        raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
 
 
 def _use_engine(

@@ -12,8 +12,7 @@ from typing import Any
 import bpy
 
 from ..engine.job import Job, asked_for
-from ..engine.still import file_outputs
-from ..errors import InputError
+from ..engine.still import file_outputs, require_all_shown, why_not_rendered
 from ..output import folder_to_publish, numbered
 from ..scene.opened.blend_file import find_camera
 from ..scene.opened.render_depsgraph import use_camera
@@ -100,19 +99,13 @@ def _video(changes: TemporarySettings, scene: Any, frames: range, path: Path, jo
 
 def _render(scene: Any, job: Job, path: Path, **how: Any) -> None:
     """Raises what went wrong, also where Blender has written a file all the same."""
-    reason = ""
     with asked_for(job):
-        try:
-            bpy.ops.render.render(scene=scene.name, **how)
-        except RuntimeError as error:
-            reason = " ".join(str(error).removeprefix("Error:").split()).rstrip(".")
+        reason = why_not_rendered(scene, **how)
     if job.error is not None:
         raise job.error
     if reason:
         raise error_in(reason, path)
-    if job.missing:
-        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
-        raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
+    require_all_shown(job)
     if not path.is_file():
         raise RuntimeError(f'Blender did not finish the picture of scene "{scene.name}": it was stopped.')
     require_whole(path)

@@ -15,6 +15,8 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
+from ..scene.opened.areas import redraw_views
+
 if TYPE_CHECKING:
     from ..design.lights.shown import LightsInMirrors, ShownLight
     from ..scene.arrays import Float64Array
@@ -42,7 +44,10 @@ class _Overlay:
     """All that lives while the tool is active somewhere."""
 
     def __init__(self) -> None:
-        self.lights: LightsInMirrors | None = None
+        self.is_heard = False
+        """Handlers tell of changes"""
+        self.lights: dict[int, LightsInMirrors] = {}
+        """By the region's pointer: each has an eye of its own"""
         self.shown: dict[int, tuple[ShownLight, ...]] = {}
         """By the region's pointer, as drawn last"""
         self.views: dict[int, bytes] = {}
@@ -125,7 +130,7 @@ def _tool(context: bpy.types.Context) -> Any | None:
 def _draw() -> None:
     context = bpy.context
     if not is_active(context):
-        if _overlay.lights is not None:
+        if _overlay.is_heard:
             _let_go()
         return
     space = context.space_data
@@ -143,8 +148,8 @@ def _draw() -> None:
 def _look(context: bpy.types.Context) -> tuple[ShownLight, ...]:
     from ..design.lights.shown import LightsInMirrors
 
-    if _overlay.lights is None:
-        _overlay.lights = LightsInMirrors()
+    if not _overlay.is_heard:
+        _overlay.is_heard = True
         bpy.app.handlers.depsgraph_update_post.append(_scene_changed)
         bpy.app.handlers.frame_change_post.append(_frame_changed)
         bpy.app.handlers.load_pre.append(_loaded)
@@ -159,7 +164,8 @@ def _look(context: bpy.types.Context) -> tuple[ShownLight, ...]:
     scene, tool = context.scene, _tool(context)
     assert scene is not None and tool is not None
     has_world = tool.operator_properties(OPERATOR).target == "WORLD"
-    return _overlay.lights.of(context.evaluated_depsgraph_get(), scene, view, context.object, has_world)
+    lights = _overlay.lights.setdefault(region, LightsInMirrors())
+    return lights.of(context.evaluated_depsgraph_get(), scene, view, context.object, has_world)
 
 
 def _draw_lights(context: bpy.types.Context, shown: tuple[ShownLight, ...]) -> None:
@@ -207,19 +213,23 @@ def _let_go() -> None:
     ):
         if function in listed:
             listed.remove(function)
-    if bpy.app.timers.is_registered(_redraw):
-        bpy.app.timers.unregister(_redraw)
-    _overlay.lights = None
+    if bpy.app.timers.is_registered(redraw_views):
+        bpy.app.timers.unregister(redraw_views)
+    _overlay.is_heard = False
+    _overlay.lights.clear()
     _overlay.shown.clear()
     _overlay.views.clear()
 
 
 @persistent
 def _scene_changed(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if _overlay.lights is None:
-        return
     if any(update.is_updated_geometry and not _is_lamp(update.id) for update in depsgraph.updates):
-        _overlay.lights.forget_meshes()
+        _forget_meshes()
+
+
+def _forget_meshes() -> None:
+    for lights in _overlay.lights.values():
+        lights.forget_meshes()
 
 
 def _is_lamp(block: Any) -> bool:
@@ -228,8 +238,7 @@ def _is_lamp(block: Any) -> bool:
 
 @persistent
 def _frame_changed(*_arguments: Any) -> None:
-    if _overlay.lights is not None:
-        _overlay.lights.forget_meshes()
+    _forget_meshes()
 
 
 @persistent
@@ -238,14 +247,6 @@ def _loaded(*_arguments: Any) -> None:
 
 
 def _draw_soon() -> None:
-    if bpy.app.timers.is_registered(_redraw):
-        bpy.app.timers.unregister(_redraw)
-    bpy.app.timers.register(_redraw, first_interval=SETTLED_SECONDS)
-
-
-def _redraw() -> None:
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+    if bpy.app.timers.is_registered(redraw_views):
+        bpy.app.timers.unregister(redraw_views)
+    bpy.app.timers.register(redraw_views, first_interval=SETTLED_SECONDS)

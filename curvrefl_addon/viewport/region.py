@@ -289,6 +289,13 @@ def view_of(context: bpy.types.Context) -> View:
     )
 
 
+def view_of_area(context: bpy.types.Context, area: bpy.types.Area) -> View:
+    """As `view_of`, of a 3D viewport, wherever in it one is."""
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with context.temp_override(area=area, region=region):
+        return view_of(bpy.context)
+
+
 def _lens_shown(context: bpy.types.Context, world_to_view: np.ndarray) -> Lens | None:
     space, scene = context.space_data, context.scene
     if not isinstance(space, bpy.types.SpaceView3D) or scene is None or context.region_data is None:

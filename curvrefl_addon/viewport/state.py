@@ -8,8 +8,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
-import bpy
-
+from ..scene.opened.areas import view_3d_areas
 from .region import RegionPicture
 from .shown_scene import ViewportScene
 
@@ -54,11 +53,8 @@ def forget_scenes() -> None:
 def redraw_all() -> None:
     """Draw all 3D viewports again; pictures of regions that are gone, as of a closed window, are let go."""
     there: set[int] = set()
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
-                    there.update(region.as_pointer() for region in area.regions)
+    for area in view_3d_areas():
+        area.tag_redraw()
+        there.update(region.as_pointer() for region in area.regions)
     for gone in set(state.pictures) - there:
         del state.pictures[gone]

@@ -8,19 +8,18 @@
 from typing import Any, Literal
 
 import bpy
-import numpy as np
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ...curvrefl_addon.errors import InputError
 from ...curvrefl_addon.options import marked_mirrors
-from ..paths import output_path
+from ..paths import ChoosesFile, output_path
 
 type Result = set[Literal["CANCELLED", "FINISHED", "RUNNING_MODAL"]]
 BEYOND = 0.5
 """Of the picture's size, past its edges: vertices there keep the picture's edge straight"""
 
 
-class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
+class CURVREFL_OT_make_anamorphosis(ChoosesFile, bpy.types.Operator):
     """Choose a picture, and make what has to lie on the selected surfaces so that the mirror shows it"""
 
     bl_idname = "curvrefl.make_anamorphosis"
@@ -153,11 +152,10 @@ class CURVREFL_OT_make_anamorphosis(bpy.types.Operator):
             return False
         return True
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
         # (What is selected now is meant, also where the properties are those of the last time.)
         self.mirror = self.surfaces = ""
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return super().invoke(context, event)
 
     def draw(self, _context: bpy.types.Context) -> None:
         layout: Any = self.layout
@@ -264,17 +262,12 @@ def _names(text: str) -> list[str]:
 
 
 def _view_of(context: bpy.types.Context) -> Any:
-    from ...curvrefl_addon.scene.camera.view import View
+    from ...curvrefl_addon.viewport.region import view_of_area
 
     area = context.area
     if area is None or area.type != "VIEW_3D":
         raise InputError("There is no 3D viewport here: start it in one, or let the camera see the picture.")
-    region = next(item for item in area.regions if item.type == "WINDOW")
-    data: Any = context.space_data
-    view = data.region_3d
-    return View(
-        np.array(view.view_matrix, np.float64), np.array(view.window_matrix, np.float64), region.width, region.height
-    )
+    return view_of_area(context, area)
 
 
 CLASSES = (CURVREFL_OT_make_anamorphosis,)

@@ -12,6 +12,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from ...curvrefl_addon.errors import InputError
+from ...curvrefl_addon.scene.opened.areas import redraw_views
 from ...curvrefl_addon.scene.opened.blend_file import SURFACE_TYPES
 
 
@@ -108,7 +109,7 @@ class CURVREFL_OT_check_joints(bpy.types.Operator):
         for message in checked.messages:
             self.report({"WARNING"}, message)
         self.report({"INFO"}, checked.sentence())
-        redraw_views(context)
+        redraw_views()
         return {"FINISHED"}
 
 
@@ -129,7 +130,7 @@ class CURVREFL_OT_clear_joints(bpy.types.Operator):
         from ...curvrefl_addon.inspection import shown as surface_lines
 
         surface_lines.clear_joints()
-        redraw_views(context)
+        redraw_views()
         return {"FINISHED"}
 
 
@@ -138,14 +139,6 @@ def _other_selected(context: bpy.types.Context, item: bpy.types.Object) -> bpy.t
     if len(others) != 1:
         raise InputError("Select two objects: the joint is where the open edges of both are close.")
     return others[0]
-
-
-def redraw_views(context: bpy.types.Context) -> None:
-    """All 3D viewports."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 CLASSES = (CURVREFL_OT_check_joints, CURVREFL_OT_clear_joints)

@@ -13,10 +13,10 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from ...curvrefl_addon.errors import InputError
 from ...curvrefl_addon.settings_table import NAMED, STILL_SAMPLES
 from ...curvrefl_addon.ui.table_properties import property_of
-from ..paths import output_path
+from ..paths import ChoosesFile, output_path
 
 
-class CURVREFL_OT_save_inspection(bpy.types.Operator):
+class CURVREFL_OT_save_inspection(ChoosesFile, bpy.types.Operator):
     """Save a picture of the view with its diagnostic view, combs, checked joints and legends"""
 
     bl_idname = "curvrefl.save_inspection"
@@ -47,10 +47,6 @@ class CURVREFL_OT_save_inspection(bpy.types.Operator):
             return False
         return True
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         from ...curvrefl_addon.inspection import shown as surface_lines
         from ...curvrefl_addon.inspection.picture import save_picture
@@ -76,18 +72,16 @@ class CURVREFL_OT_save_inspection(bpy.types.Operator):
         """Of the 3D viewport that it is called in, or of the camera."""
         from ...curvrefl_addon.scene.camera.film import rendered_size
         from ...curvrefl_addon.scene.opened.blend_file import find_camera, view_of_camera
-        from ...curvrefl_addon.viewport.region import view_of
+        from ...curvrefl_addon.viewport.region import view_of_area
 
         scene, area = context.scene, _view_area(context)
         assert scene is not None
         if area is None or self.from_camera:
             return view_of_camera(scene, find_camera(scene), *rendered_size(scene.render), depsgraph)
-        region = next(region for region in area.regions if region.type == "WINDOW")
-        with context.temp_override(area=area, region=region):
-            return view_of(bpy.context)
+        return view_of_area(context, area)
 
 
-class CURVREFL_OT_export_inspection(bpy.types.Operator):
+class CURVREFL_OT_export_inspection(ChoosesFile, bpy.types.Operator):
     """Write curvature, combs or checked joints into a table for other programs"""
 
     bl_idname = "curvrefl.export_inspection"
@@ -116,10 +110,6 @@ class CURVREFL_OT_export_inspection(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return context.scene is not None
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[Literal["CANCELLED", "FINISHED"]]:  # type: ignore[override]
         from ...curvrefl_addon.output import checked_file, write_whole

@@ -11,6 +11,7 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
+from ...optics.meshes.barycentric import barycentric
 from ...scene.arrays import Float64Array
 from ...scene.camera.view import View
 from ..ways import WaysByMirrors, lines_through
@@ -91,19 +92,8 @@ class SeenPlaces:
         distance = np.array([np.inf if item[3] is None else item[3] for item in near])
         corners, values = self._corners[triangle], self._values[triangle]
         sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        weights = _barycentric(points, corners)
+        weights = barycentric(points, corners)
         found = np.einsum("nk,nkj->nj", weights, values)
         is_seen: NDArray[np.bool_] = (triangle >= 0) & (distance <= OFF_SURFACE * sides)
         places[is_seen] = found[is_seen]
         return places
-
-
-def _barycentric(points: Float64Array, corners: Float64Array) -> Float64Array:
-    """(n, 3) weights of triangles' corners (n, 3, 3) at the places nearest to points (n, 3) in their planes."""
-    one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    offset = points - corners[:, 0]
-    a, b, c = (np.einsum("ij,ij->i", *pair) for pair in ((one, one), (one, other), (other, other)))
-    d, e = np.einsum("ij,ij->i", offset, one), np.einsum("ij,ij->i", offset, other)
-    scale = 1.0 / np.maximum(a * c - b * b, 1e-300)
-    second, third = (c * d - b * e) * scale, (a * e - b * d) * scale
-    return np.column_stack([1.0 - second - third, second, third])

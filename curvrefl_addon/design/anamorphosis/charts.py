@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.meshes.components import components
 from ...scene.arrays import Float64Array
 
 AT_ONCE = 1 << 21
@@ -86,20 +87,6 @@ def islands_of(vertices: NDArray[np.integer], places: Float64Array) -> Indices:
     corner = corner.reshape(-1, 3)
     pairs = np.concatenate([corner[:, :2], corner[:, 1:]])
     return components(int(corner.max(initial=-1)) + 1, pairs)[corner[:, 0]]
-
-
-def components(count: int, pairs: Indices) -> Indices:
-    """(count,) the least number of those that each hangs together with, by pairs (m, 2) of them."""
-    label = np.arange(count)
-    while len(pairs):
-        one, other = label[pairs[:, 0]], label[pairs[:, 1]]
-        pairs = pairs[one != other]
-        one, other = one[one != other], label[pairs[:, 1]]
-        # Roots are hung below lesser ones, then all below their roots: long strips take few rounds.
-        np.minimum.at(label, np.maximum(one, other), np.minimum(one, other))
-        while not np.array_equal(label[label], label):
-            label = label[label]
-    return label
 
 
 def grown(owner: Indices, may_grow: NDArray[np.bool_]) -> Indices:

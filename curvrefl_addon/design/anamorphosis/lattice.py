@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.meshes.components import components
 from ...scene.arrays import Float64Array
-from .charts import components
 
 JUMP = 8.0
 """A step so many times as long as those beside it is none of one surface: something is before it in between"""

@@ -14,6 +14,7 @@ import numpy as np
 from ...errors import InputError
 from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array
+from ...scene.camera.film import rendered_size
 from ...scene.camera.view import View
 from ...scene.opened.blend_file import find_camera, view_of_camera
 from .goals import Goal, background, illumination, outward, reflection, rim
@@ -205,8 +206,6 @@ def line_given(
         return Line.along(given["eye"], given["point"] - given["eye"])
     if not given.keys() & {"pixel", "point"}:
         raise InputError("No place is given: set pixel, or point, or eye and direction.")
-    percent = 0.01 * scene.render.resolution_percentage
-    size = (int(scene.render.resolution_x * percent), int(scene.render.resolution_y * percent))
-    view = view_of_camera(scene, find_camera(scene), *size, depsgraph)
+    view = view_of_camera(scene, find_camera(scene), *rendered_size(scene.render), depsgraph)
     pixel = given["pixel"] if "pixel" in given else view.project(given["point"][None])[0]
     return Line.through(view, *pixel.tolist())

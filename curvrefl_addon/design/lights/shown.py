@@ -59,9 +59,18 @@ class _Kept:
     is_solid: bool
 
 
+@dataclass(frozen=True, slots=True)
+class _Standing:
+    """A mirror, by its kept mesh."""
+
+    name: str
+    key: tuple[int, bool]
+    matrix: Float64Array
+
+
 @dataclass(slots=True)
 class LightsInMirrors:
-    """Of one view layer."""
+    """Of one view of a view layer."""
 
     counters: dict[str, int] = field(default_factory=lambda: {"meshes": 0, "mirrors": 0, "lights": 0})
     """How often meshes were read, mirrors seen from another eye, lights looked for"""
@@ -89,17 +98,19 @@ class LightsInMirrors:
         placed, lights = self._read(depsgraph, active)
         if has_world and (sun := self._sun_of(scene.world)) is not None:
             lights.append((WORLD, sun, place_of(sun)))
-        key = (view.world_to_clip.tobytes(), view.width, view.height, tuple(key for key, _ in placed))
+        mirrors = tuple((mirror.key, mirror.matrix.tobytes()) for mirror in placed)
+        key = (view.world_to_clip.tobytes(), view.width, view.height, mirrors)
         if key != self._mirrors_key:
             self._mirrors_key = key
             self._lights.clear()
-            self._mirrors = [(mirror.name, reflecting(mirror, view)) for _, mirror in placed]
+            self._mirrors = [(mirror.name, reflecting(self._placed(mirror), view)) for mirror in placed]
             self.counters["mirrors"] += len(placed)
-        sight = Sight(depsgraph, scene, MirrorRules.of(scene))
+        sight: Sight | None = None
         shown = []
         for name, light, place in lights:
             known = (None if light is None else _identity(light), place.tobytes())
             if name not in self._lights or self._lights[name][0] != known:
+                sight = sight or Sight(depsgraph, scene, MirrorRules.of(scene))
                 self._lights[name] = (known, self._shown(sight, view, name, light, place))
                 self.counters["lights"] += 1
             shown.append(self._lights[name][1])
@@ -118,8 +129,8 @@ class LightsInMirrors:
 
     def _read(
         self, depsgraph: bpy.types.Depsgraph, active: bpy.types.Object | None
-    ) -> tuple[list[tuple[Any, PlacedMirror]], list[tuple[str, LightArrays | None, Float64Array]]]:
-        placed: list[tuple[Any, PlacedMirror]] = []
+    ) -> tuple[list[_Standing], list[tuple[str, LightArrays | None, Float64Array]]]:
+        placed: list[_Standing] = []
         lights: list[tuple[str, LightArrays | None, Float64Array]] = []
         view_layer = depsgraph.view_layer
         assert view_layer is not None
@@ -133,13 +144,13 @@ class LightsInMirrors:
                 if light is not None:
                     lights.append((obj.original.name, light, place_of(light)))
             elif obj.original.curvrefl.is_mirror and isinstance(obj.data, bpy.types.Mesh):
-                placed.append(self._placed(obj, matrix))
+                placed.append(self._standing(obj, matrix))
         if active is not None and not isinstance(active.data, bpy.types.Light):
             place = np.array(active.evaluated_get(depsgraph).matrix_world, np.float64)[:, 3]
             lights.append((active.name, None, place))
         return placed, lights
 
-    def _placed(self, obj: Any, matrix: Float64Array) -> tuple[Any, PlacedMirror]:
+    def _standing(self, obj: Any, matrix: Float64Array) -> _Standing:
         is_mirrored = bool(np.linalg.det(matrix[:3, :3]) < 0.0)
         key = (obj.data.as_pointer(), is_mirrored)
         if key not in self._meshes:
@@ -147,9 +158,12 @@ class LightsInMirrors:
             mesh = mirrored(mesh) if is_mirrored else mesh
             self._meshes[key] = _Kept(mesh, solid_side(mesh) == (-1 if is_mirrored else 1))
             self.counters["meshes"] += 1
-        kept = self._meshes[key]
-        return (key, matrix.tobytes()), PlacedMirror(
-            obj.original.name,
+        return _Standing(obj.original.name, key, matrix)
+
+    def _placed(self, mirror: _Standing) -> PlacedMirror:
+        kept, matrix = self._meshes[mirror.key], mirror.matrix
+        return PlacedMirror(
+            mirror.name,
             (kept.mesh.positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3])[kept.mesh.corner_vertex],
             unit(kept.mesh.corner_normals.astype(np.float64) @ np.linalg.inv(matrix[:3, :3])),
             kept.mesh.triangles,

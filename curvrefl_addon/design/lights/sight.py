@@ -17,6 +17,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ...errors import InputError
+from ...optics.meshes.barycentric import barycentric
 from ...optics.ray import ReflectedRay, reflect_ray
 from ...optics.shading_normal import reflecting_outward
 from ...optics.surfaces.radial_surfaces import unit
@@ -261,7 +262,7 @@ def _on_triangle(
             if slope == 0.0:
                 continue
             point = origin + float(cross @ (corners[0] - origin)) / slope * direction
-            weights = barycentric(point, corners)
+            weights = barycentric(point[None], corners[None])[0]
             if weights.min() > best:
                 best = float(weights.min())
                 normals = np.array([mesh.corner_normals[loop].vector for loop in triangle.loops], np.float64)
@@ -272,12 +273,3 @@ def _on_triangle(
     finally:
         if not is_mesh:
             evaluated.to_mesh_clear()
-
-
-def barycentric(point: Float64Array, corners: Float64Array) -> Float64Array:
-    """(3,) weights of a triangle's corners (3, 3) at a point in its plane."""
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    squared = max(float(normal @ normal), 1e-300)
-    first = np.cross(corners[2] - corners[1], point - corners[1]) @ normal / squared
-    second = np.cross(corners[0] - corners[2], point - corners[2]) @ normal / squared
-    return np.array([first, second, 1.0 - first - second])

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from .components import components
 from .curvature import Float64Array
 from .jets import Jet, fit_jet
 
@@ -120,15 +121,8 @@ class CutMesh:
             order = np.lexsort((edges[:, 1], edges[:, 0]))
             edges, corners = edges[order], corners[order]
             same = (edges[1:] == edges[:-1]).all(axis=1)
-            one, other = corners[:-1][same].ravel(), corners[1:][same].ravel()
-            while True:
-                least = np.minimum(labels[one], labels[other])
-                before = labels.copy()
-                np.minimum.at(labels, one, least)
-                np.minimum.at(labels, other, least)
-                labels = labels[labels]
-                if np.array_equal(labels, before):
-                    break
+            pairs = np.column_stack([corners[:-1][same].ravel(), corners[1:][same].ravel()])
+            labels = components(3 * count, pairs)
         _, numbers = np.unique(labels, return_inverse=True)
         return numbers.reshape(count, 3)
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array, InstanceArrays, SceneArrays
 from ..geometry.mesh_facts import MeshFactsCache
 from ..paths.features import SHARP_ROUGHNESS, goes_on
@@ -90,8 +91,7 @@ def _placed(scene: SceneArrays, index: int, mirror: int, facts: MeshFactsCache) 
     matrix = instance.matrix[:3, :3]
     world = mesh.positions.astype(np.float64) @ matrix.T + instance.matrix[:3, 3]
     corners = world[mesh.corner_vertex[mesh.triangles]]
-    directions = mesh.corner_normals.astype(np.float64) @ np.linalg.inv(matrix)
-    normals = (directions / np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-300))[mesh.triangles]
+    normals = unit(mesh.corner_normals.astype(np.float64) @ np.linalg.inv(matrix))[mesh.triangles]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     if np.linalg.det(matrix) < 0.0:
         across = -across

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
+from ...pacing.pieces import outcome
 from ...scene.arrays import UNLIMITED_BOUNCES, SceneArrays
 from ...settings_table import Settings
 from ..device.records import record_texture
@@ -136,7 +137,7 @@ class Caustics:
         if (number := sub_frame % wanted) in self._maps:
             return False
         start = perf_counter()
-        self._keep(number, _outcome(self._making(by, number, self._settings.caustic_patches)))
+        self._keep(number, outcome(self._making(by, number, self._settings.caustic_patches)))
         self.prepare_ms = 1e3 * (perf_counter() - start)
         return len(self._maps) == 1
 
@@ -148,7 +149,7 @@ class Caustics:
             return was is not None
         if not self._maps and (self._coarse is None or self._is_stale):
             self._work, self._is_stale = None, False
-            self._coarse = _stored(_outcome(self._making(by, 0, COARSE, rounds=0)))
+            self._coarse = _stored(outcome(self._making(by, 0, COARSE, rounds=0)))
             return True
         end = perf_counter() + seconds
         while not self.is_settled:
@@ -226,11 +227,3 @@ def _is_by_chance(tracer: PathTracer | None) -> bool:
 
 def _stored(made: CausticMap) -> Known:
     return made, record_texture(made.records)
-
-
-def _outcome(work: Generator[None, None, CausticMap]) -> CausticMap:
-    while True:
-        try:
-            next(work)
-        except StopIteration as done:
-            return done.value

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float32Array, Float64Array, SceneArrays
 from ..rays.ray_scene import RayScene
 from ..surfaces.surface_buffer import SEEN_THROUGH
@@ -123,8 +124,7 @@ def _corners(
     chosen = points.triangles
     records = np.zeros((points.count, CORNER_RECORDS, 4), np.float32)
     places = np.einsum("nw,nwc->nc", points.weights, casters.corners[chosen])
-    normals = np.einsum("nw,nwc->nc", points.weights, casters.normals[chosen])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    normals = unit(np.einsum("nw,nwc->nc", points.weights, casters.normals[chosen]))
     side = np.ones(points.count)
     for number, (_, place) in enumerate(lamps):
         mine = np.flatnonzero(points.lamps == number)

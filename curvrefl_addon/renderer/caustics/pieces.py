@@ -16,6 +16,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.surfaces.radial_surfaces import unit
 from ...scene.arrays import Float64Array
 
 FLAT = 0.3
@@ -100,7 +101,7 @@ def pieces_of(landed: Landed, widths: Float64Array, sizes: Float64Array) -> Piec
     sees them; `sizes` (n, 2): their longest sides, and heights over these."""
     whole = np.flatnonzero(landed.is_whole)
     positions, normals = landed.positions[whole], landed.normals[whole]
-    direction = _unit(landed.directions[whole].mean(axis=1))
+    direction = unit(landed.directions[whole].mean(axis=1))
     power = widths[whole, None] * landed.powers[whole].mean(axis=1)
     flat, area = _flattened(positions, direction, sizes[whole])
     irradiance = power / np.maximum(area, 1e-300)[:, None]
@@ -147,7 +148,7 @@ def _flattened(
     # (A point has no side: any way serves.)
     x = np.abs(direction[:, :1]) < 0.7
     aside = np.cross(direction, np.where(x, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
-    along = _unit(np.where(lengths[rows, longest][:, None] > 1e-9 * least[:, None], along, aside))
+    along = unit(np.where(lengths[rows, longest][:, None] > 1e-9 * least[:, None], along, aside))
     up = np.cross(direction, along)
     u, v = np.einsum("nkc,nc->nk", across, along), np.einsum("nkc,nc->nk", across, up)
     width = np.ptp(u, axis=1)
@@ -178,7 +179,7 @@ def _on_one(
     """Where the corners are."""
     normal = np.cross(positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0])
     length = np.linalg.norm(normal, axis=1, keepdims=True)
-    mean = _unit(normals.mean(axis=1))
+    mean = unit(normals.mean(axis=1))
     longest = np.linalg.norm(np.roll(positions, -1, axis=1) - positions, axis=2).max(axis=1)
     # (Of a needle the plane is known by the surface alone.)
     is_thin = length[:, 0] < THINNEST * longest**2
@@ -204,7 +205,3 @@ def _on_plane(
     longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
     rounding = 1e-5 * np.abs(corners).max(axis=(1, 2), initial=0.0)
     return Pieces(corners, normal, direction, irradiance, THICK * size + turns * longest + rounding)
-
-
-def _unit(vectors: Float64Array) -> Float64Array:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-300)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...optics.surfaces.cube_map import texel_directions
-from ...optics.surfaces.radial_surfaces import RadialSurface, unit
+from ...optics.surfaces.radial_surfaces import RadialSurface
 from ...scene.arrays import Float32Array, Float64Array, MeshArrays
 from ...scene.camera.looking import look_at
 from ...scene.camera.view import View
@@ -26,10 +26,8 @@ def view_of_origin(eye: Float64Array, width: int, height: int) -> View:
 
 def lines_of_sight(view: View) -> Float64Array:
     """(h, w, 3) unit directions from the eye through the pixels' centers."""
-    y, x = np.mgrid[0 : view.height, 0 : view.width]
-    clip = [(2 * x + 1) / view.width - 1, (2 * y + 1) / view.height - 1, np.ones(x.shape), np.ones(x.shape)]
-    far = np.stack(clip, axis=-1) @ np.linalg.inv(view.world_to_clip).T
-    return unit(far[..., :3] / far[..., 3:] - view.eye[:3])
+    _, directions = view.lines_of_sight(view.pixel_centers)
+    return directions.reshape(view.height, view.width, 3)
 
 
 def radial_map(surface: RadialSurface, resolution: int) -> Float32Array:

@@ -162,14 +162,31 @@ class View:
         return replace(self, world_to_view=shift @ self.world_to_view, view_to_clip=self.view_to_clip @ lean, lens=None)
 
     def line_of_sight(self, x: float, y: float) -> tuple[Float64Array, Float64Array]:
-        """Where the line through a place in the picture begins, on the near end (3,), and its unit direction (3,).
+        """That of `lines_of_sight` through one place: origin (3,) and unit direction (3,)."""
+        origins, directions = self.lines_of_sight(np.array([[x, y]]))
+        return origins[0], directions[0]
 
-        In pixels from the bottom left: centers of pixels are at halves.
+    def lines_of_sight(self, places: Float64Array) -> tuple[Float64Array, Float64Array]:
+        """Where lines through places (n, 2) in the picture begin, on the near end (n, 3), and their unit directions
+        (n, 3).
+
+        In pixels from the bottom left, also beyond the picture: centers of pixels are at halves.
         """
-        near = self.clip_to_world @ (2.0 * x / self.width - 1.0, 2.0 * y / self.height - 1.0, -1.0, 1.0)
-        origin = near[:3] / near[3]
-        direction = -self.eye[:3] if self.is_orthographic else origin - self.place
-        return origin, direction / np.linalg.norm(direction)
+        clip = np.ones((len(places), 4))
+        clip[:, :2], clip[:, 2] = 2.0 * places / (self.width, self.height) - 1.0, -1.0
+        near = clip @ np.linalg.inv(self.view_to_clip).T
+        near = near[:, :3] / near[:, 3:]
+        # (In the view's own space: far from the world's origin a direction is no difference of two places.)
+        ways = np.broadcast_to([0.0, 0.0, -1.0], near.shape) if self.is_orthographic else near
+        to_world = np.linalg.inv(self.world_to_view)
+        ways = ways @ to_world[:3, :3].T
+        return near @ to_world[:3, :3].T + to_world[:3, 3], ways / np.linalg.norm(ways, axis=1, keepdims=True)
+
+    @property
+    def pixel_centers(self) -> Float64Array:
+        """(height * width, 2) places in the picture, row by row from the bottom."""
+        y, x = np.mgrid[0 : self.height, 0 : self.width]
+        return np.column_stack([x.ravel(), y.ravel()]) + 0.5
 
     def project(self, points: Float64Array) -> Float64Array:
         """Pixel coordinates (n, 2), origin bottom left, of world points (n, 3)."""

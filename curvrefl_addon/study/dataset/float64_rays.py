@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.shading_normal import reflecting_outward
 from ...optics.surfaces.mesh_rays import Hits
 from ...optics.surfaces.radial_surfaces import unit
 from ...renderer.geometry.convexity import is_convex
@@ -28,8 +29,6 @@ BOUNCES = 12
 """Mirrors one after the other that the length of a whole path goes on over"""
 RAYS = 65536
 """At a time"""
-LEAST_RISE = 0.01
-"""Cosine to the facet that a mirrored ray rises by"""
 
 
 class Float64Rays:
@@ -46,7 +45,7 @@ class Float64Rays:
 
     def points(self, view: View, say: Callable[[str], None]) -> ShownPoints:
         """Of all pixels whose center shows a mirror; `say` is told how far it is."""
-        origin, sight = lines_of_sight(view)
+        origin, sight = view.lines_of_sight(view.pixel_centers)
         found = []
         for first in range(0, len(origin), RAYS):
             say(f"rays {first} of {len(origin)}")
@@ -139,20 +138,6 @@ class Float64Rays:
         return self._own[number]
 
 
-def lines_of_sight(view: View) -> tuple[Float64Array, Float64Array]:
-    """Through the pixels' centers, each (h w, 3): where they begin, on the near plane, and unit directions."""
-    y, x = np.mgrid[0 : view.height, 0 : view.width]
-    ends = []
-    for depth in (-1.0, 0.5):
-        clip = [(2.0 * x + 1.0) / view.width - 1.0, (2.0 * y + 1.0) / view.height - 1.0]
-        ends.append(np.stack([*clip, np.full(x.shape, depth), np.ones(x.shape)], axis=-1) @ view.clip_to_world.T)
-    origin, ahead = ((end[..., :3] / end[..., 3:]).reshape(-1, 3) for end in ends)
-    if not view.is_orthographic:
-        # (Two points of the line, of which one may be as near as the clip start, are no measure of its direction.)
-        return origin, unit(ahead - view.place)
-    return origin, unit(ahead - origin)
-
-
 def _turned(
     mesh: WorldMesh,
     hits: Hits,
@@ -170,25 +155,3 @@ def _turned(
     facet, normal = side * facet, side * normal
     outward = reflecting_outward(facet, -sight, normal)
     return outward if reflects is None else np.where(reflects[:, None], outward, normal)
-
-
-def reflecting_outward(facing: Float64Array, to_eye: Float64Array, bent: Float64Array) -> Float64Array:
-    """The steepest normals (n, 3) towards `bent` whose mirrored rays leave facets with unit normals `facing`."""
-
-    def dot(a: Float64Array, b: Float64Array) -> Float64Array:
-        return np.einsum("ij,ij->i", a, b)
-
-    eye_z = dot(to_eye, facing)
-    least = np.minimum(0.9 * eye_z, LEAST_RISE)
-    mirrored = 2.0 * dot(bent, to_eye)[:, None] * bent - to_eye
-    aside = bent - dot(bent, facing)[:, None] * facing
-    length = np.linalg.norm(aside, axis=1)
-    aside /= np.maximum(length, 1e-300)[:, None]
-    eye_x = dot(to_eye, aside)
-    a = np.maximum(eye_x**2 + eye_z**2, 1e-300)
-    b = 2.0 * (a + eye_z * least)
-    root = np.sqrt(np.maximum(b**2 - 4.0 * a * (least + eye_z) ** 2, 0.0))
-    z = np.clip(0.25 * np.where(eye_x < 0.0, b + root, b - root) / a, 0.0, 1.0)
-    turned = np.sqrt(1.0 - z)[:, None] * aside + np.sqrt(z)[:, None] * facing
-    turned = np.where((length < 1e-6)[:, None], facing, turned)
-    return np.where((dot(facing, mirrored) >= least)[:, None], bent, turned)

@@ -7,8 +7,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.design.anamorphosis import charts
-from curvrefl.curvrefl_addon.design.anamorphosis.charts import affine_maps, components, grown, islands_of, texels_of
+from curvrefl.curvrefl_addon.design.anamorphosis.charts import affine_maps, grown, islands_of, texels_of
 from curvrefl.curvrefl_addon.design.anamorphosis.lattice import cells_of
+from curvrefl.curvrefl_addon.optics.meshes.components import components
 from curvrefl.curvrefl_addon.scene.arrays import Float64Array
 
 
