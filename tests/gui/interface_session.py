@@ -73,6 +73,7 @@ def script() -> Script:
     bpy.context.view_layer.objects.active = kettle
     kettle.select_set(True)
     kettle.curvrefl.is_mirror = True
+    bpy.context.scene.eevee.taa_samples = bpy.context.scene.curvrefl.samples = 4
     bpy.context.window_manager.curvrefl_enabled = True
     space.show_region_ui = True
     yield 2.0
@@ -122,7 +123,6 @@ def panels() -> Script:
 def diagnostics(space: bpy.types.SpaceView3D) -> Script:
     space.show_region_ui = False
     settings = bpy.context.scene.curvrefl
-    settings.samples = 4
     for name in ("ITERATIONS", "STATUS", "ANGLE_ERROR", "METHOD", "ZEBRA", "LINES"):
         settings.show = name
         yield 1.0

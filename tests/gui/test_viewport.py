@@ -11,6 +11,8 @@ import pytest
 from window import InWindow, Session
 
 SCRIPT = Path(__file__).resolve().parent / "artist_session.py"
+SIZE = (960, 640)
+"""Of the window: its mirror is large enough to judge, and pixels are what a software renderer takes its time for"""
 FILMS = 2
 """Handlers that hear of files with a film, for as long as the extension is there"""
 
@@ -21,7 +23,7 @@ def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
     folder = tmp_path_factory.mktemp(request.param)
     build_demo(folder / "demo.blend")
-    found = in_window(SCRIPT, folder, folder / "demo.blend", folder, backend=request.param)
+    found = in_window(SCRIPT, folder, folder / "demo.blend", folder, backend=request.param, size=SIZE)
     assert "Traceback" not in found.printed, found.printed[-3000:]
     return found
 
@@ -62,7 +64,10 @@ def test_only_what_changed_is_done_again(session: Session) -> None:
     assert spent("moved the view again") == {}
     assert spent("moved the camera") == {}
     assert spent("moved an object") == {"objects read": 1, "instances placed": 1}
-    assert spent("moved the mirror") == {"objects read": 1, "instances placed": 1}
+    changed = spent("moved the mirror")
+    # (What it has come nearer to may be split finer.)
+    assert changed.keys() <= {"objects read", "instances placed", "meshes split", "chunks built"}
+    assert changed["objects read"] == changed["instances placed"] == 1
     changed = spent("edited a mesh")
     assert changed["meshes read"] == 1 and "maps baked" not in changed and "renderers made" not in changed
     changed = spent("edited the mirror's mesh")

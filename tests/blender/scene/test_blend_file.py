@@ -100,6 +100,7 @@ def test_finding_a_camera(scene: bpy.types.Scene) -> None:
 def test_the_camera_of_a_marker(scene: bpy.types.Scene) -> None:
     scene.camera = camera()
     scene.render.resolution_x = scene.render.resolution_y = 8
+    scene.render.engine, scene.cycles.samples = "CYCLES", 1  # (no shaders to compile)
     for frame in (10, 20, 30):
         marker = scene.timeline_markers.new(f"at {frame}", frame=frame)
         marker.camera = link(bpy.data.objects.new(f"from {frame}", bpy.data.cameras.new("eye")))
