@@ -8,7 +8,7 @@
 Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `torus` and `bowl` (mirrors
 that show themselves), `lamps` (point lamp, spot and sun in the dark), `million` (a million vertices) and `hidden` (one
 small file per hidden-surface case) are written when asked for, and `anamorphosis`: a cylinder on paper, and a picture
-that it could show.
+that it could show. So are the papers' animations: `kitchen`.
 """
 
 from __future__ import annotations
@@ -26,10 +26,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 from curvrefl.curvrefl_addon.demo.anamorphosis import build_anamorphosis, picture  # noqa: E402
 from curvrefl.curvrefl_addon.demo.scene import build_demo  # noqa: E402
 from curvrefl.curvrefl_addon.design.anamorphosis.png_file import png_bytes  # noqa: E402
+from scenes.animations.films import ANIMATIONS  # noqa: E402
 from scenes.builders import SCENES, build_case  # noqa: E402
 from scenes.hidden_surfaces import CASES  # noqa: E402
 
-OTHERS = ("demo", "anamorphosis", "hidden")
+OTHERS = ("demo", "anamorphosis", "hidden", *ANIMATIONS)
 USUAL = ("sphere", "ellipsoid", "bumpy", "demo")
 
 
@@ -50,7 +51,10 @@ def write(name: str, folder: Path) -> list[Path]:
         shown = folder / f"{name}.png"
         shown.write_bytes(png_bytes(picture()))
         return [_save(path), shown]
-    SCENES[name]()
+    if name in ANIMATIONS:
+        ANIMATIONS[name].build()
+    else:
+        SCENES[name]()
     return [_save(path)]
 
 
