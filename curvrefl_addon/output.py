@@ -8,17 +8,21 @@ import errno
 import os
 import shutil
 import tempfile
-import uuid
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .errors import InputError
+from .held_folders import hold, let_go, new_name, remove_abandoned
 from .supervised import publishing, removed_at_end
-from .written_files import BROKEN_OFF, NO_ROOM, UNWRITABLE, require_whole
+from .written_files import BROKEN_OFF, NO_ROOM, UNWRITABLE, require_whole, sync_folder
 
 LONGEST_NAME = 255
 """Bytes that file systems give a name"""
+_FILES = "files"
+"""In a held folder"""
+_cleaned: set[Path] = set()
+"""Folders in which this process has looked for what killed runs left"""
 
 
 def checked_folder(path: Path | str) -> Path:
@@ -69,22 +73,50 @@ def numbered(path: Path, frame: int, is_numbered: bool = True) -> Path:
 
 @contextmanager
 def folder_to_publish(folder: Path) -> Iterator[Path]:
-    """A temporary folder; its files are moved into `folder` at the end, and dropped if something fails before.
+    """A temporary folder; what is in it is moved into `folder` at the end, and dropped if something fails before.
 
-    The temporary folder lies beside `folder`, so that moving is renaming. Files called report* come last: where a
-    report is, all that it names is. Raises InputError where the files cannot be written, or not whole.
+    The temporary folder lies beside `folder`, so that moving is renaming: at once where `folder` is not there yet. Else
+    file after file, and the last stands for all: it is there only while all are, also where the program is killed or
+    the power fails in between. That is the last by name, but files called report* come behind the others. What killed
+    runs have left beside `folder` is removed. Raises InputError where the files cannot be written, or not whole.
     """
-    with removed_at_end(_existing_base(folder) / f".curvrefl-{uuid.uuid4().hex}") as part:
+    clean_up(folder)
+    with _held(_existing_base(folder), folder) as held:
+        part = held / _FILES
         with _said(folder):
-            part.mkdir(0o700)
+            part.mkdir()
         with _said(folder, inside=part):
             yield part
         with _said(folder):
-            paths = sorted(part.iterdir(), key=lambda path: (path.name.startswith("report"), path.name))
-            for path in paths:
+            for path in part.rglob("*"):
                 if path.is_file():
                     require_whole(path)
-            _publish(paths, folder)
+            _publish(part, folder, held)
+
+
+def clean_up(folder: Path) -> None:
+    """Remove what killed runs have left in `folder` and those above it, where their results were to go; once each."""
+    for base in (folder, *folder.parents):
+        if base not in _cleaned and base.is_dir():
+            _cleaned.add(base)
+            remove_abandoned(base)
+
+
+@contextmanager
+def _held(base: Path, place: Path, start: str = ".curvrefl-") -> Iterator[Path]:
+    """A folder in `base` that is held, and gone at the end. Raises InputError, of `place`, where it cannot be made."""
+    while True:
+        with removed_at_end(new_name(base, start)) as folder:
+            with _said(place):
+                folder.mkdir(0o700)
+                held = hold(folder)
+            if held is None:
+                continue
+            try:
+                yield folder
+            finally:
+                let_go(held)
+            return
 
 
 @contextmanager
@@ -94,9 +126,9 @@ def temporary_folder() -> Iterator[Path]:
         base = tempfile.gettempdir()
     except FileNotFoundError as error:
         raise InputError("There is no temporary folder to write to: name one in TMPDIR.") from error
-    with removed_at_end(Path(base, f"curvrefl-{uuid.uuid4().hex}")) as folder:
+    clean_up(Path(base))
+    with _held(Path(base), Path(base), "curvrefl-") as folder:
         try:
-            folder.mkdir(0o700)
             yield folder
         except OSError as error:
             is_here = error.filename is not None and Path(os.fsdecode(error.filename)).is_relative_to(folder)
@@ -113,11 +145,14 @@ def write_whole(path: Path, text: str) -> None:
 
     Its folder is made when missing. Raises InputError where it cannot be written.
     """
-    with removed_at_end(_existing_base(path.parent) / f".{path.name}.part") as part, _said(path):
+    clean_up(path.parent)
+    with _held(_existing_base(path.parent), path) as held, _said(path):
+        part = held / path.name
         part.write_text(text, encoding="utf-8")
         require_whole(part)
         path.parent.mkdir(parents=True, exist_ok=True)
         os.replace(part, _target(path))
+        sync_folder(path.parent)
 
 
 def unwritable(place: Path | str, error: OSError) -> InputError:
@@ -126,28 +161,63 @@ def unwritable(place: Path | str, error: OSError) -> InputError:
     return InputError(f'Cannot write "{place}" ({reason}): make room or choose another output.')
 
 
-def _publish(paths: Sequence[Path], folder: Path) -> None:
-    """Move all, or none where one cannot be."""
-    targets = [_target(folder / path.name) for path in paths]
+def _publish(part: Path, folder: Path, held: Path) -> None:
+    """Move all that is in `part`, or nothing where something cannot be moved; `held` has room for what is replaced."""
+    paths = sorted(
+        (path for path in part.rglob("*") if path.is_file()),
+        key=lambda path: (path.parent == part and path.name.startswith("report"), path.relative_to(part)),
+    )
+    targets = [_target(folder / path.relative_to(part)) for path in paths]
     for target in targets:
         if target.is_dir():
             raise InputError(f'Cannot write "{target}", which is a folder: choose another output.')
-    is_new_folder = not folder.exists()
-    made: list[Path] = []
     with publishing():
-        folder.mkdir(parents=True, exist_ok=True)
-        try:
-            for path, target in zip(paths, targets, strict=True):
-                is_new = not target.exists()
-                _move(path, target)
-                if is_new:
-                    made.append(target)
-        except OSError:
-            for target in made:
-                target.unlink(missing_ok=True)
-            if is_new_folder:
-                shutil.rmtree(folder, ignore_errors=True)
+        if os.path.lexists(folder) or not _moves_whole(part, folder):
+            _move_all(list(zip(paths, targets, strict=True)), held)
+
+
+def _moves_whole(part: Path, folder: Path) -> bool:
+    """Put the folder `part` where none is yet; False where one has come there meanwhile."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    for inside in (part, *(path for path in part.rglob("*") if path.is_dir())):
+        sync_folder(inside)
+    try:
+        part.rename(folder)
+    except OSError as error:
+        if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
             raise
+        return False
+    sync_folder(folder.parent)
+    return True
+
+
+def _move_all(moves: list[tuple[Path, Path]], held: Path) -> None:
+    """Move files, the last of which stands for all: an older one is taken away first."""
+    if not moves:
+        return
+    last, replaced = moves[-1][1], held / "replaced"
+    made: list[Path] = []
+    try:
+        if len(moves) > 1 and last.exists():
+            _move(last, replaced)
+            sync_folder(last.parent)
+        for path, target in moves:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if target == last:
+                for folder in {target.parent for _path, target in moves}:
+                    sync_folder(folder)
+            is_new = not target.exists()
+            _move(path, target)
+            if is_new:
+                made.append(target)
+        sync_folder(last.parent)
+    except OSError:
+        for target in made:
+            target.unlink(missing_ok=True)
+        if replaced.exists():
+            with suppress(OSError):  # (what went wrong before is said)
+                _move(replaced, last)
+        raise
 
 
 def _move(path: Path, target: Path) -> None:
@@ -155,11 +225,13 @@ def _move(path: Path, target: Path) -> None:
     if path.stat().st_dev == target.parent.stat().st_dev:
         os.replace(path, target)
         return
-    with removed_at_end(target.with_name(f".curvrefl-{uuid.uuid4().hex}")) as beside:
-        shutil.copyfile(path, beside)
-        with beside.open("r+b") as file:
+    clean_up(target.parent)
+    with _held(target.parent, target) as beside:
+        copy = beside / target.name
+        shutil.copyfile(path, copy)
+        with copy.open("r+b") as file:
             os.fsync(file.fileno())
-        os.replace(beside, target)
+        os.replace(copy, target)
 
 
 @contextmanager

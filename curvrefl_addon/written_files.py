@@ -4,12 +4,13 @@
 
 Blender's writers of pictures and of .blend files report success on a full disk, and leave a file that breaks off. So
 what they write is read again: the chunks of a PNG with their sums, the table of an OpenEXR file and its last chunk, the
-last block of a .blend file, the boxes of a video. Python's own writers raise OSError, and their files are taken as they
-are.
+last block of a .blend file, the boxes of a video or its segment. Python's own writers raise OSError, and their files
+are taken as they are.
 """
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import struct
@@ -30,6 +31,7 @@ _EXR_TILED, _EXR_PARTS = 0x200, 0x1000
 _ZSTD_START = b"\x28\xb5\x2f\xfd"
 _SEEKABLE_END = struct.pack("<I", 0x8F92EAB1)
 _BLEND_END = b"ENDB"
+_EBML_START, _SEGMENT_START = b"\x1a\x45\xdf\xa3", b"\x18\x53\x80\x67"
 _LARGEST_BLOCK_HEAD = 32
 
 
@@ -45,6 +47,16 @@ def require_whole(path: Path) -> None:
             size = file.seek(0, os.SEEK_END)
     _require_room(path.parent, size)
     raise OSError(errno.EIO, "it was not written whole", str(path))
+
+
+def sync_folder(folder: Path) -> None:
+    """Have what was put into a folder stay there though the power fails, where the system can do that."""
+    with contextlib.suppress(OSError):  # (Windows opens no folders, some file systems sync none)
+        number = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(number)
+        finally:
+            os.close(number)
 
 
 def is_whole(path: Path) -> bool:
@@ -172,10 +184,39 @@ def _is_whole_video(file: BinaryIO) -> bool:
     return place == size and b"moov" in kinds
 
 
+def _is_whole_matroska(file: BinaryIO) -> bool:
+    """The segment behind the header has got its length, which is written at the end, and reaches to the file's."""
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0)
+    if file.read(4) != _EBML_START:
+        return False
+    length = _read_ebml_length(file)
+    file.seek(length or 0, os.SEEK_CUR)
+    if length is None or file.read(4) != _SEGMENT_START:
+        return False
+    length = _read_ebml_length(file)
+    return length is not None and file.tell() + length == size
+
+
+def _read_ebml_length(file: BinaryIO) -> int | None:
+    """A length of one to eight bytes; None for the one that says that it is not known. Raises ValueError for none."""
+    first = file.read(1)
+    if not first or not first[0]:
+        raise ValueError("there is no length")
+    more = 8 - first[0].bit_length()
+    rest = file.read(more)
+    if len(rest) != more:
+        raise ValueError("the file ends within a length")
+    value = int.from_bytes(bytes([first[0] ^ (0x80 >> more)]) + rest)
+    return None if value == (1 << 7 * (more + 1)) - 1 else value
+
+
 _CHECKS: dict[str, Callable[[BinaryIO], bool]] = {
     ".png": _is_whole_png,
     ".exr": _is_whole_exr,
     ".blend": _is_whole_blend,
     ".mp4": _is_whole_video,
     ".mov": _is_whole_video,
+    ".mkv": _is_whole_matroska,
+    ".webm": _is_whole_matroska,
 }

@@ -12,13 +12,16 @@ so. A command that dies by itself is one sentence on stderr and exit code 1.
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import os
+import pathlib
 import shutil
 import signal
 import sys
 import tempfile
 import time
 from collections.abc import Callable
+from types import ModuleType
 
 RUN_FOLDER = "CURVREFL_RUN"
 LEFTOVERS, PUBLISHING, SOFTLY, STAGE = "leftovers", "publishing", "softly", "stage"
@@ -29,6 +32,7 @@ WAITED_FOR = (*STOPS, signal.SIGCHLD, signal.SIGTSTP)
 GRACE = 0.8
 """Seconds that a command has to end by itself, and to bring a move of results to its end"""
 PR_SET_PDEATHSIG = 1
+HELD_FOLDERS = pathlib.Path(__file__).resolve().parent.parent / "curvrefl_addon" / "held_folders.py"
 
 
 def main(command: list[str]) -> int:
@@ -37,8 +41,9 @@ def main(command: list[str]) -> int:
     _open_closed_streams()
     parent = os.getppid()
     _end_with_parent(signal.SIGTERM, parent)
+    held_folders = _held_folders()
     try:
-        run = _make_run_folder()
+        run = _make_run_folder(held_folders)
     except OSError as error:
         _say(f"there is no temporary folder to write to ({error.strerror}): name one in TMPDIR.")
         return 2
@@ -197,11 +202,23 @@ def _wait_for(is_done: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def _make_run_folder() -> str:
-    """A folder for this run alone, with one in it for all temporary files."""
-    run = tempfile.mkdtemp(prefix="curvrefl-")
+def _held_folders() -> ModuleType:
+    """The file that knows folders which are held, without the package that it is in."""
+    spec = importlib.util.spec_from_file_location("held_folders", HELD_FOLDERS)
+    assert spec is not None and spec.loader is not None, "the file is beside us"
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _make_run_folder(held_folders: ModuleType) -> str:
+    """A folder for this run alone, with one in it for all temporary files. It is held for as long as we run; those of
+    runs that were killed are removed."""
+    base = pathlib.Path(tempfile.gettempdir())
+    held_folders.remove_abandoned(base)
+    run, _held = held_folders.hold_new_folder(base, "curvrefl-")
     os.mkdir(os.path.join(run, "tmp"))
-    return run
+    return str(run)
 
 
 def _remove_leftovers(run: str) -> None:

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..frames import progress
 from ..memory import require_memory
 from ..settings_table import LARGEST_SIDE, Settings
 from ..streams import STDERR, STDOUT, dropped, readable
@@ -56,14 +57,13 @@ def open_scene(file: Path | str, frame: int | None = None) -> bpy.types.Scene:
 
 def frames_left(options: argparse.Namespace, scene: bpy.types.Scene, is_done: Callable[[int], bool]) -> Iterator[int]:
     """The frames of `--frames`, each shown by the scene; with `--resume` without those that are done. Tells of each."""
-    frames = options.frames or range(0)
-    left = [frame for frame in frames if not (options.resume and is_done(frame))]
-    if len(left) < len(frames):
-        print(f"{len(frames) - len(left)} of {len(frames)} frames are there already", flush=True)
-    for number, frame in enumerate(left):
+    for frame in progress.frames_left(
+        options.frames or range(0),
+        lambda frame: options.resume and is_done(frame),
+        lambda line: print(line, flush=True),
+    ):
         with dropped(STDOUT):
             scene.frame_set(frame)
-        print(f"Frame {frame} ({number + 1} of {len(left)})", flush=True)
         yield frame
 
 

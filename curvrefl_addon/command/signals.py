@@ -38,7 +38,7 @@ class StoppedError(BaseException):
         return 128 + self.number
 
     def __str__(self) -> str:
-        return f"stopped by {signal.Signals(self.number).name}; nothing is left of this run."
+        return f"stopped by {signal.Signals(self.number).name}; nothing is half-written."
 
 
 @contextlib.contextmanager

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..optics.catalog import METHODS
-from ..output import checked_file, checked_folder, folder_to_publish, numbered
+from ..output import checked_file, checked_folder, clean_up, folder_to_publish, numbered
 from ..streams import STDOUT, dropped
 from ..supervised import ended_softly
 from ..written_files import is_whole
@@ -46,8 +46,8 @@ DEMO_SAMPLES, DEMO_SUB_FRAMES = 32, 16
 DEMO_METHODS = ("auto", "secant_star", "environment_cube")
 """(`exact` is what `auto` chooses there.)"""
 LAYERS = ("unit", "blender", "gui")
-REPORT = "report.html"
-"""The page of a comparison"""
+REPORT = "report.json"
+"""What is moved last into the folder of a comparison: where it is, all is"""
 AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = (
@@ -71,6 +71,8 @@ def render(options: argparse.Namespace) -> int:
 
     find_reflectors(scene, reflectors)
     apart = () if options.multilayer else tuple(name for name in passes if name != "color")
+
+    clean_up(output.parent)
 
     def is_done(frame: int) -> bool:
         path = numbered(output, frame)
@@ -144,8 +146,12 @@ def compare(options: argparse.Namespace) -> int:
     comparison = replace(comparison, width=width, height=height)
     if options.frames is None:
         _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
-    # (Reports are moved into their folder last: where one is, all of its comparison is.)
-    for frame in frames_left(options, scene, lambda frame: (_folder_of(output, frame) / REPORT).is_file()):
+
+    def is_done(frame: int) -> bool:
+        clean_up(_folder_of(output, frame))
+        return (_folder_of(output, frame) / REPORT).is_file()
+
+    for frame in frames_left(options, scene, is_done):
         folder = _folder_of(output, frame)
         _print_report(_compare(scene, reflectors, comparison, folder, options.camera), folder)
     return 0

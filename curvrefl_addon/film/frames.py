@@ -13,7 +13,8 @@ import bpy
 
 from ..engine.job import Job, asked_for
 from ..engine.still import file_outputs, require_all_shown, why_not_rendered
-from ..output import folder_to_publish, numbered
+from ..frames.progress import Pace, frames_left
+from ..output import clean_up, folder_to_publish, numbered
 from ..scene.opened.blend_file import find_camera
 from ..scene.opened.render_depsgraph import use_camera
 from ..scene.opened.temporary_settings import TemporarySettings, temporary_settings
@@ -46,9 +47,12 @@ def render_frames(
     RuntimeError where Blender was stopped.
     """
     chosen = find_camera(scene, camera)
+    clean_up(output.parent if output.suffix else output)
     with temporary_settings() as changes:
         changes.set(scene.render, use_sequencer=False, save_output=True, use_overwrite=True, use_placeholder=False)
-        use_camera(changes, scene, chosen)
+        if camera is not None:
+            # (Else markers choose, at each frame.)
+            use_camera(changes, scene, chosen)
         own = set(layers_files(scene))
         for node in file_outputs(scene.compositing_node_group):
             if node not in own:
@@ -66,13 +70,16 @@ def render_frames(
             return _video(changes, scene, frames, output, job, say)
         if suffix not in STILLS:
             output = output / f"{Path(scene.render.filepath).name}####{scene.render.file_extension}"
-        left = [frame for frame in frames if not (resume and is_whole(numbered(output, frame, len(frames) > 1)))]
-        if len(left) < len(frames):
-            say(f"{len(frames) - len(left)} of {len(frames)} frames are there already")
-        for number, frame in enumerate(left):
+
+        def is_done(frame: int) -> bool:
+            path = numbered(output, frame, len(frames) > 1)
+            return resume and all(map(is_whole, [path, *([_layers_of(path)] if own else [])]))
+
+        count = 0
+        for frame in frames_left(frames, is_done, say):
             _still(changes, scene, frame, numbered(output, frame, len(frames) > 1), job)
-            say(f"Frame {frame} ({number + 1} of {len(left)})")
-        return len(left)
+            count += 1
+        return count
 
 
 def _still(changes: TemporarySettings, scene: Any, frame: int, path: Path, job: Job) -> None:
@@ -84,7 +91,12 @@ def _still(changes: TemporarySettings, scene: Any, frame: int, path: Path, job: 
         _render(scene, job, folder / path.name, write_still=True)
         for layers in folder.glob(f"{path.stem}{LAYERS_END}*"):
             # (Blender puts the frame's number behind the name, which has it already.)
-            layers.rename(folder / f"{path.stem}{LAYERS_END}.exr")
+            layers.rename(_layers_of(folder / path.name))
+
+
+def _layers_of(picture: Path) -> Path:
+    """The file with the layers of a picture."""
+    return picture.with_name(f"{picture.stem}{LAYERS_END}.exr")
 
 
 def _video(changes: TemporarySettings, scene: Any, frames: range, path: Path, job: Job, say: Said) -> int:
@@ -113,14 +125,15 @@ def _render(scene: Any, job: Job, path: Path, **how: Any) -> None:
 
 @contextmanager
 def _told(frames: Sequence[int], say: Said) -> Iterator[None]:
-    """A line for each frame that a video has got."""
-    count = 0
+    """A line for each frame that a video is about to get."""
+    pace = Pace(len(frames))
 
     def written(scene: Any, *_arguments: Any) -> None:
-        nonlocal count
-        count += 1
-        say(f"Frame {scene.frame_current} ({count} of {len(frames)})")
+        pace.done()
+        if pace.number <= pace.count:
+            say(f"Frame {pace.place_of(frames[pace.number - 1])}")
 
+    say(f"Frame {pace.place_of(frames[0])}")
     bpy.app.handlers.render_write.append(written)
     try:
         yield

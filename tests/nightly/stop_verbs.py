@@ -36,7 +36,7 @@ class Stopped:
 
     def answers(self, number: signal.Signals) -> bool:
         """Whether that is an answer to it; when it came is another matter."""
-        said = f"curvrefl: stopped by {number.name}; nothing is left of this run.\n"
+        said = f"curvrefl: stopped by {number.name}; nothing is half-written.\n"
         return (self.code, self.errors, self.left) == (128 + number, said, ())
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 TIERS: tuple[tuple[str, ...], ...] = (
-    ("errors", "pacing", "streams", "supervised", "written_files", "gpu_shaders"),
+    ("errors", "held_folders", "pacing", "streams", "supervised", "written_files", "gpu_shaders"),
     ("memory", "output", "optics", "setting"),
     ("settings_choices",),
     ("diagnostics",),
@@ -44,6 +44,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("inspection",),
     ("viewport",),
     ("engine",),
+    ("frames",),
     ("film",),
     ("ui",),
     ("operators",),

@@ -75,6 +75,6 @@ def test_without_a_supervisor(kind: str, number: signal.Signals, tmp_path: Path)
         time.sleep(0.01)
     process.send_signal(number)
     _, err = process.communicate(timeout=60)
-    said = f"curvrefl: stopped by {number.name}; nothing is left of this run.\n"
+    said = f"curvrefl: stopped by {number.name}; nothing is half-written.\n"
     assert (process.returncode, err) == (128 + number, said)
     assert [path.name for path in tmp_path.iterdir()] == ["sign"]

@@ -131,7 +131,7 @@ def test_the_users_mistake_is_two_and_our_failure_one(
 
     monkeypatch.setattr(verbs, "demo", stopped)
     assert cli.main(["demo"]) == 130
-    assert one_sentence(capfd) == "curvrefl: stopped by SIGINT; nothing is left of this run.\n"
+    assert one_sentence(capfd) == "curvrefl: stopped by SIGINT; nothing is half-written.\n"
 
 
 def test_options_reach_the_verb(monkeypatch: pytest.MonkeyPatch) -> None:

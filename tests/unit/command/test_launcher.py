@@ -46,6 +46,8 @@ def repository(tmp_path: Path) -> Path:
     shutil.copy2(ROOT / "curvrefl", root)
     for name in ("set_up.py", "supervise.py"):
         shutil.copy2(ROOT / "tools" / name, root / "tools")
+    (root / "curvrefl_addon").mkdir()
+    shutil.copy2(ROOT / "curvrefl_addon" / "held_folders.py", root / "curvrefl_addon")
     (root / "tools" / "run_verb.py").write_text("import bpy, sys\nprint(bpy.VERSION, *sys.argv[1:])\nsys.exit(7)\n")
     (root / "requirements.txt").write_text("# Blender\nbpy==1.0\n")
     (root / "requirements-dev.txt").write_text("numpy==1.0\n")

@@ -66,6 +66,8 @@ def machine(tmp_path: Path) -> Path:
     (root / "tools").mkdir(parents=True)
     shutil.copy2(ROOT / "curvrefl", root)
     shutil.copy2(ROOT / "tools" / "supervise.py", root / "tools")
+    (root / "curvrefl_addon").mkdir()
+    shutil.copy2(ROOT / "curvrefl_addon" / "held_folders.py", root / "curvrefl_addon")
     (root / "tools" / "set_up.py").write_text(
         "import os, pathlib, sys\n"
         "venv = pathlib.Path(__file__).parent.parent / '.venv/bin'\n"
@@ -179,7 +181,7 @@ def test_signals_reach_a_blender_without_any_python(machine: Path) -> None:
     process.terminate()
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out) == (143, "")
-    assert err == "curvrefl: stopped by SIGTERM; nothing is left of this run.\n"
+    assert err == "curvrefl: stopped by SIGTERM; nothing is half-written.\n"
     assert not half.exists()
     assert list(temporary.iterdir()) == []
 

@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path
 
 import pytest
-from curvrefl.curvrefl_addon.written_files import error_in, require_whole
+from curvrefl.curvrefl_addon.written_files import error_in, is_whole, require_whole
 
 
 def png() -> bytes:
@@ -89,3 +89,20 @@ def test_the_reason_is_taken_from_what_others_say(tmp_path: Path) -> None:
     assert error_in("Error: Could not write: No space left on device\n", tmp_path).errno == errno.ENOSPC
     other = error_in("Error: Could not\n write it.\n", tmp_path)
     assert (other.errno, other.strerror) == (errno.EIO, "Could not write it")
+
+
+def matroska(unknown: bool = False) -> bytes:
+    """As far as its structure goes: a header, and a segment that knows its length once it is at its end."""
+    header = b"\x1a\x45\xdf\xa3" + b"\x84" + bytes(4)
+    length = b"\x01" + (b"\xff" * 7 if unknown else (300).to_bytes(7))
+    return header + b"\x18\x53\x80\x67" + length + bytes(300)
+
+
+@pytest.mark.parametrize("name", ["a.mkv", "a.webm"])
+def test_a_segment_reaches_to_the_end(name: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_bytes(matroska())
+    assert is_whole(path)
+    for broken in (matroska(unknown=True), *(matroska()[:length] for length in range(0, len(matroska()), 7))):
+        path.write_bytes(broken)
+        assert not is_whole(path)
