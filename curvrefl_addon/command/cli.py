@@ -22,7 +22,7 @@ from ..gpu_caches import clear_gpu_caches
 from ..optics.catalog import DEFAULT_COMPARED
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, dataset_verb, design_verbs, device_verbs, film_verb, verbs
+from . import charts, dataset_verb, design_verbs, device_verbs, film_verb, sequence_verbs, verbs
 from .arguments import between, positive, resolution
 from .inputs import say
 from .scene_arguments import add_reference_samples, add_scene_options, add_settings
@@ -166,6 +166,9 @@ def _parser() -> argparse.ArgumentParser:
         help=PEERS_HELP,
     )
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
+
+    merge = verb("merge", sequence_verbs.merge, "Make the report over frames that were compared, wherever that was.")
+    sequence_verbs.add_merge(merge)
 
     chart = verb(
         "chart",

@@ -9,13 +9,10 @@ and the renderer are imported inside, so that bad usage is answered at once.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..optics.catalog import METHODS
 from ..output import checked_file, checked_folder, folder_to_publish, numbered
 from ..streams import STDOUT, dropped
 from ..supervised import ended_softly
@@ -35,19 +32,16 @@ from .inputs import (
     view_layer_of,
     warn_of,
 )
+from .sequence_verbs import asked_comparison, compare_frames, compare_scene, merge, print_report
 
 if TYPE_CHECKING:
     import bpy
-
-    from ..report.compare import Comparison
 
 DEMO_SAMPLES, DEMO_SUB_FRAMES = 32, 16
 """Of the demo's reference and of our pictures of it: two cores need about three minutes in all"""
 DEMO_METHODS = ("auto", "secant_star", "environment_cube")
 """(`exact` is what `auto` chooses there.)"""
 LAYERS = ("unit", "blender", "gui")
-REPORT = "report.html"
-"""The page of a comparison"""
 AWKWARD = "awkward"
 """A layer that runs only where it is asked for: the whole collection of awkward scenes, or those named after it"""
 PASSES = (
@@ -122,38 +116,13 @@ def _pass_file(picture: Path, name: str) -> Path:
 
 
 def compare(options: argparse.Namespace) -> int:
-    """Compare methods with Cycles and peers; see `report.compare`."""
-    methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
-    require_known(methods, list(METHODS), "method")
-    peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
-    reflectors = read_names(options.reflector, "reflector")
-    output = checked_folder(options.output)
-    start_gpu()
-
-    from ..report.compare import Comparison
-
-    comparison = Comparison(
-        methods=tuple(methods),
-        samples=options.samples,
-        light=options.light,
-        peers=tuple(peers),
-        settings=chosen_settings(options),
-    )
-    scene = open_scene(options.file, options.frame)
-    width, height = resolution_of(options, scene)
-    comparison = replace(comparison, width=width, height=height)
-    if options.frames is None:
-        _print_report(_compare(scene, reflectors, comparison, output, options.camera), output)
-    # (Reports are moved into their folder last: where one is, all of its comparison is.)
-    for frame in frames_left(options, scene, lambda frame: (_folder_of(output, frame) / REPORT).is_file()):
-        folder = _folder_of(output, frame)
-        _print_report(_compare(scene, reflectors, comparison, folder, options.camera), folder)
+    """Compare methods with Cycles and peers; see `report.compare`. Frames are merged at the end."""
+    if options.frames is not None:
+        compare_frames(options)
+        return merge(options)
+    scene, reflectors, comparison, output = asked_comparison(options)
+    print_report(compare_scene(scene, reflectors, comparison, output, options.camera), output)
     return 0
-
-
-def _folder_of(output: Path, frame: int) -> Path:
-    """Of the comparison of a frame."""
-    return numbered(output / "frame", frame)
 
 
 def stability(options: argparse.Namespace) -> int:
@@ -219,39 +188,10 @@ def demo(options: argparse.Namespace) -> int:
             build_demo(folder / file.name)
         settings = Settings(samples=DEMO_SUB_FRAMES)
         comparison = Comparison(DEMO_METHODS, samples=DEMO_SAMPLES, settings=settings)
-        report = _compare(open_scene(folder / file.name), list(MIRRORS), comparison, folder)
-    _print_report(report, output)
+        report = compare_scene(open_scene(folder / file.name), list(MIRRORS), comparison, folder)
+    print_report(report, output)
     print(f"Scene: {file}")
     return 0
-
-
-def _compare(
-    scene: bpy.types.Scene,
-    reflectors: Sequence[str],
-    comparison: Comparison,
-    output: Path,
-    camera: str | None = None,
-) -> dict[str, Any]:
-    """Compare the open scene and write the report into `output`; returns it."""
-    import bpy
-
-    from ..report.compare import compare_open_scene
-
-    view_layer = bpy.context.view_layer
-    assert view_layer is not None, "an open scene has a view layer"
-    with dropped(STDOUT) as stdout:
-
-        def progress(text: str) -> None:
-            print(text, file=stdout, flush=True)
-
-        return compare_open_scene(scene, view_layer, reflectors, comparison, output, camera=camera, progress=progress)
-
-
-def _print_report(report: dict[str, Any], output: Path) -> None:
-    from ..report.table import format_table
-
-    print(format_table(report))
-    print(f"Report: {output / 'report.html'}")
 
 
 def test(options: argparse.Namespace) -> int:

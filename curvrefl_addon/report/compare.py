@@ -12,8 +12,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -31,7 +30,7 @@ from ..scene.camera.film import on_film
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
-from ..scene.opened.blend_file import find_camera, open_blend
+from ..scene.opened.blend_file import camera_in_use, open_blend
 from ..scene.opened.render_depsgraph import read_render_moments
 from ..settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES, STILL_SAMPLES
 from ..streams import readable
@@ -42,13 +41,20 @@ from .display import inverse_display_transform
 from .geometry_reference import render_geometry
 from .html import report_page
 from .images import save_png
-from .measured_frame import RendererLike, frame_geometry_error, image_error, measure_frame
+from .measured_frame import (
+    Compared,
+    Keep,
+    MeasuredFrame,
+    RendererLike,
+    frame_geometry_error,
+    image_error,
+    measure_frame,
+)
 from .metrics import error_map, mask_mismatch, missing_flip
 
 DEFAULT_PEERS = ("eevee", "cycles1", "cycles8")
 
 type Progress = Callable[[str], None]
-
 
 type MakeRenderer = Callable[[SceneArrays, str], RendererLike]
 """From a scene and the name of a method"""
@@ -66,6 +72,8 @@ class Comparison:
     peers: tuple[str, ...] = DEFAULT_PEERS
     settings: Settings = field(default_factory=Settings)
     """Of our pictures; each method takes the place of theirs"""
+    is_of_frames: bool = False
+    """One of several: the noise of peers is another one in each frame, as in films"""
 
     def __post_init__(self) -> None:
         if not (1 <= self.width <= LARGEST_SIDE and 1 <= self.height <= LARGEST_SIDE):
@@ -122,7 +130,7 @@ def compare_blend(
         output,
         scene_name=Path(path).name,
         camera=camera,
-        progress=progress,
+        progress=progress or (lambda _: None),
         make_renderer=make_renderer,
     )
 
@@ -135,15 +143,17 @@ def compare_open_scene(
     output: Path | str,
     scene_name: str | None = None,
     camera: str | None = None,
-    progress: Progress | None = None,
+    progress: Progress = lambda _: None,
     make_renderer: MakeRenderer | None = None,
+    keep: Keep | None = None,
 ) -> dict[str, Any]:
     """Take all of `compare_steps` and return the report; `progress` is told of each step."""
-    steps = compare_steps(scene, view_layer, reflector_names, comparison, output, scene_name, camera, make_renderer)
-    say = progress or _silent
+    steps = compare_steps(
+        scene, view_layer, reflector_names, comparison, output, scene_name, camera, make_renderer, keep
+    )
     while True:
         try:
-            say(next(steps).label)
+            progress(next(steps).label)
         except StopIteration as end:
             return end.value
 
@@ -166,13 +176,15 @@ def compare_steps(
     scene_name: str | None = None,
     camera: str | None = None,
     make_renderer: MakeRenderer | None = None,
+    keep: Keep | None = None,
 ) -> Generator[Step, None, dict[str, Any]]:
     """Compare the open scene at its current frame and write the report into the folder `output`; returns the report.
 
     Yields before each step; closed between two of them it leaves no report, and the scene as it was, as it also does
     at its end. A number that has no pixels to come from is None, and so is the PSNR of equal pictures. A method that
     cannot show these reflectors is left out, with a warning, while another one can. `warnings` is in the report only
-    where there are any. Image errors are over Cycles' mask of the mirrors.
+    where there are any. Image errors are over Cycles' mask of the mirrors. `keep` is called before the report is
+    written.
 
     Raises InputError for what the user can change: see `Comparison`, the scene's own conditions (camera,
     reflectors), an output folder that cannot be written; RenderCanceledError where the user stops a render.
@@ -181,8 +193,8 @@ def compare_steps(
     settings = replace(comparison.settings, film_transparent=scene.render.film_transparent)
     # A blur of few sub-frames would be as many ghosts.
     blur_samples = max(settings.samples, STILL_SAMPLES)
-    count = 4 + len(comparison.methods) + len(comparison.peers)
-    with _camera_in_use(scene, camera):
+    count = 4 + len(comparison.methods) + len(comparison.peers) + (keep is not None)
+    with camera_in_use(scene, camera):
         yield Step("Reading the scene", 0.0)
         start = time.perf_counter()
         still, moments, untold = read_render_moments(
@@ -214,6 +226,7 @@ def compare_steps(
                 extract_ms,
                 folder,
                 make_renderer or new_renderer(comparison),
+                keep,
             )
             done = 1
             while True:
@@ -246,19 +259,21 @@ def _run(
     extract_ms: float,
     folder: Path,
     make_renderer: MakeRenderer,
+    keep: Keep | None,
 ) -> Generator[str, None, tuple[dict[str, Any], dict[str, float | None]]]:
     """All numbers of the report but its names, and per method the mismatch of masks; pictures go into `folder`.
 
     Yields what comes next.
     """
     width, height = comparison.width, comparison.height
-    frames = {}
+    frames: dict[str, MeasuredFrame] = {}
     refused: dict[str, str] = {}
     for method in comparison.methods:
         # Ours come first: what is wrong with a reflector shows before minutes of Cycles.
         yield f"Rendering {method}"
         try:
-            frames[method] = measure_frame(make_renderer(arrays, method), view, moments=moments)
+            renderer, reads_points = make_renderer(arrays, method), keep is not None and not frames
+            frames[method] = measure_frame(renderer, view, moments=moments, reads_points=reads_points)
         except InputError as error:
             refused[method] = str(error)
     if not frames:
@@ -298,10 +313,14 @@ def _run(
         methods[method] = known
         mismatch[method] = mask_mismatch(frame.mask, truth.mask)
 
-    peers = {}
+    peers, pictures = {}, {}
     for peer in comparison.peers:
         yield f"Rendering the peer {peer}"
-        still = render_peer(scene, view_layer, peer, width, height, comparison.light, bounces=bounces)
+        is_animated = comparison.is_of_frames
+        still = render_peer(
+            scene, view_layer, peer, width, height, comparison.light, bounces=bounces, is_animated=is_animated
+        )
+        pictures[peer] = still.pixels
         # (EEVEE's film has no exposure.)
         save_as_shown(folder / f"{peer}.png", still.pixels if peer == "eevee" else on_film(still.pixels, scene), scene)
         peers[peer] = {
@@ -309,6 +328,9 @@ def _run(
             "time_ms": 1e3 * still.seconds,
         }
 
+    if keep is not None:
+        yield "Keeping what frames are compared by"
+        keep(Compared(arrays, view, truth, reference.pixels, frames, pictures, folder))
     report: dict[str, Any] = {
         "resolution": [width, height],
         "blender": ".".join(str(part) for part in bpy.app.version),
@@ -326,18 +348,3 @@ def _run(
     if warnings:
         report["warnings"] = warnings
     return report, mismatch
-
-
-def _silent(_message: str) -> None:
-    """Says nothing."""
-
-
-@contextmanager
-def _camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
-    """`scene.camera` is for the time being the camera object called `name`, or the one that Blender renders by."""
-    before = scene.camera
-    scene.camera = find_camera(scene, name)
-    try:
-        yield
-    finally:
-        scene.camera = before

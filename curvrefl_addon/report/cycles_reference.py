@@ -91,13 +91,15 @@ def render_peer(
     seconds: float = 0.0,
     bounces: int = 1,
     sharp: bool = False,
+    is_animated: bool = False,
 ) -> PeerStill:
     """The scene in one of `PEERS`, lit and sharp as the reference.
 
     A first render compiles and loads; then come up to `repeats` timed ones, as long as `seconds` have not passed.
 
     'eevee' has ray tracing on and 16 samples; with `light` 'direct' its fast global illumination only occludes.
-    Cycles has another seed than the reference: with the same its samples would be among those of the reference.
+    Cycles has another seed than the reference: with the same its samples would be among those of the reference; if
+    `is_animated`, another one in each frame.
     """
     with temporary_settings() as changes:
         use_still_output(changes, scene, width, height)
@@ -113,6 +115,7 @@ def render_peer(
             use_cycles(changes, scene, view_layer, 1, light, bounces)
             cycles = cycles_settings(scene)
             changes.set(cycles, seed=(cycles.seed + 1) % MOST_SEEDS)
+            changes.set(cycles, use_animated_seed=is_animated or cycles.use_animated_seed)
             render_still(scene, view_layer)
             changes.set(cycles, samples=int(peer.removeprefix("cycles")))
         else:

@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol
 
 from ..renderer.noise import Convergence
-from ..scene.arrays import Float32Array, Int32Array
+from ..renderer.truth.shown_points import ShownPoints
+from ..renderer.truth.truth import MirrorTruth
+from ..scene.arrays import Float32Array, Int32Array, SceneArrays
 from ..scene.camera.shutter import Moment
 from ..scene.camera.view import View
 from ..scene.materials.color_spaces import scene_to_rec709
@@ -34,6 +37,8 @@ class FrameLike(Protocol):
 
     @property
     def solve(self) -> dict[str, Any]: ...
+    @property
+    def truth(self) -> MirrorTruth: ...
     def color(self) -> Float32Array: ...
     def mask(self) -> Int32Array: ...
     def reflected_position(self) -> Float32Array: ...
@@ -66,6 +71,8 @@ class MeasuredFrame:
     """How many sub-frames are in it, and what is left of its error"""
     bounced_light: str = ""
     """How light between surfaces was found, or why not"""
+    points: ShownPoints | None = None
+    """What rays find of what the mirrors show, where that was asked for"""
 
     @property
     def times_ms(self) -> dict[str, float]:
@@ -73,8 +80,32 @@ class MeasuredFrame:
         return {name: timing.median for name, timing in self.times.items()}
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Compared:
+    """One comparison, before it is left, for whoever keeps more of it than a report does. Pictures are (h, w, 4),
+    scene-linear."""
+
+    scene: SceneArrays
+    view: View
+    truth: GeometryReference
+    reference: Float32Array
+    frames: Mapping[str, MeasuredFrame]
+    """By method; the first one has `points`"""
+    peers: Mapping[str, Float32Array]
+    folder: Path
+    """Where the report's own files are"""
+
+
+type Keep = Callable[[Compared], None]
+"""Writes more files into the folder"""
+
+
 def measure_frame(
-    renderer: RendererLike, view: View, repeats: int = TIMED_FRAMES, moments: Sequence[Moment] = ()
+    renderer: RendererLike,
+    view: View,
+    repeats: int = TIMED_FRAMES,
+    moments: Sequence[Moment] = (),
+    reads_points: bool = False,
 ) -> MeasuredFrame:
     """The picture, with these `moments` if any, and its times; frees the renderer."""
     try:
@@ -90,6 +121,7 @@ def measure_frame(
             choice=frame.choice,
             convergence=frame.convergence,
             bounced_light=frame.bounced_light,
+            points=frame.truth.points if reads_points else None,
         )
     finally:
         renderer.free()

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .half_vectors import HalfVectors, all_weights, towards
 from .mesh_rays import halved
 from .radial_surfaces import Float64Array, unit
 
@@ -34,8 +35,6 @@ EDGE = 1e-9
 """Barycentric slack, so that no point is lost between two triangles"""
 SAME = 1e-7
 """Of the mesh's size: two ends nearer than this are one"""
-PROBE = 1e-6
-"""Step of the weights that derivatives are found by"""
 
 
 @dataclass(frozen=True)
@@ -57,14 +56,9 @@ class ReflectingMesh:
 
     def __init__(self, positions: Float64Array, normals: Float64Array, triangles: NDArray[np.integer]) -> None:
         """Corners (k, 3), their shading normals (k, 3), of any length, and triangles (t, 3) of corners, t > 0."""
-        self._corners = np.asarray(positions, np.float64)[triangles]
-        self._normals = np.asarray(normals, np.float64)[triangles]
+        self._halves = HalfVectors(positions, normals, triangles)
+        self._corners, self._normals = self._halves.corners, self._halves.normals
         self.size = float(np.linalg.norm(np.ptp(self._corners.reshape(-1, 3), axis=0)))
-        edge = self._corners[:, 1] - self._corners[:, 0]
-        facet = np.cross(edge, self._corners[:, 2] - self._corners[:, 0])
-        along = unit(np.where(np.linalg.norm(edge, axis=1, keepdims=True) > 0.0, edge, np.array([1.0, 0.0, 0.0])))
-        across = np.cross(unit(np.where(np.linalg.norm(facet, axis=1, keepdims=True) > 0.0, facet, 1.0)), along)
-        self._tangents = np.stack([along, across], axis=1)
         groups = halved(self._corners.mean(axis=1), LEAF)
         self._leaves = np.full((len(groups), LEAF), -1)
         for number, group in enumerate(groups):
@@ -95,7 +89,7 @@ class ReflectingMesh:
         row, triangle = np.repeat(row, LEAF)[chosen.ravel() >= 0], chosen.ravel()[chosen.ravel() >= 0]
         row, triangle, start = self._starts(eye, shown, row, triangle)
         row, triangle, weights = self._polished(eye, shown, row, triangle, start)
-        point, normal, _, sign = self._at(eye, shown[row], triangle, weights)
+        point, normal, _, sign = self._halves.at(eye, shown[row], triangle, weights)
         order = np.lexsort((point[:, 0], row))
         row, triangle, point = row[order], triangle[order], point[order]
         kept = _first_of_each(row, point, SAME * self.size)
@@ -137,51 +131,21 @@ class ReflectingMesh:
         for _ in range(STEPS):
             if len(row) == 0:
                 break
-            miss = self._miss(eye, shown[row], triangle, place)
+            miss = self._halves.miss(eye, shown[row], triangle, place)
             ends = np.linalg.norm(miss, axis=1) < FOUND
             if ends.any():
                 done.append((row[ends], triangle[ends], place[ends]))
                 row, triangle, place, miss = row[~ends], triangle[~ends], place[~ends], miss[~ends]
-            slope = np.stack(
-                [(self._miss(eye, shown[row], triangle, place + PROBE * axis) - miss) / PROBE for axis in np.eye(2)],
-                axis=2,
-            )
-            determinant = slope[:, 0, 0] * slope[:, 1, 1] - slope[:, 0, 1] * slope[:, 1, 0]
-            safe = np.where(determinant == 0.0, np.inf, determinant)
-            step = np.stack(
-                [
-                    slope[:, 1, 1] * miss[:, 0] - slope[:, 0, 1] * miss[:, 1],
-                    slope[:, 0, 0] * miss[:, 1] - slope[:, 1, 0] * miss[:, 0],
-                ],
-                axis=1,
-            )
-            place = place - step / safe[:, None]
+            place = place + self._halves.step(eye, shown[row], triangle, place, miss)
             # Parts are small beside their cones: a search that leaves the triangle by its own size is another's.
             inside = (place > -1.0).all(axis=1) & (place.sum(axis=1) < 2.0)
             row, triangle, place = row[inside], triangle[inside], place[inside]
         if not done:
             return row[:0], triangle[:0], np.zeros((0, 3))
         row, triangle, place = (np.concatenate(parts) for parts in zip(*done, strict=True))
-        weights = np.column_stack([1.0 - place.sum(axis=1), place])
+        weights = all_weights(place)
         within = (weights >= -EDGE).all(axis=1)
         return row[within], triangle[within], weights[within]
-
-    def _miss(
-        self, eye: Float64Array, shown: Float64Array, triangle: NDArray[np.int64], place: Float64Array
-    ) -> Float64Array:
-        """(m, 2) half-vector less normal along the triangle's tangents, at weights (m, 2) of its last two corners."""
-        weights = np.column_stack([1.0 - place.sum(axis=1), place])
-        _, normal, half, sign = self._at(eye, shown, triangle, weights)
-        return np.einsum("mkj,mj->mk", self._tangents[triangle], half - sign[:, None] * normal)
-
-    def _at(
-        self, eye: Float64Array, shown: Float64Array, triangle: NDArray[np.int64], weights: Float64Array
-    ) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
-        """Place, unit normal, unit half-vector, and on which side of the normal that is (1 or -1)."""
-        point = np.einsum("mk,mkj->mj", weights, self._corners[triangle])
-        normal = unit(np.einsum("mk,mkj->mj", weights, self._normals[triangle]))
-        half = unit(_towards(eye, point)[0] + _towards(shown, point)[0] + 1e-300)
-        return point, normal, half, np.where(np.einsum("mj,mj->m", half, normal) < 0.0, -1.0, 1.0)
 
     def _bounds(self, groups: list[NDArray[np.int64]]) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
         """Centers, radii, axes and half angles of all nodes, the root first, leaves last."""
@@ -204,13 +168,6 @@ class ReflectingMesh:
             first = (first - 1) // 2
 
 
-def _towards(points: Float64Array, place: Float64Array) -> tuple[Float64Array, Float64Array]:
-    """Unit directions (m, 3) from places (m, 3) to homogeneous points (4,) or (m, 4), and the distances (m,)."""
-    way = points[..., :3] - points[..., 3:] * place
-    distance = np.linalg.norm(way, axis=1)
-    return way / np.maximum(distance, 1e-300)[:, None], distance
-
-
 def _may_reflect(
     eye: Float64Array,
     shown: Float64Array,
@@ -221,8 +178,8 @@ def _may_reflect(
 ) -> tuple[NDArray[np.bool_], Float64Array]:
     """(m,) whether a half-vector in each of these balls may be a normal in the cone, on either side, and how far
     half-vectors differ from that at the center, radians."""
-    to_eye, eye_distance = _towards(eye, center)
-    to_shown, shown_distance = _towards(shown, center)
+    to_eye, eye_distance = towards(eye, center)
+    to_shown, shown_distance = towards(shown, center)
     half = to_eye + to_shown
     length = np.linalg.norm(half, axis=1)
     lean = _chord(radius, eye_distance, eye[3]) + _chord(radius, shown_distance, shown[:, 3])

@@ -30,7 +30,7 @@ def places_then(
     """
     index = same_instances(scene, then)
     places = np.zeros((len(points.pixel), 2))
-    shown, known = _shown_then(scene, points, then, index)
+    shown, known = shown_then(scene, points, then, index)
     for mirror in np.unique(points.mirror).tolist():
         other = index[mirror]
         here = np.flatnonzero((points.mirror == mirror) & known)
@@ -38,7 +38,7 @@ def places_then(
         if other == NOTHING or len(here) == 0:
             continue
         seen, is_found = points.seen[here].copy(), np.ones(len(here), bool)
-        still = _is_same(scene, mirror, then, other) & np.array_equal(view.eye, points.view.eye)
+        still = is_same(scene, mirror, then, other) & np.array_equal(view.eye, points.view.eye)
         # (Where neither mirror, eye nor scene point has moved the image has not.)
         moved = np.flatnonzero(~(still & (shown[here] == points.shown[here]).all(axis=1)))
         now, later = world_mesh(scene, [mirror]), world_mesh(then, [other])
@@ -73,7 +73,7 @@ def _keys(scene: SceneArrays) -> list[tuple[str, int]]:
     return keys
 
 
-def _is_same(scene: SceneArrays, index: int, then: SceneArrays, other: int) -> bool:
+def is_same(scene: SceneArrays, index: int, then: SceneArrays, other: int) -> bool:
     """Whether an instance neither moves nor deforms."""
     one, two = scene.instances[index], then.instances[other]
     mesh, later = scene.meshes[one.mesh], then.meshes[two.mesh]
@@ -86,7 +86,7 @@ def _is_same(scene: SceneArrays, index: int, then: SceneArrays, other: int) -> b
     )
 
 
-def _shown_then(
+def shown_then(
     scene: SceneArrays, points: ShownPoints, then: SceneArrays, index: NDArray[np.int64]
 ) -> tuple[Float64Array, NDArray[np.bool_]]:
     """What is shown (n, 4) as it is then, and where that is known."""
@@ -102,7 +102,7 @@ def _shown_then(
             continue
         here = points.instance == number
         known |= here
-        if not _is_same(scene, number, then, other):
+        if not is_same(scene, number, then, other):
             triangle, weights = points.triangle[here], points.weights[here]
             shown[here, :3] = places_on(then, np.full(here.sum(), other), triangle, weights)
     return shown, known

@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...optics.surfaces.mesh_images import MeshImages
 from ...optics.surfaces.mesh_rays import MeshRays
 from ...optics.surfaces.mesh_reflections import ReflectingMesh
 from ...scene.arrays import Float64Array, SceneArrays
@@ -40,6 +41,11 @@ class WorldMesh:
     def mirror(self) -> ReflectingMesh:
         """For searching reflection points; made when first asked for. There is a triangle."""
         return ReflectingMesh(self.positions, self.normals, self.triangles)
+
+    @cached_property
+    def images(self) -> MeshImages:
+        """For searching where a picture shows a scene point; made when first asked for. There is a triangle."""
+        return MeshImages(self.positions, self.normals, self.triangles)
 
     @property
     def middle(self) -> Float64Array:

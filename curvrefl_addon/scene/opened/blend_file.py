@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
@@ -70,6 +71,17 @@ def find_camera(scene: bpy.types.Scene, name: str | None = None) -> bpy.types.Ob
     if not isinstance(camera.data, bpy.types.Camera):
         raise InputError(f'"{camera.name}" is not a camera: choose a camera object.')
     return camera
+
+
+@contextmanager
+def camera_in_use(scene: bpy.types.Scene, name: str | None) -> Iterator[None]:
+    """`scene.camera` is for the time being the camera object called `name`, or the one that Blender renders by."""
+    before = scene.camera
+    scene.camera = find_camera(scene, name)
+    try:
+        yield
+    finally:
+        scene.camera = before
 
 
 def _camera_of_markers(scene: bpy.types.Scene) -> bpy.types.Object | None:

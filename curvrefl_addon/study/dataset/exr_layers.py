@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """OpenEXR files with any channels, written and read without a library: the same numbers make the same bytes.
 
-One part of scan lines, 32-bit floats, compressed by ZIP in blocks of 16 lines, as the file layout of OpenEXR 2 says
-(openexr.com, "OpenEXR File Layout").
+One part of scan lines, floats of 32 or 16 bits, compressed by ZIP in blocks of 16 lines, as the file layout of OpenEXR
+2 says (openexr.com, "OpenEXR File Layout").
 """
 
 from __future__ import annotations
@@ -14,19 +14,28 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...scene.arrays import Float32Array
+from ...scene.arrays import Float32Array, Float64Array
+
+type Float16Array = NDArray[np.float16]
 
 LINES = 16
-_ZIP, _FLOAT = 3, 2
+_ZIP, _HALF, _FLOAT = 3, 1, 2
+_STORED = {_HALF: "<f2", _FLOAT: "<f4"}
 _LONG_NAMES = 0x400
 
 
-def save_layers(path: Path, channels: Mapping[str, Float32Array], said: Mapping[str, str]) -> None:
-    """Write channels (h, w) by name, row 0 at the BOTTOM, and texts by name into the header."""
+def save_layers(
+    path: Path, channels: Mapping[str, Float32Array | Float64Array | Float16Array], said: Mapping[str, str]
+) -> None:
+    """Write channels (h, w) by name, row 0 at the BOTTOM, and texts by name into the header. Those of 16 bits stay so,
+    all others have 32."""
     names = sorted(channels)
     height, width = channels[names[0]].shape
-    table = b"".join(name.encode() + b"\0" + struct.pack("<iB3xii", _FLOAT, 0, 1, 1) for name in names) + b"\0"
+    kinds = [_HALF if channels[name].dtype == np.float16 else _FLOAT for name in names]
+    entries = zip(names, kinds, strict=True)
+    table = b"".join(name.encode() + b"\0" + struct.pack("<iB3xii", kind, 0, 1, 1) for name, kind in entries) + b"\0"
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
     header = struct.pack("<2I", 20000630, 2 | _LONG_NAMES)
     attributes = {
@@ -43,7 +52,10 @@ def save_layers(path: Path, channels: Mapping[str, Float32Array], said: Mapping[
     for name, (kind, value) in attributes.items():
         header += name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
     header += b"\0"
-    lines = np.stack([np.asarray(channels[name], "<f4")[::-1] for name in names], axis=1)
+    stored = [
+        np.ascontiguousarray(channels[name][::-1], _STORED[kind]) for name, kind in zip(names, kinds, strict=True)
+    ]
+    lines = np.concatenate([values.view(np.uint8) for values in stored], axis=1)
     blocks = []
     for first in range(0, height, LINES):
         raw = lines[first : first + LINES].tobytes()
@@ -75,27 +87,31 @@ def _channels(data: bytes) -> dict[str, Float32Array]:
         attributes[name] = data[place + 4 : place + 4 + length]
         place += 4 + length
     place += 1
-    names, inside = [], 0
+    kinds: dict[str, str] = {}
+    inside = 0
     table = attributes["channels"]
     while table[inside]:
         name, inside = _text(table, inside)
-        if struct.unpack_from("<i", table, inside)[0] != _FLOAT:
-            raise ValueError("its channels are not 32-bit floats")
-        names.append(name)
+        kinds[name] = _STORED[struct.unpack_from("<i", table, inside)[0]]
         inside += 16
     if attributes["compression"] != bytes([_ZIP]):
         raise ValueError("it is compressed in another way")
     _, _, right, top = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right + 1, top + 1
-    lines = np.empty((height, len(names), width), "<f4")
+    ends = np.cumsum([width * np.dtype(kind).itemsize for kind in kinds.values()])
+    lines = np.empty((height, ends[-1]), np.uint8)
     for number in range(-(-height // LINES)):
         (start,) = struct.unpack_from("<Q", data, place + 8 * number)
         first, length = struct.unpack_from("<2i", data, start)
         block = lines[first : first + LINES]
         raw = data[start + 8 : start + 8 + length]
         raw = raw if length == block.nbytes else _unshuffled(zlib.decompress(raw))
-        block[...] = np.frombuffer(raw, "<f4").reshape(block.shape)
-    return {name: np.ascontiguousarray(lines[::-1, number], np.float32) for number, name in enumerate(names)}
+        block[...] = np.frombuffer(raw, np.uint8).reshape(block.shape)
+    parts = np.split(lines[::-1], ends[:-1], axis=1)
+    return {
+        name: np.ascontiguousarray(part).view(kind).astype(np.float32)
+        for (name, kind), part in zip(kinds.items(), parts, strict=True)
+    }
 
 
 def _text(data: bytes, place: int) -> tuple[str, int]:

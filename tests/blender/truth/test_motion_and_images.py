@@ -9,10 +9,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.optics.surfaces.radial_surfaces import Ellipsoid, unit
+from curvrefl.curvrefl_addon.renderer.truth.shown_points import ShownPoints
 from curvrefl.curvrefl_addon.renderer.truth.truth import MirrorTruth
+from curvrefl.curvrefl_addon.report.geometry_reference import GeometryReference
 from curvrefl.curvrefl_addon.scene.arrays import SceneArrays
 from curvrefl.curvrefl_addon.scene.camera.shutter import Moment
 from curvrefl.curvrefl_addon.scene.camera.view import View
+from curvrefl.curvrefl_addon.study.sequence.motion import motion_before, offsets
 from scenes.mirror_room import MIRROR, Room
 from scenes.views import lines_of_sight, look_at
 from truth_scenes import drawn, with_mirrors
@@ -89,6 +92,61 @@ def test_what_stands_still_does_not_move_and_what_cannot_be_known_is_said() -> N
     assert truth.remarks == [
         f"In {48 * 36} pixels the mirror does not show the same in the frame before: Vector is 0 there."
     ]
+
+
+def as_cycles(points: ShownPoints, scene: SceneArrays) -> GeometryReference:
+    """What rays have found, as Cycles' own passes would have it."""
+    size = (points.view.height, points.view.width)
+    numbers = np.array([0, *(item.object_id for item in scene.instances)], np.int32)
+
+    def picture(values: np.ndarray) -> np.ndarray:
+        whole = np.zeros((size[0] * size[1], *values.shape[1:]), values.dtype)
+        whole[points.pixel] = values
+        return whole.reshape(*size, *values.shape[1:])
+
+    return GeometryReference(
+        mask=picture(numbers[points.mirror + 1]),
+        reflector_position=picture(points.seen.astype(np.float32)),
+        reflected_position=picture(points.shown.astype(np.float32)),
+        reflected_object=picture(numbers[points.instance + 1]),
+        valid=picture(np.ones(len(points.pixel), bool)),
+    )
+
+
+def test_motion_to_the_frame_before_is_that_of_the_mirrored_world() -> None:
+    """As Vector: the wall moves, the mirror moves, the camera moves; what Cycles does not see so is left out."""
+    scene = flat_scene()
+    frame = drawn(scene, VIEW)
+    points, now = frame.truth.points, mirrored_wall(VIEW)
+    truth = as_cycles(points, scene)
+    here = VIEW.pixel_centers.reshape(36, 48, 2)
+    turned = look_at(EYE + np.array([0.05, 0.1, -0.02]), np.array([0.1, 2.0, 0.1]), 48, 36, 0.5)
+    cases = [
+        (moved(scene, 1, shifted(0.3, 0.1, -0.2)), VIEW, now + np.array([0.3, -0.1, -0.2])),
+        (moved(scene, 0, shifted(0.0, -0.25, 0.0)), VIEW, now + np.array([0.0, -0.5, 0.0])),
+        (scene, turned, now),
+        (scene, VIEW, now),
+    ]
+    for then, view, image in cases:
+        motion = motion_before(scene, points, truth, then, view)
+        expected = view.project(image.reshape(-1, 3)).reshape(36, 48, 2)
+        np.testing.assert_allclose(motion.place, expected - here, atol=2e-3)
+        depth = then.instances[0].matrix[1, 3] - scene.instances[0].matrix[1, 3] + 2.0 - view.place[1]
+        in_mirror = view.place + (image - view.place) * depth / (image[..., 1:2] - view.place[1])
+        np.testing.assert_allclose(motion.distance, np.linalg.norm(image - in_mirror, axis=-1), rtol=1e-4)
+    assert not motion.place.any()
+    other = truth.reflected_object.copy()
+    other[10, 20] = 99
+    lost = replace(truth, reflected_object=other)
+    known = np.isfinite(motion_before(scene, points, lost, scene, turned).place).all(axis=-1)
+    assert not known[10, 20] and known.sum() == 48 * 36 - 1
+    position = frame.reflected_position().copy()
+    assert np.abs(offsets(scene, points, frame.mask(), position)).max() < 1e-3
+    # A method that shows the wall as if it were 0.3 to the left shows it 0.3 too far to the right.
+    position[..., 0] -= 0.3
+    off = offsets(scene, points, frame.mask(), position)
+    expected = VIEW.project((now - (0.3, 0.0, 0.0)).reshape(-1, 3)).reshape(36, 48, 2)
+    np.testing.assert_allclose(off, expected - here, atol=2e-3)
 
 
 def ball_scene() -> SceneArrays:

@@ -12,7 +12,7 @@ import pytest
 from curvrefl.curvrefl_addon.command import cli, verbs
 from curvrefl.curvrefl_addon.errors import InputError
 
-VERBS = ("demo", "test", "render", "film", "compare", "chart", "bake", "build", "check", "images", "release")
+VERBS = ("demo", "test", "render", "film", "compare", "merge", "chart", "bake", "build", "check", "images", "release")
 FILE = ("x.blend", "--reflector", "Ball")
 
 

@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Curvrefl contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Comparisons of a frame, of frames, and the report over frames; see `verbs`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..optics.catalog import METHODS
+from ..output import checked_folder
+from ..streams import STDOUT, dropped
+from .arguments import frames_of
+from .inputs import (
+    chosen_settings,
+    frames_left,
+    open_scene,
+    read_names,
+    require_known,
+    resolution_of,
+    start_gpu,
+    view_layer_of,
+)
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ..report.compare import Comparison
+
+
+def merge(options: argparse.Namespace) -> int:
+    """Write the report over frames that are compared in the folder `options.output`; see `study.sequence.merge`."""
+    output = checked_folder(options.output)
+
+    from ..study.sequence.merge import merge_frames
+    from ..study.sequence.text import format_sequence
+
+    print(format_sequence(merge_frames(output, options.frames)))
+    print(f"Report: {output / 'report.json'}")
+    return 0
+
+
+def compare_frames(options: argparse.Namespace) -> None:
+    """Compare the frames of `options.frames`, each into its folder; with `--resume` those that are left."""
+    scene, reflectors, comparison, output = asked_comparison(options)
+
+    from ..study.sequence.frames import compare_frame, made_with
+    from ..study.sequence.kept import folder_of, made_of
+
+    made = made_with(Path(options.file), scene.name, reflectors, options.camera, comparison, options.frames.step)
+    for frame in frames_left(options, scene, lambda frame: made_of(folder_of(output, frame)) == made):
+        folder = folder_of(output, frame)
+        with _said() as say:
+            report = compare_frame(
+                scene, view_layer_of(scene), reflectors, comparison, folder, made, options.camera, say
+            )
+        print_report(report, folder)
+
+
+def asked_comparison(options: argparse.Namespace) -> tuple[bpy.types.Scene, list[str], Comparison, Path]:
+    """The open scene, the mirrors' names, what to compare, and the folder to write to. The GPU is there."""
+    methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
+    require_known(methods, list(METHODS), "method")
+    peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
+    reflectors = read_names(options.reflector, "reflector")
+    output = checked_folder(options.output)
+    start_gpu()
+
+    from ..report.compare import Comparison
+
+    comparison = Comparison(
+        methods=tuple(methods),
+        samples=options.samples,
+        light=options.light,
+        peers=tuple(peers),
+        settings=chosen_settings(options),
+    )
+    scene = open_scene(options.file, options.frame)
+    width, height = resolution_of(options, scene)
+    return scene, reflectors, replace(comparison, width=width, height=height), output
+
+
+def compare_scene(
+    scene: bpy.types.Scene,
+    reflectors: Sequence[str],
+    comparison: Comparison,
+    output: Path,
+    camera: str | None = None,
+) -> dict[str, Any]:
+    """Compare the open scene and write the report into `output`; returns it."""
+    from ..report.compare import compare_open_scene
+
+    with _said() as say:
+        return compare_open_scene(
+            scene, view_layer_of(scene), reflectors, comparison, output, camera=camera, progress=say
+        )
+
+
+@contextmanager
+def _said() -> Iterator[Callable[[str], None]]:
+    """Prints lines, and Blender none."""
+    with dropped(STDOUT) as stdout:
+        yield lambda text: print(text, file=stdout, flush=True)
+
+
+def print_report(report: dict[str, Any], output: Path) -> None:
+    """The table of a comparison, and where its page is."""
+    from ..report.table import format_table
+
+    print(format_table(report))
+    print(f"Report: {output / 'report.html'}")
+
+
+def add_merge(parser: argparse.ArgumentParser) -> None:
+    """The arguments of `merge`."""
+    parser.add_argument("output", metavar="DIR", help="output of compare --frames, whoever compared which frame")
+    parser.add_argument(
+        "--frames", type=frames_of, metavar="A-B[:STEP]", help="which of them (all, from the first to the last)"
+    )
