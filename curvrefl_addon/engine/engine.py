@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The render engine CURVREFL. Blender calls it; colors, files, borders, stamps and the compositor are Blender's own.
 
-In a window a render runs in a thread and a GPU context of its own. What it keeps from frame to frame is let go when the
-render ends, as Blender then takes that context down.
+A render has a GPU context of its own, and in a window a thread. What it keeps from frame to frame is let go when the
+render ends. Blender has taken the context down by then: in background no other is there, and some drivers then lose
+textures of the next render, so that only this frees them, before it makes its own.
 """
 
 from __future__ import annotations
 
+import atexit
 import json
 import sys
 import threading
@@ -46,15 +48,23 @@ class _State:
         """One render at a time: a preview may be asked for beside another render"""
         self.sessions: dict[tuple[int, str], RenderSession] = {}
         """By the scene's session_uid and the view layer's name"""
+        self.ended: list[RenderSession] = []
+        """Of renders before, not free yet"""
         self.said: set[str] = set()
         """Each warning comes once in a render, however many frames have cause for it"""
 
-    def free(self) -> None:
+    def end(self) -> None:
+        """The render has ended."""
         with self.lock:
-            for session in self.sessions.values():
-                session.free()
+            self.ended += self.sessions.values()
             self.sessions.clear()
             self.said.clear()
+
+    def free_ended(self) -> None:
+        """While a GPU context is active, or none will be any more. The lock is held."""
+        for session in self.ended:
+            session.free()
+        self.ended.clear()
 
 
 _state = _State()
@@ -84,9 +94,16 @@ class CurvreflEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:  # type: ignore[override]
         """Draw a view layer at a frame."""
+        from ..renderer.device.frame_buffers import let_go_of_frame_buffers
+
         if not self._trouble:
-            with _state.lock:
-                self._attempt(lambda: self._draw(depsgraph))
+            try:
+                with _state.lock:
+                    _state.free_ended()
+                    self._attempt(lambda: self._draw(depsgraph))
+            finally:
+                # (Whether another frame comes nobody knows here, and later it is too late.)
+                let_go_of_frame_buffers()
         if self._trouble:
             self._refuse(self._trouble)
             if filmed(depsgraph.scene) != depsgraph.scene:
@@ -211,7 +228,17 @@ def _begins(scene: bpy.types.Scene, *_arguments: Any) -> None:
 @persistent
 def _ended(*_arguments: Any) -> None:
     """A render is complete or canceled."""
-    _state.free()
+    if bpy.app.background:
+        _state.end()
+    else:
+        _free()
+
+
+def _free() -> None:
+    """Let go of all."""
+    _state.end()
+    with _state.lock:
+        _state.free_ended()
 
 
 CLASSES = (CurvreflEngine,)
@@ -226,6 +253,7 @@ def add() -> None:
     """Hear of renders' begins and ends; the classes are registered."""
     for handlers, function in _handlers():
         handlers.append(function)
+    atexit.register(_free)
     panels.add(ENGINE)
 
 
@@ -235,4 +263,5 @@ def remove() -> None:
     for handlers, function in _handlers():
         if function in handlers:
             handlers.remove(function)
-    _state.free()
+    atexit.unregister(_free)
+    _free()

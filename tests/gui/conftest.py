@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from window import InWindow, Session, run_session
+from window import SECONDS, InWindow, Session, home, run_session
 from window_blender import NoWindowBlenderError, WindowBlender, find_or_make
 
 
@@ -32,6 +33,17 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     import build_extension
 
     return build_extension.build(tmp_path_factory.mktemp("zip"))
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> dict[str, str]:
+    """Environment of Blenders without a window that have the extension, installed by Blender's own command."""
+    environment = home(tmp_path_factory.mktemp("installed"))
+    install = ("extension", "install-file", "-r", "user_default", "--enable", str(archive))
+    command = [*window_blender.headless, "--command", *install]
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=SECONDS)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return environment
 
 
 @pytest.fixture(scope="session")

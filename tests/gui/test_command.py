@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from window import SECONDS, home
+from window import SECONDS
 from window_blender import WindowBlender
 
 pytestmark = pytest.mark.usefixtures("gpu")
@@ -24,21 +24,18 @@ type Command = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="module")
-def blender(tmp_path_factory: pytest.TempPathFactory, window_blender: WindowBlender, archive: Path) -> Command:
-    """Calls Blender without a window; the extension is installed by Blender's own command."""
-    environment = home(tmp_path_factory.mktemp("command"))
+def blender(window_blender: WindowBlender, installed: dict[str, str]) -> Command:
+    """Calls Blender without a window, with the extension."""
 
     def call(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [*window_blender.headless, "--command", *map(str, arguments)],
-            env=environment,
+            env=installed,
             capture_output=True,
             text=True,
             timeout=SECONDS,
         )
 
-    result = call("extension", "install-file", "-r", "user_default", "--enable", archive)
-    assert result.returncode == 0, result.stdout + result.stderr
     return call
 
 

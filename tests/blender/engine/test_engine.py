@@ -14,6 +14,7 @@ from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.engine import engine as engine_module
 from curvrefl.curvrefl_addon.engine.area import area_of
 from curvrefl.curvrefl_addon.engine.session import RenderSession
+from curvrefl.curvrefl_addon.renderer.device.frame_buffers import frame_buffers_made
 from rendered import HEIGHT, WIDTH, channels, mark, pixels, render
 from small_scene import build_scene
 
@@ -203,6 +204,7 @@ def test_an_animation_with_passes_through_the_compositor(scene: bpy.types.Scene,
     assert len(set(map(id, sessions))) == 1 and all(len(state) == len(updated[0]) for state in updated)
     assert all(one is other for state in updated for one, other in zip(state, updated[0], strict=True))
     assert engine_module._state.sessions == {}, "what is kept is let go at the end"
+    assert frame_buffers_made() == 0, "and frame buffers while their context is there"
 
 
 def test_a_render_that_is_stopped(scene: bpy.types.Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
