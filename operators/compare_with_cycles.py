@@ -15,11 +15,10 @@ from ..curvrefl_addon.errors import InputError
 from ..curvrefl_addon.optics.catalog import DEFAULT_COMPARED, METHODS
 from ..curvrefl_addon.options import marked_mirrors
 from ..curvrefl_addon.settings_table import LARGEST_SIDE, MOST_REFERENCE_SAMPLES
+from .modal.steps import TakesSteps
 from .paths import output_path
 
 TEXT_NAME = "Curvrefl comparison"
-TICK = 0.05
-"""Seconds between two steps of a comparison in a window"""
 _PEERS = (
     ("eevee", "EEVEE", "Blender's real-time engine"),
     ("cycles1", "Cycles, 1 Sample", "One path per pixel"),
@@ -28,12 +27,15 @@ _PEERS = (
 )
 
 
-class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
+class CURVREFL_OT_compare_with_cycles(TakesSteps, bpy.types.Operator):
     """Render the camera's view by the chosen methods, by Cycles and by EEVEE, and report the errors and times"""
 
     bl_idname = "curvrefl.compare_with_cycles"
     bl_label = "Compare with Cycles"
     bl_options = {"REGISTER"}  # noqa: RUF012 (Blender's own convention)
+
+    doing = "Comparing with Cycles"
+    canceled = "Comparison canceled"
 
     reflectors: StringProperty(  # type: ignore[valid-type]
         name="Reflectors",
@@ -116,79 +118,14 @@ class CURVREFL_OT_compare_with_cycles(bpy.types.Operator):
             self._output = output_path(self.output, "a folder for the report")
             names = self._reflector_names(context)
             steps = open_scene_steps if self.every_setting else compare_steps
-            self._steps = steps(scene, view_layer, names, self._comparison(), self._output)
+            taken = steps(scene, view_layer, names, self._comparison(), self._output)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(TICK, window=context.window)
-        self._area = context.area
-        self._is_announced = True
-        manager.progress_begin(0, 100)
-        manager.modal_handler_add(self)
-        self._announce(context, "Starting", 0.0)
-        return {"RUNNING_MODAL"}
+        return self.begin(context, taken)
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> Any:
-        if event.type == "ESC" and event.value == "PRESS":
-            # (the release may belong to a press before the start)
-            return self._stop(context, "Comparison canceled")
-        if event.type != "TIMER":
-            # The scene must not change under a comparison.
-            return {"RUNNING_MODAL"}
-        if not self._is_announced:
-            # Blender draws between two timer events: what comes next is on screen before it blocks.
-            self._is_announced = True
-            return {"RUNNING_MODAL"}
-        return self._take_step(context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Blender itself ends the operator: the window closes."""
-        self._steps.close()
-        self._clear(context)
-
-    def _take_step(self, context: bpy.types.Context) -> Any:
-        from ..curvrefl_addon.renderer.device.context import GpuUnavailableError
-        from ..curvrefl_addon.report.cycles_reference import RenderCanceledError
-
-        try:
-            step = next(self._steps)
-        except StopIteration as end:
-            self._clear(context)
-            self._show(context, end.value, self._output)
-            return {"FINISHED"}
-        except RenderCanceledError:
-            return self._stop(context, "Comparison canceled")
-        except (InputError, GpuUnavailableError) as error:
-            return self._stop(context, str(error), "ERROR")
-        except BaseException:
-            self._clear(context)
-            raise
-        self._announce(context, step.label, step.done)
-        self._is_announced = False
-        return {"RUNNING_MODAL"}
-
-    def _stop(self, context: bpy.types.Context, message: str, kind: Any = "INFO") -> Any:
-        """End without a report; closing the steps puts the scene back."""
-        self._steps.close()
-        self._clear(context)
-        self.report({kind}, message)
-        return {"CANCELLED"}
-
-    def _announce(self, context: bpy.types.Context, label: str, done: float) -> None:
-        context.window_manager.progress_update(100.0 * done)
-        text = f"Comparing with Cycles, {100.0 * done:.0f} %: {label} (Escape to cancel)"
-        context.workspace.status_text_set(text)
-        if self._area is not None:
-            self._area.header_text_set(text)
-
-    def _clear(self, context: bpy.types.Context) -> None:
-        manager = context.window_manager
-        manager.event_timer_remove(self._timer)
-        manager.progress_end()
-        context.workspace.status_text_set(None)
-        if self._area is not None:
-            self._area.header_text_set(None)
+    def finish(self, context: bpy.types.Context, result: Any) -> None:
+        self._show(context, result, self._output)
 
     def _comparison(self) -> Any:
         from ..curvrefl_addon.report.compare import Comparison

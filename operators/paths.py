@@ -30,5 +30,9 @@ class ChoosesFile:
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
         operator: Any = self
+        # What nobody has set the browser would not show, but the name of the open file.
+        if path := operator.filepath:
+            is_lost = path.startswith("//") and not bpy.data.filepath
+            operator.filepath = str(Path.home() / path[2:]) if is_lost else bpy.path.abspath(path)
         context.window_manager.fileselect_add(operator)
         return {"RUNNING_MODAL"}

@@ -14,6 +14,7 @@ import bpy
 from ..engine.job import Job, asked_for
 from ..engine.still import file_outputs, require_all_shown, why_not_rendered
 from ..frames.progress import Pace, frames_left
+from ..frames.video import VIDEOS, ending_of, is_video_of, use_video
 from ..output import clean_up, folder_to_publish, numbered
 from ..scene.opened.blend_file import find_camera
 from ..scene.opened.render_depsgraph import use_camera
@@ -22,8 +23,6 @@ from ..written_files import error_in, is_whole, require_whole
 from .wiring import layers_files
 
 STILLS = {".png": "PNG", ".exr": "OPEN_EXR"}
-VIDEOS = {".mp4": "MPEG4", ".mov": "QUICKTIME", ".mkv": "MKV", ".webm": "WEBM"}
-_OTHER_VIDEOS = {"AVI": ".avi", "DV": ".dv", "FLASH": ".flv", "MPEG1": ".mpg", "MPEG2": ".mpg", "OGG": ".ogv"}
 LAYERS_END = "_layers"
 """Behind a picture's name, of the file with its layers"""
 
@@ -42,9 +41,9 @@ def render_frames(
     """Render `frames` of a scene that has its film into `output`; returns how many were rendered.
 
     `output`: a file .png or .exr, with the frame's number in place of #, or before the suffix where there are more; a
-    video; or a folder, for files as the scene's output says. `resume` leaves out frames that are there whole. Settings
-    are as before at the end. Raises InputError for what the user can put right, OSError where files cannot be written,
-    RuntimeError where Blender was stopped.
+    video; or a folder, for files as the scene's output says. `resume` leaves out frames that are there whole, and a
+    video with as many. Settings are as before at the end. Raises InputError for what the user can put right, OSError
+    where files cannot be written, RuntimeError where Blender was stopped.
     """
     chosen = find_camera(scene, camera)
     clean_up(output.parent if output.suffix else output)
@@ -59,14 +58,15 @@ def render_frames(
                 changes.set(node, mute=True)
         suffix = output.suffix.lower()
         if suffix in VIDEOS:
-            _use_video(changes, scene, VIDEOS[suffix])
+            use_video(changes, scene, suffix)
         elif suffix in STILLS:
             _use_still(changes, scene, STILLS[suffix])
         if scene.render.is_movie_format:
             if suffix not in VIDEOS:
-                endings = {container: suffix for suffix, container in VIDEOS.items()} | _OTHER_VIDEOS
-                ending = endings[scene.render.ffmpeg.format]
-                output = output / f"{Path(scene.render.filepath).name or scene.name}{ending}"
+                output = output / f"{Path(scene.render.filepath).name or scene.name}{ending_of(scene)}"
+            if resume and is_video_of(output, len(frames)):
+                say(f"{output.name} is there already")
+                return 0
             return _video(changes, scene, frames, output, job, say)
         if suffix not in STILLS:
             output = output / f"{Path(scene.render.filepath).name}####{scene.render.file_extension}"
@@ -152,13 +152,3 @@ def _use_still(changes: TemporarySettings, scene: Any, file_format: str) -> None
         color_mode="RGBA",
         color_depth="8" if is_png else "32",
     )
-
-
-def _use_video(changes: TemporarySettings, scene: Any, container: str) -> None:
-    """The scene's own codec where it writes such a container already, else that which plays everywhere."""
-    settings, ffmpeg = scene.render.image_settings, scene.render.ffmpeg
-    if scene.render.is_movie_format and ffmpeg.format == container:
-        return
-    changes.set(settings, media_type="VIDEO", file_format="FFMPEG", color_management="FOLLOW_SCENE", color_mode="RGB")
-    changes.set(ffmpeg, format=container, codec="WEBM" if container == "WEBM" else "H264", audio_codec="NONE")
-    changes.set(ffmpeg, constant_rate_factor="HIGH")

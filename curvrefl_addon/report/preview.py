@@ -32,13 +32,11 @@ class PreviewRenderer:
         self.warnings: tuple[str, ...] = ()
         """What the last picture does not show, one sentence each"""
 
-    def render(self, context: bpy.types.Context) -> Float32Array:
+    def render(self, scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> Float32Array:
         """(h, w, 4) scene-linear picture at the size of the scene's renders.
 
         Raises InputError for what the user can change: camera, mirrors.
         """
-        scene, view_layer = context.scene, context.view_layer
-        assert scene is not None and view_layer is not None
         width, height = rendered_size(scene.render)
         # Whatever a new frame changes is found by reading all; meshes that stay the same are not uploaded again.
         overrides = overrides_of(find_reflectors(scene, self._mirrors))

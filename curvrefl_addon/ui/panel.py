@@ -184,7 +184,10 @@ class CURVREFL_PT_tools(SubPanel, bpy.types.Panel):
             draw_rows(column.box(), found.rows())
             column.operator("curvrefl.clear_trace", icon="X")
         column.separator()
-        column.operator("curvrefl.save_preview", icon="RENDER_STILL")
+        column.operator("curvrefl.save_preview", icon="RENDER_STILL").animation = False
+        column.operator(
+            "curvrefl.save_preview", text="Save Preview Animation", icon="RENDER_ANIMATION"
+        ).animation = True
         column.operator("curvrefl.compare_with_cycles", icon="RENDER_RESULT")
         column.separator()
         draw_film(column, context)

@@ -83,6 +83,87 @@ def test_frame_range_follows_the_animation(tmp_path: Path) -> None:
     np.testing.assert_allclose(load_exr(tmp_path / "still.exr"), frames[1], atol=1e-3)
 
 
+def test_a_range_with_a_step_goes_on_where_it_was_stopped(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    bpy.data.objects["Mirror"].curvrefl.is_mirror = True
+    given = {"filepath": "//p_##.png", "animation": True, "samples": 1, "frame_step": 2}
+    bpy.ops.curvrefl.save_preview(**given)
+    assert sorted(path.name for path in tmp_path.glob("*.png")) == ["p_01.png", "p_03.png"]
+    assert "Frame 3 (2 of 2), about" in capfd.readouterr().out
+    first, third = tmp_path / "p_01.png", tmp_path / "p_03.png"
+    whole, kept = first.read_bytes(), third.stat().st_mtime_ns
+    first.write_bytes(whole[:-20])
+    bpy.ops.curvrefl.save_preview(**{**given, "frame_step": 1, "resume": True})
+    assert first.read_bytes() == whole and third.stat().st_mtime_ns == kept
+    assert len(list(tmp_path.glob("*.png"))) == 3
+    assert "Saved 2 pictures, 1 were there already" in capfd.readouterr().out
+
+
+def test_cameras_are_cut_by_markers_and_the_scene_is_as_before(tmp_path: Path) -> None:
+    bpy.data.objects["Mirror"].curvrefl.is_mirror = True
+    scene = bpy.context.scene
+    eye = scene.camera
+    other = bpy.data.objects.new("Other", eye.data)
+    other.location, other.rotation_euler = (6.0, 0.0, 0.0), (np.pi / 2, 0.0, np.pi / 2)
+    scene.collection.objects.link(other)
+    for frame, camera in ((1, eye), (2, other), (3, eye)):
+        scene.timeline_markers.new(camera.name, frame=frame).camera = camera
+    scene.camera = eye
+    bpy.ops.curvrefl.save_preview(filepath="//cut_#.exr", animation=True, samples=1)
+    assert (scene.frame_current, scene.camera) == (2, eye)
+    cut = [load_exr(tmp_path / f"cut_{frame}.exr") for frame in (1, 2, 3)]
+    scene.timeline_markers.clear()
+    for number, (frame, camera) in enumerate(((1, eye), (2, other), (3, eye))):
+        scene.camera = camera
+        bpy.ops.curvrefl.save_preview(
+            filepath="//p_#.exr", animation=True, frame_start=frame, frame_end=frame, samples=1
+        )
+        assert np.array_equal(load_exr(tmp_path / f"p_{frame}.exr"), cut[number])
+
+
+def test_a_video_shows_the_pictures_as_they_are(tmp_path: Path) -> None:
+    """By a codec that loses nothing, in a scene whose view transform must not come in twice."""
+    bpy.data.objects["Mirror"].curvrefl.is_mirror = True
+    scene = bpy.context.scene
+    assert scene.view_settings.view_transform == "AgX"
+    scenes = len(bpy.data.scenes)
+    bpy.ops.curvrefl.save_preview(filepath="//p_#.png", animation=True, samples=1)
+    scene.render.image_settings.media_type = "VIDEO"
+    scene.render.ffmpeg.format, scene.render.ffmpeg.codec = "MKV", "FFV1"
+    # (Without an ending it is what the scene's output is.)
+    bpy.ops.curvrefl.save_preview(filepath="//film", animation=True, samples=1)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.blend", "film.mkv", "p_1.png", "p_2.png", "p_3.png"]
+    assert (len(bpy.data.scenes), scene.frame_current, scene.render.ffmpeg.codec) == (scenes, 2, "FFV1")
+    for frame, shown in enumerate(frames_of_video(tmp_path / "film.mkv", tmp_path / "shown"), 1):
+        picture = bpy.data.images.load(str(tmp_path / f"p_{frame}.png"))
+        assert np.array_equal(np.array(picture.pixels), shown)
+    there = (tmp_path / "film.mkv").stat().st_mtime_ns
+    bpy.ops.curvrefl.save_preview(filepath="//film.mkv", animation=True, samples=1, resume=True)
+    assert (tmp_path / "film.mkv").stat().st_mtime_ns == there
+    bpy.ops.curvrefl.save_preview(filepath="//film.mkv", animation=True, samples=1, resume=True, frame_end=2)
+    assert len(frames_of_video(tmp_path / "film.mkv", tmp_path / "again")) == 2
+
+
+def frames_of_video(path: Path, folder: Path) -> list[np.ndarray]:
+    """Pixels of all frames as bytes in 0..1, rows from below, by a scene that shows the video and nothing else."""
+    scene = bpy.data.scenes.new("shown")
+    scene.sequence_editor_create().strips.new_movie("video", str(path), 1, 1)
+    clip = bpy.data.movieclips.load(str(path))
+    scene.frame_end = count = clip.frame_duration
+    bpy.data.movieclips.remove(clip)
+    scene.view_settings.view_transform = "Standard"
+    scene.render.resolution_x, scene.render.resolution_y = 40, 30
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.filepath = f"{folder}/"
+    bpy.ops.render.render(animation=True, scene=scene.name)
+    found = []
+    for frame in range(1, count + 1):
+        picture = bpy.data.images.load(str(folder / f"{frame:04d}.png"))
+        found.append(np.array(picture.pixels))
+        bpy.data.images.remove(picture)
+    bpy.data.scenes.remove(scene)
+    return found
+
+
 def test_override_is_in_the_preview(tmp_path: Path) -> None:
     settings = bpy.data.objects["Mirror"].curvrefl
     settings.is_mirror = True
@@ -110,6 +191,10 @@ def test_mistakes_are_told_and_leave_nothing(tmp_path: Path) -> None:
     bpy.data.objects["Mirror"].curvrefl.is_mirror = True
     with pytest.raises(RuntimeError, match="must end in"):
         bpy.ops.curvrefl.save_preview(filepath="//p.jpg")
+    with pytest.raises(RuntimeError, match="is a video, which has several frames"):
+        bpy.ops.curvrefl.save_preview(filepath="//p.mp4")
+    with pytest.raises(RuntimeError, match="end comes before its start"):
+        bpy.ops.curvrefl.save_preview(filepath="//p.png", animation=True, frame_start=5, frame_end=4)
     bpy.context.scene.camera = None
     with pytest.raises(RuntimeError, match="poll"):
         bpy.ops.curvrefl.save_preview(filepath="//p.png")
