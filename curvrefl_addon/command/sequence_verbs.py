@@ -24,6 +24,7 @@ from .inputs import (
     resolution_of,
     start_gpu,
     view_layer_of,
+    warn_of,
 )
 
 if TYPE_CHECKING:
@@ -36,11 +37,14 @@ def merge(options: argparse.Namespace) -> int:
     """Write the report over frames that are compared in the folder `options.output`; see `study.sequence.merge`."""
     output = checked_folder(options.output)
 
+    from ..study.charts.chart_draw import MISSING_MATPLOTLIB, has_matplotlib
     from ..study.sequence.merge import merge_frames
     from ..study.sequence.text import format_sequence
 
     print(format_sequence(merge_frames(output, options.frames)))
-    print(f"Report: {output / 'report.json'}")
+    if not has_matplotlib():
+        warn_of([MISSING_MATPLOTLIB])
+    print(f"Report: {output / 'report.html'}")
     return 0
 
 

@@ -15,8 +15,11 @@ import numpy as np
 
 from ...errors import InputError
 from ...output import folder_to_publish
+from ..charts.chart_draw import has_matplotlib
+from .curves import draw_curves, draw_times
 from .flicker import flicker, flicker_numbers, follow, holes, pops
 from .kept import (
+    PAGE,
     REFERENCE,
     REPORT,
     KeptFrame,
@@ -26,7 +29,10 @@ from .kept import (
     load_kept,
     made_of,
 )
-from .summary import rounded, summary, worst_frames
+from .page import sequence_page
+from .sheet import draw_sheet
+from .summary import noise_warnings, reference_noise, rounded, summary, worst_frames
+from .text import headline
 from .times import times_of
 
 FEWEST_FOLLOWED = 0.05
@@ -45,8 +51,14 @@ def merge_frames(folder: Path, frames: range | None = None) -> dict[str, Any]:
     told = [json.loads((folder_of(folder, frame) / REPORT).read_text(encoding="utf-8")) for frame in asked]
     entries = list(_measured(folder, asked, told))
     report = _report(asked, told, entries, made_of(folder_of(folder, asked[0])) or {})
+    times = times_of(asked, told)
     with folder_to_publish(folder) as part:
-        _write_json(part / TIMES, times_of(asked, told))
+        if has_matplotlib():
+            draw_curves(report, part / "curves")
+            draw_sheet(report, folder, part / "contact_sheet.png")
+            draw_times(times, headline(report), part / "times")
+        _write_json(part / TIMES, times)
+        (part / PAGE).write_text(sequence_page(report, has_matplotlib()), encoding="utf-8")
         _write_json(part / REPORT, report)
     return report
 
@@ -138,6 +150,8 @@ def _report(
     frames: range, told: Sequence[Mapping[str, Any]], entries: Sequence[Mapping[str, Any]], made: Mapping[str, Any]
 ) -> dict[str, Any]:
     first = told[0]
+    samples = first[REFERENCE]["samples"]
+    noise = reference_noise(entries, samples)
     report = {
         "scene": first["scene"],
         "reflectors": first["reflectors"],
@@ -145,7 +159,8 @@ def _report(
         "blender": first["blender"],
         "gpu": sorted({report["gpu"] for report in told}),
         "made": made,
-        REFERENCE: {name: value for name, value in first[REFERENCE].items() if name != "time_s"},
+        REFERENCE: {name: value for name, value in first[REFERENCE].items() if name != "time_s"}
+        | {"flicker_rms": rounded(noise)},
         "range": {"first": frames[0], "last": frames[-1], "step": made["step"], "count": len(frames)},
         "cuts": [{"frame": entry["frame"], "why": entry["cut"]} for entry in entries if "cut" in entry],
         "methods": summary(entries, "methods"),
@@ -153,7 +168,7 @@ def _report(
         "worst": worst_frames(entries),
         "frames": list(entries),
     }
-    if warnings := _warnings(entries):
+    if warnings := [*_warnings(entries), *noise_warnings(entries, noise, samples)]:
         report["warnings"] = warnings
     return report
 

@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+MOST_NOISE = 0.25
+"""Share of a flicker that may be the reference's own noise"""
 MOST_WORST = 5
 """Frames that are named for a measure"""
 DIGITS = 6
@@ -80,6 +83,40 @@ def worst_frames(entries: Sequence[Mapping[str, Any]]) -> dict[str, list[dict[st
             {"frame": frame, "method": name, "value": value} for _, _, name, frame, value in sorted(rows)[:MOST_WORST]
         ]
     return found
+
+
+def reference_noise(entries: Sequence[Mapping[str, Any]], samples: int) -> float | None:
+    """Flicker (root mean square, mean over frames) that comes of the reference's own noise, which is in that of all
+    methods and peers: None where no peer is Cycles.
+
+    Of Cycles with n samples against a reference with N, whose noise is independent, the variance is as 1 / n + 1 / N.
+    The peer with most samples tells.
+    """
+    counts = {
+        name: int(name.removeprefix("cycles")) for name in names_of(entries, "peers") if name.startswith("cycles")
+    }
+    if not counts:
+        return None
+    name = max(counts, key=lambda name: counts[name])
+    flickers = [entry["peers"][name]["flicker"] for entry in entries if name in entry["peers"]]
+    known = [flicker["rms"] for flicker in flickers if flicker is not None]
+    return float(np.mean(known)) * math.sqrt(counts[name] / (counts[name] + samples)) if known else None
+
+
+def noise_warnings(entries: Sequence[Mapping[str, Any]], noise: float | None, samples: int) -> list[str]:
+    """One sentence where the reference's noise is more than MOST_NOISE of what is measured of a method."""
+    if noise is None:
+        return []
+    found = {}
+    for name in names_of(entries, "methods"):
+        flickers = [entry["methods"][name]["flicker"] for entry in entries if name in entry["methods"]]
+        known = [flicker["rms"] for flicker in flickers if flicker is not None]
+        if known and noise > MOST_NOISE * float(np.mean(known)):
+            found[name] = noise / float(np.mean(known))
+    if not found:
+        return []
+    shares = ", ".join(f"{100.0 * min(share, 1.0):.0f} % of {name}'s" for name, share in found.items())
+    return [f"The noise of a reference with {samples} samples is {shares} flicker: take more samples to tell more."]
 
 
 def rounded(value: float | None) -> float | None:

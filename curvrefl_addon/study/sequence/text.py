@@ -46,4 +46,6 @@ def format_sequence(report: Mapping[str, Any]) -> str:
 def _cell(numbers: Mapping[str, Any] | None, decimals: int) -> str:
     if numbers is None:
         return NO_NUMBER
-    return f"{number(numbers['mean'], decimals)}; {number(numbers['worst'], decimals)} @ {numbers['worst_frame']}"
+    mean = number(numbers["mean"], decimals)
+    # (Where all is zero no frame is the worst.)
+    return f"{mean}; {number(numbers['worst'], decimals)} @ {numbers['worst_frame']}" if numbers["worst"] else mean

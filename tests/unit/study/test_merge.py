@@ -13,10 +13,17 @@ from typing import Any
 import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.errors import InputError
+from curvrefl.curvrefl_addon.study.sequence import merge
 from curvrefl.curvrefl_addon.study.sequence.kept import Shown, load_kept, made_of
 from curvrefl.curvrefl_addon.study.sequence.merge import merge_frames, numbers_of
 from curvrefl.curvrefl_addon.study.sequence.text import format_sequence
 from scenes.sequences.kept_frames import GRAY, HEIGHT, MADE, WIDTH, kept_frame, write_frame
+
+
+@pytest.fixture(autouse=True)
+def _without_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They take a second each."""
+    monkeypatch.setattr(merge, "has_matplotlib", lambda: False)
 
 
 def popping(output: Path, frames: range, bad: int, times: dict[int, float] | None = None, **changes: Any) -> None:
@@ -74,15 +81,18 @@ def test_a_pop_is_found_at_its_frame(tmp_path: Path) -> None:
     assert "frames 1 to 6" in (said := format_sequence(report)) and "@ 4" in said
 
 
-def test_a_merged_report_is_the_same_whatever_the_times_and_the_place(tmp_path: Path) -> None:
+def test_a_merged_report_is_the_same_whatever_the_times_and_the_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(merge, "has_matplotlib", lambda: True)
     one, two = tmp_path / "one", tmp_path / "another place"
     popping(one, range(1, 4), bad=2)
     popping(two, range(3, 0, -1), bad=2, times={1: 77.0, 3: 5.0})
     merge_frames(one)
     merge_frames(two)
-    merge_frames(one)
     files = sorted(path.name for path in one.iterdir() if path.is_file())
-    assert "report.json" in files
+    drawn = ["contact_sheet.png", "curves.png", "curves.svg", "times.png", "times.svg"]
+    assert files == sorted(["report.json", "report.html", "times.json", *drawn])
     for name in files:
         same = (one / name).read_bytes() == (two / name).read_bytes()
         assert same is not name.startswith("times"), name
@@ -140,3 +150,25 @@ def test_what_cannot_be_merged_is_said(tmp_path: Path) -> None:
 def test_numbers_are_told_in_runs() -> None:
     assert numbers_of([1]) == "1"
     assert numbers_of([1, 2, 4, 5, 6, 9]) == "1, 2, 4 to 6, 9"
+
+
+def test_the_references_own_noise_is_found_by_a_peer(tmp_path: Path) -> None:
+    """White noise of Cycles with 1 sample, and of a reference with 4, which has half of its deviation; a method without
+    any flickers as that alone."""
+    random = np.random.default_rng(4)
+
+    def noisy(sigma: float) -> np.ndarray:
+        return 0.5 + np.repeat(random.normal(0.0, sigma, (HEIGHT, WIDTH, 1)), 3, axis=2)
+
+    for frame in range(1, 6):
+        write_frame(tmp_path, kept_frame(frame, pictures=(noisy(0.02), GRAY, noisy(0.04))))
+    report = merge_frames(tmp_path)
+    rms = np.mean([entry["methods"]["exact"]["flicker"]["rms"] for entry in report["frames"][1:]])
+    assert rms == pytest.approx(0.02 * 2.0**0.5, rel=0.03)
+    assert report["reference"]["flicker_rms"] == pytest.approx(rms, rel=0.03)
+    assert (
+        report["warnings"]
+        == ["The noise of a reference with 4 samples is 100 % of exact's flicker: take more samples to tell more."]
+        or "99 % of exact's" in report["warnings"][0]
+    )
+    assert "noise of a reference" in format_sequence(report)
