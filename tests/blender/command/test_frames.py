@@ -13,6 +13,7 @@ import pytest
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.output import numbered
 from curvrefl.curvrefl_addon.report.images import load_exr
+from curvrefl.curvrefl_addon.study.sequence import merge
 from small_scene import saved
 
 BALL = ("--reflector", "Mirror Ball")
@@ -64,8 +65,12 @@ def test_render_over_frames_goes_on_where_it_was_stopped(tmp_path: Path, capfd: 
 
 
 @pytest.mark.usefixtures("gpu")
-def test_compare_over_frames_is_the_same_in_pieces(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_compare_over_frames_is_the_same_in_pieces(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A report each, and one over all: the same bytes where the last frame was compared first, by itself."""
+    # (Drawings are tested by themselves: seconds each.)
+    monkeypatch.setattr(merge, "has_matplotlib", lambda: False)
     file, out, apart = saved(tmp_path, across), tmp_path / "out", tmp_path / "apart"
     given = ("compare", str(file), *BALL, "--method", "exact", "--samples", "1", "--peers", "cycles1")
     given = (*given, "--resolution", "24x18")
@@ -77,7 +82,7 @@ def test_compare_over_frames_is_the_same_in_pieces(tmp_path: Path, capfd: pytest
     done(capfd, *given, "--frames", "3", "--output", str(apart))
     said = done(capfd, *given, "--frames", "1-3", "--resume", "--output", str(apart))
     assert "1 of 3 frames are there already" in said
-    done(capfd, "merge", str(apart))
+    assert "Report:" in done(capfd, "merge", str(apart))
     for path in (*(path for path in out.iterdir() if path.is_file()), *out.glob("frame_*/kept.*")):
         same = path.read_bytes() == (apart / path.relative_to(out)).read_bytes()
         assert same or path.name.startswith("times"), path

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from dataclasses import fields
 from pathlib import Path
@@ -166,9 +167,6 @@ def test_the_references_own_noise_is_found_by_a_peer(tmp_path: Path) -> None:
     rms = np.mean([entry["methods"]["exact"]["flicker"]["rms"] for entry in report["frames"][1:]])
     assert rms == pytest.approx(0.02 * 2.0**0.5, rel=0.03)
     assert report["reference"]["flicker_rms"] == pytest.approx(rms, rel=0.03)
-    assert (
-        report["warnings"]
-        == ["The noise of a reference with 4 samples is 100 % of exact's flicker: take more samples to tell more."]
-        or "99 % of exact's" in report["warnings"][0]
-    )
+    (warning,) = report["warnings"]
+    assert re.match(r"The noise of a reference with 4 samples is (9[7-9]|100) % of exact's flicker", warning)
     assert "noise of a reference" in format_sequence(report)
