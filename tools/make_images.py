@@ -210,6 +210,11 @@ def _dataset(folder: Path) -> None:
     _run(tool, str(folder / "dataset"), str(folder / "dataset.jpg"))
 
 
+def _sequence(folder: Path) -> None:
+    tool = str(ROOT / "tools" / "measure" / "sequence" / "draw_sequence.py")
+    _run(tool, str(folder), str(folder / "sequence.jpg"))
+
+
 def _quick_start(folder: Path) -> None:
     """The steps in a window, and the demo by us and by Cycles."""
     import build_extension
@@ -279,6 +284,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "inspection": _inspection,
     "film": _film,
     "dataset": _dataset,
+    "sequence": _sequence,
     "quick_start": _quick_start,
     "anamorphosis": _anamorphosis,
 }
@@ -305,6 +311,7 @@ IMAGES: dict[str, Picture] = {
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "dataset.jpg": Picture("dataset", _copied),
+    "sequence.jpg": Picture("sequence", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),
     "anamorphosis.jpg": Picture("anamorphosis", _copied),
 }

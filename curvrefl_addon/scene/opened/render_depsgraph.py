@@ -154,9 +154,12 @@ def _in_render[T](
 
 def use_camera(changes: TemporarySettings, scene: bpy.types.Scene, camera: bpy.types.Object | None) -> None:
     """Render by this camera, whatever markers say."""
+    before = scene.camera
     for marker in scene.timeline_markers:
         # A marker with a camera would replace the chosen one as the render starts.
         changes.set(marker, camera=None)
+    # (Taking one marker's camera makes another's that of the scene: it is not what is to be restored.)
+    scene.camera = before
     # Giving a marker its camera back makes that the scene's camera: restore this after the markers.
     changes.set(scene, camera=camera)
 

@@ -107,7 +107,9 @@ def test_the_camera_of_a_marker(scene: bpy.types.Scene) -> None:
     for frame, name in ((1, "from 10"), (10, "from 10"), (19, "from 10"), (20, "from 20"), (99, "from 30")):
         scene.frame_current = frame
         assert find_camera(scene).name == name
+        scene.camera = find_camera(scene)
         with_render_depsgraph(scene, bpy.context.view_layer, lambda _depsgraph: None, camera=find_camera(scene))
+        assert scene.camera.name == name, "It is not the scene's again"
         bpy.ops.render.render()
         assert scene.camera.name == name, "Blender itself chooses another"
 
