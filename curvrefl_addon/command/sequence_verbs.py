@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -38,10 +39,12 @@ def merge(options: argparse.Namespace) -> int:
     output = checked_folder(options.output)
 
     from ..study.charts.chart_draw import MISSING_MATPLOTLIB, has_matplotlib
-    from ..study.sequence.merge import merge_frames
+    from ..study.sequence.merge import TIMES, merge_frames
     from ..study.sequence.text import format_sequence
+    from ..study.sequence.times import slow_sentences
 
     print(format_sequence(merge_frames(output, options.frames)))
+    print("\n".join(slow_sentences(json.loads((output / TIMES).read_text(encoding="utf-8")))))
     if not has_matplotlib():
         warn_of([MISSING_MATPLOTLIB])
     print(f"Report: {output / 'report.html'}")

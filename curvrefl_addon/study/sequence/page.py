@@ -166,7 +166,10 @@ def _cell(name: str, key: str, numbers: Mapping[str, Any] | None) -> str:
 
 def _pictures(report: Mapping[str, Any]) -> str:
     sheet = '<h2>Contact sheet</h2>\n<img class="sheet" src="contact_sheet.png" alt="contact sheet">'
-    return f'{sheet}\n<h2>Over time</h2>\n<img class="sheet" src="curves.svg" alt="curves over time">'
+    curves = '<h2>Over time</h2>\n<img class="sheet" src="curves.svg" alt="curves over time">'
+    # (Times are others each time: they are not in the page, but beside it.)
+    times = '<h2>Times</h2>\n<img class="sheet" src="times.svg" alt="times by frame">'
+    return f"{sheet}\n{curves}\n{times}"
 
 
 def _data(report: Mapping[str, Any]) -> str:

@@ -29,6 +29,17 @@ def times_of(frames: Sequence[int], told: Sequence[Mapping[str, Any]]) -> dict[s
     }
 
 
+def slow_sentences(times: Mapping[str, Any]) -> list[str]:
+    """Of which methods which frames are slow, the slowest first; one where none is."""
+    found = [
+        f"{name}: {', '.join(map(str, row['slow_frames']))}"
+        for name, row in times["methods"].items()
+        if row["slow_frames"]
+    ]
+    over = f"over {SLOW:g} times the median"
+    return [f"Frames {over}, {text}" for text in found] or [f"No frame of a method took {over}."]
+
+
 def _of_method(frames: Sequence[int], told: Sequence[Mapping[str, Any]], name: str) -> dict[str, Any]:
     known = {
         frame: report["methods"][name]["time_ms"]

@@ -18,6 +18,7 @@ from curvrefl.curvrefl_addon.study.sequence import merge
 from curvrefl.curvrefl_addon.study.sequence.kept import Shown, load_kept, made_of
 from curvrefl.curvrefl_addon.study.sequence.merge import merge_frames, numbers_of
 from curvrefl.curvrefl_addon.study.sequence.text import format_sequence
+from curvrefl.curvrefl_addon.study.sequence.times import slow_sentences
 from scenes.sequences.kept_frames import GRAY, HEIGHT, MADE, WIDTH, kept_frame, write_frame
 
 
@@ -79,6 +80,9 @@ def test_a_pop_is_found_at_its_frame(tmp_path: Path) -> None:
     times = json.loads((tmp_path / "times.json").read_text())
     assert times["methods"]["exact"]["slow_frames"] == [5] == times["reference"]["slow_frames"]
     assert times["methods"]["exact"]["median"] == 10.0 and times["peers"]["cycles1"]["frames"]["5"] == 62.0
+    assert slow_sentences(times) == ["Frames over 3 times the median, exact: 5"]
+    times["methods"]["exact"]["slow_frames"] = []
+    assert slow_sentences(times) == ["No frame of a method took over 3 times the median."]
     assert "frames 1 to 6" in (said := format_sequence(report)) and "@ 4" in said
 
 

@@ -78,7 +78,7 @@ def test_the_page_holds_all_that_it_needs(report: dict[str, Any], tmp_path: Path
     assert set(data["colors"]) == {"exact", "cycles1"}
     with_sheet = Elements()
     with_sheet.feed(sequence_page(report))
-    assert with_sheet.links - found.links == {"contact_sheet.png", "curves.svg"}
+    assert with_sheet.links - found.links == {"contact_sheet.png", "curves.svg", "times.svg"}
 
 
 def test_the_players_functions() -> None:
