@@ -28,7 +28,6 @@ def chunk(options: argparse.Namespace) -> int:
     step = (options.of or options.frames).step
     if options.of is not None and (outside := [frame for frame in options.frames if frame not in options.of]):
         raise InputError(f"Frame {outside[0]} of --frames is not among those of --of: name a part of them.")
-    # (Of whom it is one of is known: the step of its own frames may be another one.)
     options.frame, options.resume = None, True
     if options.progress is None:
         compare_frames(options, step)
