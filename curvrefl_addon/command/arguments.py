@@ -42,8 +42,20 @@ def resolution(text: str) -> tuple[int, int]:
 
 
 def frames_of(text: str) -> range:
-    """An argument type: A, A-B or A-B:STEP, both ends counted in."""
-    match = re.fullmatch(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?", text)
+    """An argument type: A, A-B or A-B:STEP, both ends counted in; or several of these with commas between them, which
+    farms make of chunks: frames as far apart as the first two."""
+    if "," not in text:
+        return _frames_of(text, text)
+    frames = sorted({frame for part in text.split(",") for frame in _frames_of(part, text)})
+    step = frames[1] - frames[0] if len(frames) > 1 else 1
+    found = range(frames[0], frames[-1] + 1, step)
+    if frames != list(found):
+        raise argparse.ArgumentTypeError(f"'{text}' are no frames as far apart as the first two")
+    return found
+
+
+def _frames_of(part: str, text: str) -> range:
+    match = re.fullmatch(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?", part.strip())
     if match is None:
         raise argparse.ArgumentTypeError(f"'{text}' are no frames like 1-24 or 1-24:2")
     first, last, step = int(match[1]), int(match[2] or match[1]), int(match[3] or 1)

@@ -19,18 +19,15 @@ from typing import NoReturn
 
 from ..errors import InputError
 from ..gpu_caches import clear_gpu_caches
-from ..optics.catalog import DEFAULT_COMPARED
 from ..supervised import is_supervised
 from ..written_files import NO_ROOM
-from . import charts, dataset_verb, design_verbs, device_verbs, film_verb, sequence_verbs, verbs
+from . import charts, dataset_verb, design_verbs, device_verbs, farm_verbs, film_verb, sequence_verbs, verbs
 from .arguments import between, positive, resolution
 from .inputs import say
-from .scene_arguments import add_reference_samples, add_scene_options, add_settings
+from .scene_arguments import PEERS_HELP, add_comparison, add_reference_samples, add_scene_options, add_settings
 from .signals import StoppedError, answered_signals
 
 DONE, OUR_FAILURE, BAD_INPUT = 0, 1, 2
-
-PEERS_HELP = "eevee, cycles1, cycles2, cycles4 and so on to cycles64; or none (%(default)s)"
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -150,25 +147,21 @@ def _parser() -> argparse.ArgumentParser:
 
     compare = verb("compare", verbs.compare, "Compare methods with Cycles, and with EEVEE and quick Cycles as peers.")
     add_scene_options(compare)
-    compare.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
-    add_settings(compare, "compare")
-    add_reference_samples(compare, 256, "of the reference")
-    compare.add_argument(
-        "--light",
-        default="full",
-        metavar="L",
-        help="direct: no indirect diffuse light; full: as the scene renders in Cycles (%(default)s)",
-    )
-    compare.add_argument(
-        "--peers",
-        default="eevee,cycles1,cycles8",
-        metavar="P[,P..]",
-        help=PEERS_HELP,
-    )
+    add_comparison(compare)
     compare.add_argument("--output", required=True, metavar="DIR", help="folder to write to")
 
     merge = verb("merge", sequence_verbs.merge, "Make the report over frames that were compared, wherever that was.")
     sequence_verbs.add_merge(merge)
+
+    chunk = verb(
+        "chunk",
+        farm_verbs.chunk,
+        "Compare some frames of a comparison, wherever that is: those that are left. Merge makes the report of all.",
+    )
+    farm_verbs.add_chunk(chunk)
+
+    farm = verb("farm", farm_verbs.job_type, "Write what render farms need for comparisons over frames.")
+    farm_verbs.add_farm(farm, _Parser)
 
     chart = verb(
         "chart",

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import InputError
+from ..optics.catalog import DEFAULT_COMPARED
 from ..setting import Flag, Setting
 from ..settings_table import MOST_REFERENCE_SAMPLES, RENDERER
 from ..streams import readable
@@ -17,23 +18,43 @@ from .inputs import SETTING
 
 MAX_FRAME = 1048574
 """Blender's own limit"""
+PEERS_HELP = "eevee, cycles1, cycles2, cycles4 and so on to cycles64; or none (%(default)s)"
 
 
 def add_scene_options(parser: argparse.ArgumentParser, is_marked: bool = False) -> None:
     """`is_marked`: mirrors are those that the file marks where none are named."""
-    marked = " (those marked)" if is_marked else ""
-    parser.add_argument("file", metavar="FILE.blend")
-    parser.add_argument(
-        "--reflector", required=not is_marked, metavar="A[,B..]", help=f"names of the mirror objects{marked}"
-    )
-    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
+    add_file(parser, is_marked)
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
         "--frame", type=between(-MAX_FRAME, MAX_FRAME), metavar="N", help="frame of the animation (the file's)"
     )
     which.add_argument("--frames", type=frames_of, metavar="A-B[:STEP]", help="frames, one after the other")
     parser.add_argument("--resume", action="store_true", help="leave out frames whose results are there whole")
+
+
+def add_file(parser: argparse.ArgumentParser, is_marked: bool = False) -> None:
+    """What is seen of which file; `is_marked` as for `add_scene_options`."""
+    marked = " (those marked)" if is_marked else ""
+    parser.add_argument("file", metavar="FILE.blend")
+    parser.add_argument(
+        "--reflector", required=not is_marked, metavar="A[,B..]", help=f"names of the mirror objects{marked}"
+    )
+    parser.add_argument("--camera", type=readable, metavar="C", help="name of a camera object (the scene's)")
     parser.add_argument("--resolution", type=resolution, metavar="WxH", help="in pixels (the scene's)")
+
+
+def add_comparison(parser: argparse.ArgumentParser) -> None:
+    """What is compared with what."""
+    parser.add_argument("--method", default=",".join(DEFAULT_COMPARED), metavar="M[,M..]", help="or all (%(default)s)")
+    add_settings(parser, "compare")
+    add_reference_samples(parser, 256, "of the reference")
+    parser.add_argument(
+        "--light",
+        default="full",
+        metavar="L",
+        help="direct: no indirect diffuse light; full: as the scene renders in Cycles (%(default)s)",
+    )
+    parser.add_argument("--peers", default="eevee,cycles1,cycles8", metavar="P[,P..]", help=PEERS_HELP)
 
 
 def add_settings(parser: argparse.ArgumentParser, verb: str) -> None:

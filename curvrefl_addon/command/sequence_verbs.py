@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -51,14 +51,21 @@ def merge(options: argparse.Namespace) -> int:
     return 0
 
 
-def compare_frames(options: argparse.Namespace) -> None:
-    """Compare the frames of `options.frames`, each into its folder; with `--resume` those that are left."""
+def compare_frames(
+    options: argparse.Namespace, step: int | None = None, told: Callable[[int, str], Iterable[str]] = lambda *_: ()
+) -> None:
+    """Compare the frames of `options.frames`, each into its folder; with `--resume` those that are left.
+
+    `step`: from one to the next in the comparison that they are a part of. `told`: lines to print before what is done
+    next, from the frame and what that is, in place of that alone.
+    """
     scene, reflectors, comparison, output = asked_comparison(options)
 
     from ..study.sequence.frames import compare_frame, made_with
     from ..study.sequence.kept import folder_of, made_of
 
-    made = made_with(Path(options.file), scene.name, reflectors, options.camera, comparison, options.frames.step)
+    step = step or options.frames.step
+    made = made_with(Path(options.file), scene.name, reflectors, options.camera, comparison, step)
 
     def is_done(frame: int) -> bool:
         clean_up(folder_of(output, frame))
@@ -67,20 +74,30 @@ def compare_frames(options: argparse.Namespace) -> None:
     for frame in frames_left(options, scene, is_done):
         folder = folder_of(output, frame)
         with _said() as say:
+
+            def progress(label: str, frame: int = frame, say: Callable[[str], None] = say) -> None:
+                for line in tuple(told(frame, label)) or (label,):
+                    say(line)
+
             report = compare_frame(
-                scene, view_layer_of(scene), reflectors, comparison, folder, made, options.camera, say
+                scene, view_layer_of(scene), reflectors, comparison, folder, made, options.camera, progress
             )
         print_report(report, folder)
 
 
-def asked_comparison(options: argparse.Namespace) -> tuple[bpy.types.Scene, list[str], Comparison, Path]:
-    """The open scene, the mirrors' names, what to compare, and the folder to write to. The GPU is there."""
+def asked_comparison(
+    options: argparse.Namespace, needs_gpu: bool = True
+) -> tuple[bpy.types.Scene, list[str], Comparison, Path]:
+    """The open scene, the mirrors' names, what to compare, and the folder to write to. The GPU is there, if needed."""
     methods = list(METHODS) if options.method.strip() == "all" else read_names(options.method, "method")
     require_known(methods, list(METHODS), "method")
     peers = [] if options.peers.strip() == "none" else read_names(options.peers, "peer")
     reflectors = read_names(options.reflector, "reflector")
     output = checked_folder(options.output)
-    start_gpu()
+    if needs_gpu:
+        start_gpu()
+    else:
+        import bpy  # noqa: F401  (with the wheel, before gpu)
 
     from ..report.compare import Comparison
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The render engine CURVREFL. Blender calls it; colors, files, borders, stamps and the compositor are Blender's own.
 
-A render has a GPU context of its own, and in a window a thread. What it keeps from frame to frame is let go when the
-render ends. Blender has taken the context down by then: in background no other is there, and some drivers then lose
-textures of the next render, so that only this frees them, before it makes its own.
+A render has a GPU context of its own, and in a window a thread. What an animation keeps from frame to frame is let go
+when it ends. Blender has taken the context down by then, and where none is active some drivers lose textures of the
+next render: that frees what was kept, before it makes its own. What a still has made is freed with the still.
 """
 
 from __future__ import annotations
@@ -60,6 +60,11 @@ class _State:
             self.sessions.clear()
             self.said.clear()
 
+    def free(self, key: tuple[int, str]) -> None:
+        """Let go of a session, if it is there, while its GPU context is active. The lock is held."""
+        if (session := self.sessions.pop(key, None)) is not None:
+            session.free()
+
     def free_ended(self) -> None:
         """While a GPU context is active, or none will be any more. The lock is held."""
         for session in self.ended:
@@ -97,13 +102,15 @@ class CurvreflEngine(bpy.types.RenderEngine):
         from ..renderer.device.frame_buffers import let_go_of_frame_buffers
 
         if not self._trouble:
-            try:
-                with _state.lock:
+            with _state.lock:
+                try:
                     _state.free_ended()
                     self._attempt(lambda: self._draw(depsgraph))
-            finally:
-                # (Whether another frame comes nobody knows here, and later it is too late.)
-                let_go_of_frame_buffers()
+                finally:
+                    # (Which frame of an animation is its last nobody knows here.)
+                    if not self.is_animation:
+                        _state.free(_key(depsgraph))
+                    let_go_of_frame_buffers()
         if self._trouble:
             self._refuse(self._trouble)
             if filmed(depsgraph.scene) != depsgraph.scene:
@@ -112,7 +119,7 @@ class CurvreflEngine(bpy.types.RenderEngine):
     def _session(self, depsgraph: Any) -> RenderSession:
         from .session import RenderSession
 
-        key = (depsgraph.scene.session_uid, depsgraph.view_layer.name)
+        key = _key(depsgraph)
         if key not in _state.sessions:
             _state.sessions[key] = RenderSession()
         return _state.sessions[key]
@@ -201,6 +208,11 @@ class CurvreflEngine(bpy.types.RenderEngine):
             job.warnings.append(sentence)
 
 
+def _key(depsgraph: Any) -> tuple[int, str]:
+    """Of a session."""
+    return depsgraph.scene.session_uid, depsgraph.view_layer.name
+
+
 def sessions_kept() -> int:
     """How many view layers a render that goes on has read; none once it has ended."""
     return len(_state.sessions)
@@ -228,14 +240,11 @@ def _begins(scene: bpy.types.Scene, *_arguments: Any) -> None:
 @persistent
 def _ended(*_arguments: Any) -> None:
     """A render is complete or canceled."""
-    if bpy.app.background:
-        _state.end()
-    else:
-        _free()
+    _state.end()
 
 
 def _free() -> None:
-    """Let go of all."""
+    """Let go of all: no other render comes."""
     _state.end()
     with _state.lock:
         _state.free_ended()

@@ -39,7 +39,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer",),
     ("renderer.proofs",),
     ("renderer.measured",),
-    ("report", "demo", "design"),
+    ("report", "demo", "design", "farm"),
     ("study",),
     ("inspection",),
     ("viewport",),

@@ -84,6 +84,9 @@ def played() -> Script:
     bpy.context.scene.frame_set(1)
     yield rests
     yield from rendered("again")
+    bpy.context.scene.frame_set(FRAMES)
+    yield rests
+    yield from rendered("last")
     seen["messages"] = extension("curvrefl_addon.viewport.handlers").messages()
     seen["sessions"] = extension("curvrefl_addon.engine.engine").sessions_kept()
     seen["enabled"] = bpy.context.window_manager.curvrefl_enabled

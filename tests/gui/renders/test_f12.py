@@ -62,11 +62,15 @@ def test_an_animation_renders_beside_the_viewport(rendered: Session) -> None:
         cover = layers(rendered.folder / f"frame_{number:04d}.exr", rendered)["ViewLayer.Mirror.A"]
         places.append((cover * np.arange(cover.shape[1])).sum() / cover.sum())
     assert (np.diff(places) > 1.0).all()
+    # A still of where the mirror has gone since the still before
+    last = layers(rendered.folder / "last.exr", rendered)
+    for channel, pixels in layers(rendered.folder / f"frame_{FRAMES:04d}.exr", rendered).items():
+        np.testing.assert_array_equal(last[channel], pixels, err_msg=channel)
 
 
 def test_the_viewport_goes_on(rendered: Session) -> None:
     seen: dict[str, Any] = rendered.seen
-    assert seen["ended"] == ["complete"] * 4
+    assert seen["ended"] == ["complete"] * 5
     assert not any(seen["threads"]), "renders run in a thread of their own"
     assert seen["drawn during frame_"] > 0
     assert seen["messages"] == [] and seen["enabled"]
