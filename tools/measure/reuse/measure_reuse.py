@@ -78,8 +78,8 @@ class Orbit:
             here = error[number].reshape(-1, 3)[pixel]
             wrong.append((here**2).mean())
             flicker.append(((here - between(error[number - 1], places)) ** 2).mean())
-            pair = (display_transform(one[number][..., :3]) for one in (pictures, self.pictures))
-            flips.append(flip_in_mask(*pair, self.masks[number]))
+            made, right = (display_transform(one[number][..., :3]) for one in (pictures, self.pictures))
+            flips.append(flip_in_mask(made, right, self.masks[number]) or 0.0)
         return float(np.sqrt(np.mean(wrong))), float(np.sqrt(np.mean(flicker))), float(np.mean(flips))
 
 
