@@ -82,7 +82,8 @@ def emissive(*colors: tuple[float, float, float]) -> SceneArrays:
 @pytest.mark.parametrize(("samples", "count"), [(8, 4), (24, 3), (64, 4)])
 def test_frames_one_after_the_other_have_all_sub_frames(samples: int, count: int) -> None:
     turns = [list(Turn(number, count).sub_frames(samples)) for number in range(-3, count - 3)]
-    assert sorted(sum(turns, [])) == list(range(samples)) and {len(turn) for turn in turns} == {samples // count}
+    assert sorted(index for turn in turns for index in turn) == list(range(samples))
+    assert {len(turn) for turn in turns} == {samples // count}
     assert list(Turn(5 * count - 3, count).sub_frames(samples)) == turns[0]
 
 
