@@ -94,6 +94,20 @@ class Settings:
         said="A noise limit of {} percent is",
         least_note="never",
     )
+    reuse_frames: int = setting(
+        0,
+        label="Reuse Frames",
+        text="Frames before each that are drawn on in a render, where they have shown the same scene points: so many "
+        "times more samples in what was in sight, and noise that does not flicker. 0 for none",
+        hard=(0, 15),
+        soft=(0, 7),
+        unit="frames",
+        panel="Quality",
+        preference=True,
+        flags=(Flag("render", "--reuse-frames", "before each that are drawn on, for films that do not flicker"),),
+        said="{} reused frames are",
+        least_note="none",
+    )
     bounces: int = setting(
         4,
         label="Bounces",

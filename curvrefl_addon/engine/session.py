@@ -27,6 +27,7 @@ from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors, view_of_camera
 from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
+from .earlier_frames import Drawn, EarlierFrames, Reuse
 from .job import Job
 from .passes import COMBINED, MIRROR, OF_MIRRORS, SLOW, UV, VECTOR, Pass, passes_of
 
@@ -41,6 +42,9 @@ class RenderSession:
         self._renderer: Renderer | None = None
         self._arrays: SceneArrays | None = None
         self._settings = Settings()
+        """With the sub-frames of all frames that are drawn on for one"""
+        self._reuse = Reuse(self._settings)
+        self._earlier = EarlierFrames()
         self._mirrors: list[bpy.types.Object] = []
         self._refused: list[str] = []
         self._asked: set[str] = set()
@@ -61,7 +65,10 @@ class RenderSession:
         of_job = () if job is None else [OF_MIRRORS[name] for name in job.passes]
         self._asked = {item.name for item in (*passes_of(depsgraph.view_layer), *of_job)}
         self._reader.reads_uv = UV in self._asked
-        self._settings = replace(chosen, film_transparent=scene.render.film_transparent)
+        self._reuse = Reuse(chosen)
+        self._settings = replace(
+            chosen, film_transparent=scene.render.film_transparent, samples=self._reuse.samples_of_all
+        )
         while True:
             # All is read: what a new frame changes is not listed. What comes out as it was stays the same object.
             changes = Changes(everything=self._arrays is None, frame=True)
@@ -98,16 +105,29 @@ class RenderSession:
         area = area_of(scene.render)
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
         read_now = self._reading(depsgraph, camera, area)
-        still, samples = Moment(self._arrays, view), self._settings.samples
-        moments, untold = read_moments(scene, still, samples, read_now, go_to)
-        renderer = self._up_to_date(self._arrays)
-        alone = Canvas.of_size(view.width, view.height) if any(item.name == MIRROR for item in passes) else None
-        frame = renderer.render(
-            view,
-            moments=moments,
-            mirrors_alone=alone,
-            before_sub_frame=before_sub_frame,
-        )
+        still = Moment(self._arrays, view)
+        moments, untold = read_moments(scene, still, self._reuse.samples, read_now, go_to)
+        keeps_mirrors = any(item.name == MIRROR for item in passes)
+
+        def drawn(at: Moment, times: Sequence[Moment], number: int) -> Drawn:
+            alone = Canvas.of_size(view.width, view.height) if keeps_mirrors else None
+            renderer = self._up_to_date(at.scene)
+            frame = renderer.render(
+                at.view,
+                moments=times,
+                mirrors_alone=alone,
+                before_sub_frame=before_sub_frame,
+                turn=self._reuse.turn(number),
+            )
+            return frame, alone, renderer
+
+        if self._reuse.count:
+            made_for = (self._settings, area, camera.session_uid, keeps_mirrors, tuple(self._mirrors))
+            frame, alone = self._earlier.draw(
+                scene, camera, still, moments, made_for, self._reuse, read_now, go_to, drawn
+            )
+        else:
+            frame, alone, _ = drawn(still, moments, 0)
         if not self._asked.isdisjoint(SLOW):
             frame.truth.pause = pause
         if VECTOR in self._asked:
@@ -136,6 +156,7 @@ class RenderSession:
 
     def free(self) -> None:
         """Let go of all GPU resources."""
+        self._earlier = EarlierFrames()
         if self._renderer is not None:
             self._renderer.free()
             self._renderer = None

@@ -44,7 +44,7 @@ class Frame:
         """`read` draws what the eye sees and reads what is asked of it; `scene`: what is shown, in the world."""
         self.reflection = reflection
         """What the mirrors show; the next frame of an animation may start from it"""
-        self._read, self._scene = read, scene
+        self._read, self.scene = read, scene
         self.view = reflection.view.about(-reflection.origin)
         self.color_texture = color
         """RGBA32F, scene-linear"""
@@ -82,7 +82,7 @@ class Frame:
         shown = tuple(ShownRays(one.mirror, replace(one.settings, method="exact")) for one in self.reflection.shown)
         ways = self._read(replace(self.reflection, shown=shown), read_all_ways)
         instances = {one.mirror.number: one.mirror.index for one in shown}
-        return MirrorTruth(self._scene, points_of_ways(self._scene, self.view, ways, instances))
+        return MirrorTruth(self.scene, points_of_ways(self.scene, self.view, ways, instances))
 
     def color(self) -> Float32Array:
         """(h, w, 4) scene-linear picture, anti-aliased."""

@@ -21,7 +21,7 @@ from .appearance import LIGHT_SECONDS, Appearance
 from .device.context import require_gpu
 from .diagnostic_light import DiagnosticLight
 from .environments.cube import EnvironmentCube
-from .exposure import expose, through_lens
+from .exposure import ALL, Turn, expose, through_lens
 from .frame import Frame, ReadBack, read_surfaces
 from .geometry.placed_instances import Difference
 from .geometry.scene_geometry import SceneGeometry
@@ -191,8 +191,10 @@ class Renderer:
         moments: Sequence[Moment] = (),
         mirrors_alone: Canvas | None = None,
         before_sub_frame: Callable[[Convergence], None] | None = None,
+        turn: Turn = ALL,
     ) -> Frame:
-        """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
+        """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame
+        of the `turn`.
 
         `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
         `before_sub_frame` is called with how far the picture has come; what it raises ends it.
@@ -203,7 +205,9 @@ class Renderer:
         reflection.wait()
         solved = perf_counter()
         still = Moment(self._given, view)
-        reflection, convergence = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
+        reflection, convergence = expose(
+            self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame, turn
+        )
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)

@@ -77,6 +77,7 @@ class CURVREFL_RENDER_PT_film(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout = _column(self.layout)
         layout.prop(context.scene.curvrefl, "render_samples")
+        layout.prop(context.scene.curvrefl, "reuse_frames")
         draw_film(layout, context)
 
 

@@ -32,6 +32,13 @@ bool last_point(vec4 before, bool convex, out vec3 world_point, out vec3 u)
   return (status == REFLECTED || (convex && status == HIDDEN)) && u != vec3(0.0);
 }
 
+// Whether the last frame's point is kept as it was stored, to the last bit: the search has not left its direction, and
+// view and mirror are as they were. (Of a mirror that has moved it is no point any more.)
+bool keeps_point(bool warm, vec3 start, vec3 u)
+{
+  return warm && solver.is_same_view != 0 && u == start;
+}
+
 // Whether a point still reflects the vertex, as far as a Newton step tells. The length alone may agree by chance where
 // a vertex has moved about its reflection point.
 bool still_reflects(vec4 eye, vec3 vertex, vec3 u)

@@ -29,7 +29,7 @@ Solved solve(int index, vec3 vertex)
   bool converged = minimize(
       eye, solver.focal_pixels, vertex, solver.steps, solver.tolerance, side < 0.0, u, iterations);
   SurfaceSample at = sample_surface(u);
-  if (!warm || u != start) {
+  if (!keeps_point(warm, start, u)) {
     world_point = in_world(at.position);
   }
   if (converged && is_reflection_side(eye, vertex, at, side)) {

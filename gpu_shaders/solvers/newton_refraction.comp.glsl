@@ -26,7 +26,7 @@ Solved solve(int index, vec3 vertex)
   }
   vec3 start = u;
   if (refracts_from(vertex, solver.steps, u, iterations)) {
-    if (!warm || u != start) {
+    if (!keeps_point(warm, start, u)) {
       world_point = in_world(sample_surface(u).position);
     }
     return as_reflected_at(iterations, vertex, world_point);

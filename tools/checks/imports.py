@@ -36,6 +36,7 @@ TIERS: tuple[tuple[str, ...], ...] = (
     ("renderer.environments",),
     ("renderer.shown",),
     ("renderer.truth",),
+    ("renderer.reuse",),
     ("renderer",),
     ("renderer.proofs",),
     ("renderer.measured",),

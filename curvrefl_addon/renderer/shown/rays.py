@@ -112,6 +112,12 @@ def read_ways(members: Sequence[ShownRays], sub_frame: SubFrame) -> dict[str, An
     return found
 
 
+def steps(members: Sequence[ShownRays], sub_frame: SubFrame) -> Iterator[Bounce]:
+    """What sharp rays off the mirrors that the eye sees hit, then rays off the mirrors among that, and so on, as far as
+    mirrors are followed; each is drawn when it is asked for."""
+    yield from _bounces(members, sub_frame, _most_bounces(members, sub_frame))
+
+
 def _trace(tracer: PathTracer, members: Sequence[ShownRays], sub_frame: SubFrame, light: Light) -> None:
     """By paths: first what stops the light, then one sample of what does not."""
     stage, seen = sub_frame.stage, sub_frame.targets.seen

@@ -53,19 +53,20 @@ def read_moments(
     samples: int,
     read: ReadMoment,
     go_to: Callable[[int, float], None] | None = None,
+    now: float | None = None,
 ) -> tuple[tuple[Moment, ...], tuple[str, ...]]:
     """What each of `samples` sub-frames shows of the scene, and what of it is not as in Cycles, one sentence each.
 
     No moments where the file has no motion blur or nothing moves. `still`: at the present frame. `go_to(frame,
     subframe)` shows the scene at another time, by `Scene.frame_set` if not given; the
-    present one is shown again at the end. As in Cycles lamps, world and
+    present one, `now` where that is not the scene's own, is shown again at the end. As in Cycles lamps, world and
     materials stay as at the frame.
     """
     if not scene.render.use_motion_blur:
         return (), ()
     if samples == 1:
         return (), ("Motion blur is left out: it takes more than one sample.",)
-    read_there = moments_at(scene, shutter_times(scene, samples), read, go_to)
+    read_there = moments_at(scene, shutter_times(scene, samples), read, go_to, now)
     lights, world = still.scene.lights, still.scene.world
     found = tuple(Moment(replace(one.scene, lights=lights, world=world), one.view) for one in read_there)
     if all(_is_same(moment, still) for moment in found):
@@ -78,10 +79,11 @@ def moments_at(
     times: Sequence[float] | Float64Array,
     read: ReadMoment,
     go_to: Callable[[int, float], None] | None = None,
+    now: float | None = None,
 ) -> list[Moment]:
-    """Places and shapes so many frames after the present one, which is shown again at the end. `go_to`: as for
+    """Places and shapes so many frames after the present one, which is shown again at the end. `go_to`, `now`: as for
     `read_moments`."""
-    now = scene.frame_current + scene.frame_subframe
+    now = scene.frame_current + scene.frame_subframe if now is None else now
     go_to = go_to or (lambda frame, subframe: scene.frame_set(frame, subframe=subframe))
     moments: dict[int, Moment] = {}
     try:
