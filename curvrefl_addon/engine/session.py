@@ -25,6 +25,7 @@ from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors, view_of_camera
+from ..scene.opened.render_depsgraph import shown_of
 from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
 from .job import Job
@@ -55,8 +56,7 @@ class RenderSession:
             mirrors = mirrors_in(depsgraph)
         else:
             chosen = job.settings
-            there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
-            mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
+            mirrors = shown_of(depsgraph, find_reflectors(scene, job.reflectors))
             job.missing -= {obj.name for obj in mirrors}
         of_job = () if job is None else [OF_MIRRORS[name] for name in job.passes]
         self._asked = {item.name for item in (*passes_of(depsgraph.view_layer), *of_job)}
@@ -145,8 +145,9 @@ class RenderSession:
         scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
-            overrides = overrides_of(self._mirrors)
-            arrays = self._reader.read(depsgraph, _shown(depsgraph), self._mirrors, changes, overrides)
+            # (One that comes or goes while the shutter is open is not there at some moments.)
+            mirrors = shown_of(depsgraph, self._mirrors)
+            arrays = self._reader.read(depsgraph, _shown(depsgraph), mirrors, changes, overrides_of(mirrors))
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
         return read_now
@@ -158,7 +159,7 @@ class RenderSession:
             self._renderer = Renderer(arrays, self._settings, current_options().image_memory << 20)
             return self._renderer
         try:
-            self._renderer.update(arrays)
+            self._renderer.update(arrays, is_fresh=True)
             if self._renderer.settings != self._settings:
                 self._renderer.configure(self._settings)
         except InputError:

@@ -98,15 +98,20 @@ class Renderer:
         yield "lights and materials"
         self._appearance = Appearance(self.scene, self.geometry, self._numbers, self.settings, image_memory, is_gradual)
 
-    def update(self, scene: SceneArrays) -> None:
+    def update(self, scene: SceneArrays, is_fresh: bool = False) -> None:
         """Show another state of the scene: does again only what depends on arrays that are other objects than before.
 
-        Raises as the constructor; the renderer is of no use then.
+        `is_fresh`: pictures are to be a new renderer's, whatever was shown before. Raises as the constructor; it is of
+        no use then.
         """
+        if is_fresh:
+            self._move_to(np.zeros(3))
+            self.geometry.join()
+        self.geometry.facts.is_loose = not is_fresh
         if scene is self._given:
             return
         self._given = scene
-        self._follow(self.placement.placed(scene))
+        self._follow(self.placement.placed(scene), is_fresh=is_fresh)
         self.revision += 1
 
     def _move_to(self, origin: Float64Array) -> None:
@@ -116,8 +121,8 @@ class Renderer:
             with unpaced():
                 self._follow(self.placement.placed(self._given), anew=True)
 
-    def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
-        self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers)
+    def _follow(self, scene: SceneArrays, anew: bool = False, is_fresh: bool = False) -> None:
+        self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers, is_fresh)
         self.hierarchies.follow(scene, self._numbers)
 
     def configure(self, settings: Settings) -> None:
