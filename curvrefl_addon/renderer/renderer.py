@@ -99,10 +99,8 @@ class Renderer:
         self._appearance = Appearance(self.scene, self.geometry, self._numbers, self.settings, image_memory, is_gradual)
 
     def update(self, scene: SceneArrays, is_fresh: bool = False) -> None:
-        """Show another state of the scene: does again only what depends on arrays that are other objects than before.
-
-        `is_fresh`: pictures are to be a new renderer's, whatever was shown before. Raises as the constructor; it is of
-        no use then.
+        """Show another state of the scene: does again only what depends on arrays that are other objects than before;
+        `is_fresh`: so that pictures are those of a new renderer. Raises as the constructor; it is of no use then.
         """
         if is_fresh:
             self._move_to(np.zeros(3))
@@ -131,10 +129,8 @@ class Renderer:
         self._require(self.mirrors, settings)
         before, self.settings = self.settings, settings
         self._appearance.configure(settings)
-        if settings.samples != before.samples:
-            self._jitter = offsets(settings.samples)
-            self._preparation.forget_cubes()
-        if settings.environment_resolution != before.environment_resolution:
+        self._jitter = offsets(settings.samples)
+        if (settings.samples, settings.environment_resolution) != (before.samples, before.environment_resolution):
             self._preparation.forget_cubes()
         self.revision += 1
 
