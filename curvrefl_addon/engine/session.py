@@ -101,12 +101,16 @@ class RenderSession:
         still, samples = Moment(self._arrays, view), self._settings.samples
         moments, untold = read_moments(scene, still, samples, read_now, go_to)
         renderer = self._up_to_date(self._arrays)
-        alone = Canvas.of_size(view.width, view.height) if any(item.name == MIRROR for item in passes) else None
+        has_mirrors = any(item.name == MIRROR for item in passes)
+        # (Of a film's scene nothing else is seen.)
+        only_mirrors = has_mirrors and scene != depsgraph.scene
+        alone = Canvas.of_size(view.width, view.height) if has_mirrors and not only_mirrors else None
         frame = renderer.render(
             view,
             moments=moments,
             mirrors_alone=alone,
             before_sub_frame=before_sub_frame,
+            mirrors_only=only_mirrors,
         )
         if not self._asked.isdisjoint(SLOW):
             frame.truth.pause = pause
@@ -116,8 +120,8 @@ class RenderSession:
         for item in passes:
             if item.read is not None:
                 result[item.name] = item.pixels(frame)
-            elif alone is not None:
-                result[item.name] = _exposed(alone.pixels(), depsgraph)
+            else:
+                result[item.name] = result[COMBINED] if alone is None else _exposed(alone.pixels(), depsgraph)
         if job is not None:
             job.convergence = frame.convergence
         if job is not None and not job.object_names:

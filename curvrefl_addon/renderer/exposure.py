@@ -37,11 +37,12 @@ def expose(
     moments: Sequence[Moment] = (),
     mirrors_alone: Canvas | None = None,
     before_sub_frame: Callable[[Convergence], None] | None = None,
+    mirrors_only: bool = False,
 ) -> tuple[Reflection, Convergence]:
     """Add all sub-frames to a picture, each at its moment; returns what the mirrors show at the frame itself, `still`,
     and how far the picture has come: sub-frames end early where the settings have a limit of noise.
 
-    The renderer shows that scene before and after. `mirrors_alone` and `before_sub_frame` as for `Renderer.render`.
+    The renderer shows that scene before and after. `mirrors_alone` and what follows as for `Renderer.render`.
     """
     samples = renderer.settings.samples
     shown = reflection
@@ -53,7 +54,7 @@ def expose(
         if moments:
             renderer.update(moments[index].scene)
             shown = renderer.reflect(moments[index].view, last=shown, at_rest=True)
-        renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
+        renderer.add_sub_frame(canvas, shown, index, 1.0 / samples, mirrors_only)
         if mirrors_alone is not None:
             renderer.add_sub_frame(mirrors_alone, shown, index, 1.0 / samples, mirrors_only=True)
         meter.look(index + 1)

@@ -192,11 +192,13 @@ class Renderer:
         moments: Sequence[Moment] = (),
         mirrors_alone: Canvas | None = None,
         before_sub_frame: Callable[[Convergence], None] | None = None,
+        mirrors_only: bool = False,
     ) -> Frame:
         """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame.
 
-        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
-        `before_sub_frame` is called with how far the picture has come; what it raises ends it.
+        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else; with
+        `mirrors_only` the picture itself does. `before_sub_frame` is called with how far it has come; what that raises
+        ends it.
         """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
@@ -204,7 +206,9 @@ class Renderer:
         reflection.wait()
         solved = perf_counter()
         still = Moment(self._given, view)
-        reflection, convergence = expose(self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame)
+        reflection, convergence = expose(
+            self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame, mirrors_only
+        )
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
