@@ -46,7 +46,8 @@ def film(options: argparse.Namespace) -> int:
         warn_of(set_up(scene))
         if options.layers:
             add_layers_file(scene, "//", "layers")
-        job = Job(reflectors=tuple(obj.name for obj in marked_mirrors(scene)), settings=settings)
+        names = tuple(obj.name for obj in marked_mirrors(scene))
+        job = Job(names, settings, may_be_hidden=options.frames is not None)
         frames = options.frames or range(scene.frame_current, scene.frame_current + 1)
         start = time.perf_counter()
         with dropped(STDOUT) as stdout:

@@ -99,6 +99,7 @@ def _render_frame(
         settings=settings_of_file(options, scene),
         passes=tuple(name for name in passes if name != "color"),
         multilayer=options.multilayer,
+        may_be_hidden=options.frames is not None,
     )
     with folder_to_publish(output.parent) as folder:
         with dropped(STDOUT):

@@ -27,6 +27,8 @@ class Job:
     """What to read beside the color: names of `passes.OF_MIRRORS`"""
     multilayer: bool = False
     """They are layers of the picture's own file, in place of `arrays`"""
+    may_be_hidden: bool = False
+    """A frame of several shows what mirrors there are, and the others with a warning; else they are an error"""
     missing: set[str] = field(default_factory=set)
     """Reflectors that no view layer has shown yet"""
     arrays: dict[str, Float32Array] = field(default_factory=dict)

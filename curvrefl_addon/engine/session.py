@@ -25,6 +25,7 @@ from ..scene.camera.view import View
 from ..scene.changes import Changes
 from ..scene.extract import SceneReader
 from ..scene.opened.blend_file import find_reflectors, view_of_camera
+from ..scene.opened.render_depsgraph import shown_of
 from ..viewport.device_run import take_what_is_known
 from .area import Area, area_of
 from .earlier_frames import Drawn, EarlierFrames, Reuse
@@ -59,8 +60,7 @@ class RenderSession:
             mirrors = mirrors_in(depsgraph)
         else:
             chosen = job.settings
-            there = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
-            mirrors = [obj for obj in find_reflectors(scene, job.reflectors) if obj in there]
+            mirrors = shown_of(depsgraph, find_reflectors(scene, job.reflectors))
             job.missing -= {obj.name for obj in mirrors}
         of_job = () if job is None else [OF_MIRRORS[name] for name in job.passes]
         self._asked = {item.name for item in (*passes_of(depsgraph.view_layer), *of_job)}
@@ -107,22 +107,25 @@ class RenderSession:
         read_now = self._reading(depsgraph, camera, area)
         still = Moment(self._arrays, view)
         moments, untold = read_moments(scene, still, self._reuse.samples, read_now, go_to)
-        keeps_mirrors = any(item.name == MIRROR for item in passes)
+        has_mirrors = any(item.name == MIRROR for item in passes)
+        # (Of a film's scene nothing else is seen.)
+        only_mirrors = has_mirrors and scene != depsgraph.scene
 
         def drawn(at: Moment, times: Sequence[Moment], number: int) -> Drawn:
-            alone = Canvas.of_size(view.width, view.height) if keeps_mirrors else None
+            alone = Canvas.of_size(view.width, view.height) if has_mirrors and not only_mirrors else None
             renderer = self._up_to_date(at.scene)
             frame = renderer.render(
                 at.view,
                 moments=times,
                 mirrors_alone=alone,
                 before_sub_frame=before_sub_frame,
+                mirrors_only=only_mirrors,
                 turn=self._reuse.turn(number),
             )
             return frame, alone, renderer
 
         if self._reuse.count:
-            made_for = (self._settings, area, camera.session_uid, keeps_mirrors, tuple(self._mirrors))
+            made_for = (self._settings, area, camera.session_uid, has_mirrors, only_mirrors, tuple(self._mirrors))
             frame, alone = self._earlier.draw(
                 scene, camera, still, moments, made_for, self._reuse, read_now, go_to, drawn
             )
@@ -136,8 +139,8 @@ class RenderSession:
         for item in passes:
             if item.read is not None:
                 result[item.name] = item.pixels(frame)
-            elif alone is not None:
-                result[item.name] = _exposed(alone.pixels(), depsgraph)
+            else:
+                result[item.name] = result[COMBINED] if alone is None else _exposed(alone.pixels(), depsgraph)
         if job is not None:
             job.convergence = frame.convergence
         if job is not None and not job.object_names:
@@ -166,8 +169,9 @@ class RenderSession:
         scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
-            overrides = overrides_of(self._mirrors)
-            arrays = self._reader.read(depsgraph, _shown(depsgraph), self._mirrors, changes, overrides)
+            # (One that comes or goes while the shutter is open is not there at some moments.)
+            mirrors = shown_of(depsgraph, self._mirrors)
+            arrays = self._reader.read(depsgraph, _shown(depsgraph), mirrors, changes, overrides_of(mirrors))
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
         return read_now
@@ -179,7 +183,7 @@ class RenderSession:
             self._renderer = Renderer(arrays, self._settings, current_options().image_memory << 20)
             return self._renderer
         try:
-            self._renderer.update(arrays)
+            self._renderer.update(arrays, is_fresh=True)
             if self._renderer.settings != self._settings:
                 self._renderer.configure(self._settings)
         except InputError:

@@ -59,10 +59,14 @@ def why_not_rendered(scene: bpy.types.Scene, **how: Any) -> str:
 
 
 def require_all_shown(job: Job) -> None:
-    """Raises InputError where no view layer has shown some of the job's reflectors."""
-    if job.missing:
-        names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
+    """Raises InputError where no view layer has shown some of the job's reflectors, unless they may be hidden: then
+    that is a warning."""
+    if not job.missing:
+        return
+    names = ", ".join(f'"{name}"' for name in job.reflectors if name in job.missing)
+    if not job.may_be_hidden:
         raise InputError(f"{names} is hidden or not in the scene: show it or choose another reflector.")
+    job.warnings.append(f"{names} is hidden or not in the scene in some frames: they are without its reflections.")
 
 
 def _use_engine(

@@ -111,6 +111,7 @@ def _video(changes: TemporarySettings, scene: Any, frames: range, path: Path, jo
 
 def _render(scene: Any, job: Job, path: Path, **how: Any) -> None:
     """Raises what went wrong, also where Blender has written a file all the same."""
+    job.missing = set(job.reflectors)
     with asked_for(job):
         reason = why_not_rendered(scene, **how)
     if job.error is not None:

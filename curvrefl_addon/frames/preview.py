@@ -99,7 +99,7 @@ def preview_steps(
     Raises InputError for what the user can put right, OSError where files cannot be written.
     """
     clean_up(previews.path.parent)
-    with _time_kept(scene), PreviewRenderer(mirrors, samples) as renderer:
+    with _time_kept(scene), PreviewRenderer(mirrors, samples, previews.frames is not None) as renderer:
 
         def draw(frame: int, path: Path) -> None:
             if previews.frames is not None:

@@ -55,15 +55,17 @@ class Appearance:
         """Where rays do not only go from sharp mirror to sharp mirror"""
         self._follow_paths(mirrors)
 
-    def follow(self, scene: SceneArrays, difference: Difference, mirrors: Mapping[int, int]) -> None:
-        """Know another state of the scene, whose geometry the `difference` has changed."""
+    def follow(
+        self, scene: SceneArrays, difference: Difference, mirrors: Mapping[int, int], is_fresh: bool = False
+    ) -> None:
+        """Know another state of the scene, whose geometry the `difference` has changed; `is_fresh`: see `Renderer`."""
         before, self._scene = self._scene, scene
         self._mirrors = dict(mirrors)
         if scene.materials is not before.materials or scene.images is not before.images:
             self.materials.follow(scene)
         elif difference.elsewhere or difference.structure or scene.origin != before.origin:
             self.materials.move(scene)
-        self.lighting.follow(scene, difference)
+        self.lighting.follow(scene, difference, is_fresh)
         self.shade.follow(scene)
         self.indirect.follow(scene, difference)
         self.caustics.follow(scene)

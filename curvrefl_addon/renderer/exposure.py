@@ -62,12 +62,13 @@ def expose(
     moments: Sequence[Moment] = (),
     mirrors_alone: Canvas | None = None,
     before_sub_frame: Callable[[Convergence], None] | None = None,
+    mirrors_only: bool = False,
     turn: Turn = ALL,
 ) -> tuple[Reflection, Convergence]:
     """Add all sub-frames of a `turn` to a picture, each at its moment; returns what the mirrors show at the frame
     itself, `still`, and how far the picture has come: sub-frames end early where the settings have a limit of noise.
 
-    The renderer shows that scene before and after. `mirrors_alone` and `before_sub_frame` as for `Renderer.render`.
+    The renderer shows that scene before and after. `mirrors_alone` and what follows as for `Renderer.render`.
     """
     indices = turn.sub_frames(renderer.settings.samples)
     samples = len(indices)
@@ -80,7 +81,7 @@ def expose(
         if moments:
             renderer.update(moments[number].scene)
             shown = renderer.reflect(moments[number].view, last=shown, at_rest=True)
-        renderer.add_sub_frame(canvas, shown, index, 1.0 / samples)
+        renderer.add_sub_frame(canvas, shown, index, 1.0 / samples, mirrors_only)
         if mirrors_alone is not None:
             renderer.add_sub_frame(mirrors_alone, shown, index, 1.0 / samples, mirrors_only=True)
         meter.look(number + 1)

@@ -98,15 +98,18 @@ class Renderer:
         yield "lights and materials"
         self._appearance = Appearance(self.scene, self.geometry, self._numbers, self.settings, image_memory, is_gradual)
 
-    def update(self, scene: SceneArrays) -> None:
-        """Show another state of the scene: does again only what depends on arrays that are other objects than before.
-
-        Raises as the constructor; the renderer is of no use then.
+    def update(self, scene: SceneArrays, is_fresh: bool = False) -> None:
+        """Show another state of the scene: does again only what depends on arrays that are other objects than before;
+        `is_fresh`: so that pictures are those of a new renderer. Raises as the constructor; it is of no use then.
         """
+        if is_fresh:
+            self._move_to(np.zeros(3))
+            self.geometry.join()
+        self.geometry.facts.is_loose = not is_fresh
         if scene is self._given:
             return
         self._given = scene
-        self._follow(self.placement.placed(scene))
+        self._follow(self.placement.placed(scene), is_fresh=is_fresh)
         self.revision += 1
 
     def _move_to(self, origin: Float64Array) -> None:
@@ -116,8 +119,8 @@ class Renderer:
             with unpaced():
                 self._follow(self.placement.placed(self._given), anew=True)
 
-    def _follow(self, scene: SceneArrays, anew: bool = False) -> None:
-        self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers)
+    def _follow(self, scene: SceneArrays, anew: bool = False, is_fresh: bool = False) -> None:
+        self._appearance.follow(scene, outcome(self._following_scene(scene, anew)), self._numbers, is_fresh)
         self.hierarchies.follow(scene, self._numbers)
 
     def configure(self, settings: Settings) -> None:
@@ -126,10 +129,8 @@ class Renderer:
         self._require(self.mirrors, settings)
         before, self.settings = self.settings, settings
         self._appearance.configure(settings)
-        if settings.samples != before.samples:
-            self._jitter = offsets(settings.samples)
-            self._preparation.forget_cubes()
-        if settings.environment_resolution != before.environment_resolution:
+        self._jitter = offsets(settings.samples)
+        if (settings.samples, settings.environment_resolution) != (before.samples, before.environment_resolution):
             self._preparation.forget_cubes()
         self.revision += 1
 
@@ -191,13 +192,15 @@ class Renderer:
         moments: Sequence[Moment] = (),
         mirrors_alone: Canvas | None = None,
         before_sub_frame: Callable[[Convergence], None] | None = None,
+        mirrors_only: bool = False,
         turn: Turn = ALL,
     ) -> Frame:
         """Draw the picture; times have the GPU's work in them. `last`: as for `reflect`; `moments`: one per sub-frame
         of the `turn`.
 
-        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else.
-        `before_sub_frame` is called with how far the picture has come; what it raises ends it.
+        `mirrors_alone`: an empty picture of the view's size, which gets what the mirrors show and nothing else; with
+        `mirrors_only` the picture itself does. `before_sub_frame` is called with how far it has come; what that raises
+        ends it.
         """
         canvas = Canvas.of_size(view.width, view.height)
         start = perf_counter()
@@ -205,9 +208,8 @@ class Renderer:
         reflection.wait()
         solved = perf_counter()
         still = Moment(self._given, view)
-        reflection, convergence = expose(
-            self, canvas, reflection, still, moments, mirrors_alone, before_sub_frame, turn
-        )
+        asked = (moments, mirrors_alone, before_sub_frame, mirrors_only, turn)
+        reflection, convergence = expose(self, canvas, reflection, still, *asked)
         canvas.wait()
         done = perf_counter()
         baked = sum(shape.bake_ms for mirror in self.mirrors for shape in mirror.baked)
@@ -244,9 +246,8 @@ class Renderer:
             self._find_light()
         if not solve:
             return Reflection(view, self.settings, (), self.warnings, origin=origin)
-        if last is not None and not np.array_equal(last.origin, origin):
-            # (Its points are elsewhere.)
-            last = None
+        # (Points about another origin are elsewhere.)
+        last = last if last is not None and np.array_equal(last.origin, origin) else None
         found = self._preparation.reflect(
             self._stage, view, self.settings, self._appearance.needs.reasons, last, is_still, at_rest
         )

@@ -23,8 +23,9 @@ from ..scene.opened.render_depsgraph import read_render_moments
 class PreviewRenderer:
     """Renders the open scene at its present frame, again and again; a context manager, which frees at its end."""
 
-    def __init__(self, mirrors: Sequence[str], samples: int) -> None:
-        """`mirrors`: names of objects."""
+    def __init__(self, mirrors: Sequence[str], samples: int, may_be_hidden: bool = False) -> None:
+        """`mirrors`: names of objects, which `may_be_hidden` in some frames."""
+        self._may_be_hidden = may_be_hidden
         self._mirrors = tuple(mirrors)
         self._samples = samples
         self._reader = SceneReader()
@@ -50,11 +51,12 @@ class PreviewRenderer:
             settings.samples,
             reader=self._reader,
             overrides=overrides,
+            may_be_hidden=self._may_be_hidden,
         )
         if self._renderer is None:
             self._renderer = Renderer(still.scene, settings, current_options().image_memory << 20)
         else:
-            self._renderer.update(still.scene)
+            self._renderer.update(still.scene, is_fresh=True)
         frame = self._renderer.render(still.view, moments=moments)
         self.warnings = (*frame.warnings, *untold)
         return on_film(frame.color(), scene)

@@ -62,14 +62,14 @@ def kill_and_resume(verb: str, file: Path, frames: int, count: int, chance: rand
     """Kill the verb `count` times within its frames, resume it to its end, and compare. `folder`: for all of it."""
     plain, out, temporary = folder / "plain", folder / "out", folder / "tmp"
     temporary.mkdir()
-    with _started(arguments(verb, file, frames, plain), temporary) as process:
+    with started(arguments(verb, file, frames, plain), temporary) as process:
         _wait_for_frames(process)
         start = time.monotonic()
         assert process.wait(SECONDS) == 0
         seconds = time.monotonic() - start
     found = Killing()
     while found.kills < count:
-        with _started(arguments(verb, file, frames, out), temporary) as process:
+        with started(arguments(verb, file, frames, out), temporary) as process:
             if not _wait_for_frames(process):
                 # It is done before it was killed so often: it has some of its frames to do again.
                 for path in sorted(out.iterdir()):
@@ -84,7 +84,7 @@ def kill_and_resume(verb: str, file: Path, frames: int, count: int, chance: rand
             found.kills += process.poll() is None
             _kill(process)
         found.wrong += _seen_in(out, verb)
-    with _started(arguments(verb, file, frames, out), temporary) as process:
+    with started(arguments(verb, file, frames, out), temporary) as process:
         if process.wait(SECONDS) != 0:
             found.wrong.append(f"the resumed run ended with {process.returncode}")
     found.wrong += _differences(plain, out)
@@ -94,7 +94,8 @@ def kill_and_resume(verb: str, file: Path, frames: int, count: int, chance: rand
 
 
 @contextlib.contextmanager
-def _started(given: list[str], temporary: Path) -> Iterator[subprocess.Popen[str]]:
+def started(given: list[str], temporary: Path) -> Iterator[subprocess.Popen[str]]:
+    """The verb with these arguments, by the launcher, in a session of its own; it is killed at the end if it runs."""
     process = subprocess.Popen(
         [str(ROOT / "curvrefl"), *given],
         env={name: value for name, value in os.environ.items() if name != "CURVREFL_RUN"} | {"TMPDIR": str(temporary)},
@@ -153,10 +154,12 @@ def _differences(plain: Path, out: Path) -> list[str]:
 
 def _content(path: Path) -> Any:
     """All that does not depend on how long something took."""
+    if path.name == "times.json":
+        return ""
     if path.suffix == ".json":
         report = json.loads(path.read_text(encoding="utf-8"))
         return _timeless(report)
-    # (A page of a report shows its times.)
+    # (A page of a report shows its times; those over frames are in files of their own.)
     return "" if path.suffix in (".html", ".svg") else path.read_bytes()
 
 

@@ -81,6 +81,8 @@ class MeshFactsCache:
 
     def __init__(self) -> None:
         self._facts: dict[int, MeshFacts] = {}
+        self.is_loose = True
+        """What deforms is a box to shadow maps, which saves time where it does so all the time"""
 
     def of(self, mesh: MeshArrays) -> MeshFacts:
         facts = self._facts.get(id(mesh))
@@ -92,7 +94,7 @@ class MeshFactsCache:
         """Know a mesh as another one with its vertices elsewhere (`is_deformed`)."""
         loose = self.of(before).loose
         found = self.of(mesh)
-        if found.loose is None:
+        if found.loose is None and self.is_loose:
             found.loose = np.zeros(len(mesh.triangles), np.int8) if loose is None else loose
         return found
 

@@ -15,9 +15,13 @@ from ...memory import require_memory
 from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
 from .chunk import Placed
 from .mesh_facts import MeshFactsCache
-from .split import split_mesh
+from .split import has_long_edges, split_mesh
 from .vertex_uploads import is_deformed
 
+SLACK = 0.8
+"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
+TOO_FINE = 3.9
+"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 """(8, 3) which end of a box each of its corners has"""
 
@@ -83,6 +87,18 @@ def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight)
     """(vertices, 3) in world axes about the star center."""
     shift = instance.matrix[:3, 3] - np.array(sight.center)
     return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
+
+
+def split_again(
+    item: Placed, angle: float, sights: Sequence[Sight], finest: float
+) -> tuple[MeshArrays, Int32Array] | None:
+    """As `split_for`, where an instance that was split with `angle` is too coarse for a mirror or, for the `finest`
+    that any needs, far too fine; None where it is fine as it is."""
+    is_unfit = angle * TOO_FINE < finest or any(
+        has_long_edges(item.drawn, relative_positions(item.drawn, item.instance, sight), sight.angle)
+        for sight in sights
+    )
+    return split_for(item, sights, 1.0 if item.drawn is item.mesh else SLACK) if is_unfit else None
 
 
 def split_for(item: Placed, sights: Sequence[Sight], slack: float) -> tuple[MeshArrays, Int32Array]:

@@ -18,12 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...pacing.pieces import outcome
-from ...scene.arrays import Float64Array, Int32Array, SceneArrays
+from ...scene.arrays import Float64Array, Int32Array, MeshArrays, SceneArrays
 from ...scene.camera.view import View
 from .chunk import Batches, Chunk, Placed
 from .instance_bounds import ChunkBoxes, InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
+    TOO_FINE,
     Difference,
     Sight,
     deformed_item,
@@ -32,21 +33,15 @@ from .placed_instances import (
     in_groups,
     matched,
     placed_elsewhere,
-    relative_positions,
     require_room,
-    split_for,
+    split_again,
     stretches_of,
 )
-from .split import has_long_edges
 from .vertex_uploads import VertexUploads
 
 CHUNK_TRIANGLES = 1 << 16
 """A chunk takes no more instances when it has so many: small enough to build again while something is edited, large
 enough that a scene has few"""
-SLACK = 0.8
-"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
-TOO_FINE = 3.9
-"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 
 
 class SceneGeometry:
@@ -156,6 +151,14 @@ class SceneGeometry:
             if self._split(index, needed, finest):
                 dirty.append(index)
         outcome(self._build(dirty, set()))
+
+    def join(self) -> None:
+        """Draw all meshes as they are, until `refine` splits them as if for the first time."""
+        split = [index for index, item in enumerate(self.placed) if item.drawn is not item.mesh]
+        for index in split:
+            self._draw(index, self.placed[index].mesh)
+        self._sights = ()
+        outcome(self._build(split, set()))
 
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
         """All that a mirror, the instance `own`, may show."""
@@ -334,15 +337,14 @@ class SceneGeometry:
 
     def _split(self, index: int, sights: Sequence[Sight], finest: float) -> bool:
         """Split an instance for these mirrors; False where it is fine as it is."""
-        item = self.placed[index]
-        if self._angles[index] * TOO_FINE >= finest and not any(
-            has_long_edges(item.drawn, relative_positions(item.drawn, item.instance, sight), sight.angle)
-            for sight in sights
-        ):
+        before = self.placed[index].drawn
+        if (found := split_again(self.placed[index], self._angles[index], sights, finest)) is None:
             return False
-        drawn, parents = split_for(item, sights, 1.0 if item.drawn is item.mesh else SLACK)
-        pieces = self.facts.of(item.mesh).pieces.triangle_piece
-        self.placed[index] = replace(item, drawn=drawn, pieces=pieces[parents])
-        self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)
+        self._draw(index, found[0], min(sight.angle for sight in sights), found[1])
         self.counters["meshes split"] += 1
-        return drawn is not item.drawn
+        return found[0] is not before
+
+    def _draw(self, index: int, drawn: MeshArrays, angle: float = np.inf, parents: Any = slice(None)) -> None:
+        item = self.placed[index]
+        self.placed[index] = replace(item, drawn=drawn, pieces=self.facts.of(item.mesh).pieces.triangle_piece[parents])
+        self._angles[index] = np.inf if drawn is item.mesh else angle

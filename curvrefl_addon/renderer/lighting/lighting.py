@@ -129,7 +129,7 @@ class Lighting:
         self._bound: Any = None
         self._surfaces: SurfaceLight | None = None
         self._thrown: ThrownLight | None = None
-        self._sub_frame = 0
+        self._sub_frame, self._has_moved = 0, False
         self._looks = LampLooks()
         self._lamp_warnings: tuple[str, ...] = ()
         self.world_warnings: tuple[str, ...] = ()
@@ -144,8 +144,8 @@ class Lighting:
         self.features = self._found_features()
         """What a shader that lights this scene has to have (see `declare`)"""
 
-    def follow(self, scene: SceneArrays, difference: Difference) -> None:
-        """Light another state of the scene, whose geometry the `difference` has changed."""
+    def follow(self, scene: SceneArrays, difference: Difference, is_fresh: bool = False) -> None:
+        """Light another state of the scene, whose geometry the `difference` has changed; `is_fresh`: see `Renderer`."""
         before, self._scene = self._scene, scene
         if scene.instances is not before.instances:
             self._oddly_seen = oddly_seen(scene)
@@ -155,8 +155,9 @@ class Lighting:
         moved = difference.elsewhere
         was_hashed = self._alpha.is_hashed
         drawn_anew = self._alpha.follow(scene) or bool(moved)
-        planned = difference.structure or (bool(moved) and not self._holds(moved))
-        planned |= self._alpha.is_hashed != was_hashed
+        planned = difference.structure or (bool(moved) and (is_fresh or not self._holds(moved)))
+        planned |= self._alpha.is_hashed != was_hashed or (is_fresh and self._has_moved)
+        self._has_moved = not planned and (bool(moved) or self._has_moved)
         if planned:
             self._read_geometry()
         if scene.world is not before.world or self._alpha.is_hashed != was_hashed:

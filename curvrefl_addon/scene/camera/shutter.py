@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import floor
@@ -13,7 +14,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..arrays import Float64Array, SceneArrays
+from ..arrays import Float64Array, InstanceArrays, SceneArrays
 from ..changes import Changes
 from .sampling import scattered_strata
 from .view import View
@@ -58,9 +59,9 @@ def read_moments(
     """What each of `samples` sub-frames shows of the scene, and what of it is not as in Cycles, one sentence each.
 
     No moments where the file has no motion blur or nothing moves. `still`: at the present frame. `go_to(frame,
-    subframe)` shows the scene at another time, by `Scene.frame_set` if not given; the
-    present one, `now` where that is not the scene's own, is shown again at the end. As in Cycles lamps, world and
-    materials stay as at the frame.
+    subframe)` shows the scene at another time, by `Scene.frame_set` if not given; the present one, `now` where that is
+    not the scene's own, is shown again at the end. As in Cycles lamps, world and materials stay as at the frame, and so
+    does what is there, whatever is shown or hidden meanwhile.
     """
     if not scene.render.use_motion_blur:
         return (), ()
@@ -68,7 +69,10 @@ def read_moments(
         return (), ("Motion blur is left out: it takes more than one sample.",)
     read_there = moments_at(scene, shutter_times(scene, samples), read, go_to, now)
     lights, world = still.scene.lights, still.scene.world
-    found = tuple(Moment(replace(one.scene, lights=lights, world=world), one.view) for one in read_there)
+    found = tuple(
+        Moment(_with_the_same(still.scene, replace(one.scene, lights=lights, world=world)), one.view)
+        for one in read_there
+    )
     if all(_is_same(moment, still) for moment in found):
         return (), ()
     return found, tuple(_untold(scene, still, found))
@@ -101,6 +105,38 @@ def _all_that_moves() -> Changes:
     data: Any = bpy.data
     blocks = (data.objects, data.meshes, data.curves, data.metaballs)
     return Changes(instances=True, geometry={block.session_uid for group in blocks for block in group})
+
+
+def _with_the_same(still: SceneArrays, moment: SceneArrays) -> SceneArrays:
+    """The moment with the instances of the frame, those that are not there then as at the frame."""
+    wanted, there = _numbered(still.instances), _numbered(moment.instances)
+    if wanted.keys() == there.keys():
+        return moment
+    instances, meshes = [], [*moment.meshes]
+    for key, instance in wanted.items():
+        found = there.get(key)
+        if found is None:
+            found = replace(instance, mesh=len(meshes))
+            meshes.append(still.meshes[instance.mesh])
+        instances.append(found)
+    return replace(
+        moment,
+        instances=tuple(instances),
+        meshes=tuple(meshes),
+        materials=still.materials,
+        images=still.images,
+        reflectors=still.reflectors,
+    )
+
+
+def _numbered(instances: Sequence[InstanceArrays]) -> dict[tuple[int, int], InstanceArrays]:
+    """By object, and which of its instances it is."""
+    counts: Counter[int] = Counter()
+    found = {}
+    for instance in instances:
+        found[instance.object_id, counts[instance.object_id]] = instance
+        counts[instance.object_id] += 1
+    return found
 
 
 def _is_same(one: Moment, other: Moment) -> bool:

@@ -62,8 +62,12 @@ def read_render_moments(
     camera: str | None = None,
     reader: SceneReader | None = None,
     overrides: Mapping[int, MaterialArrays] | None = None,
+    may_be_hidden: bool = False,
 ) -> tuple[Moment, tuple[Moment, ...], tuple[str, ...]]:
-    """As `read_render_scene`: the frame itself, and what `shutter.read_moments` finds of its motion."""
+    """As `read_render_scene`: the frame itself, and what `shutter.read_moments` finds of its motion.
+
+    `may_be_hidden`: reflectors that are not there at the frame are no error, but a sentence among those returned.
+    """
     chosen = find_reflectors(scene, reflectors)
     seen_by = find_camera(scene, camera)
     reading = reader or SceneReader()
@@ -71,17 +75,31 @@ def read_render_moments(
     def read(
         engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph
     ) -> tuple[Moment, tuple[Moment, ...], tuple[str, ...]]:
+        here = shown_of(depsgraph, chosen) if may_be_hidden else chosen
+
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
             view = view_of_camera(scene, seen_by, width, height, depsgraph)
-            return reading.read(depsgraph, scene, chosen, changes, overrides), view
+            return reading.read(depsgraph, scene, here, changes, overrides), view
+
+        def read_moment(changes: Changes) -> tuple[SceneArrays, View]:
+            view = view_of_camera(scene, seen_by, width, height, depsgraph)
+            return reading.read(depsgraph, scene, shown_of(depsgraph, here), changes, overrides), view
 
         def go_to(frame: int, subframe: float) -> None:
             engine.frame_set(frame, subframe=subframe)
 
         still = Moment(*read_now(Changes(everything=True)))
-        return still, *read_moments(scene, still, samples, read_now, go_to)
+        moments, untold = read_moments(scene, still, samples, read_moment, go_to)
+        hidden = [f'"{obj.name}" is hidden in some frames: they are without it.' for obj in chosen if obj not in here]
+        return still, moments, (*hidden, *untold)
 
     return _in_render(scene, view_layer, read, width, height, seen_by)
+
+
+def shown_of(depsgraph: Any, objects: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
+    """Those of the objects that a depsgraph shows, themselves or by instances."""
+    shown = {instance.object.original for instance in depsgraph.object_instances if instance.show_self}
+    return [obj for obj in objects if obj in shown]
 
 
 def read_rendered(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, reflectors: Sequence[str]) -> SceneArrays:

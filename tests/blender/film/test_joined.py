@@ -14,9 +14,11 @@ import pytest
 from curvrefl.curvrefl_addon import registration
 from curvrefl.curvrefl_addon.command import cli
 from curvrefl.curvrefl_addon.engine.engine import TROUBLE
+from curvrefl.curvrefl_addon.engine.passes import MIRROR
 from curvrefl.curvrefl_addon.engine.session import RenderSession
 from curvrefl.curvrefl_addon.errors import InputError
-from curvrefl.curvrefl_addon.film.film import set_up
+from curvrefl.curvrefl_addon.film.film import remove, set_up
+from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.report.display import display_transform
 from curvrefl.curvrefl_addon.report.images import load_exr
 from film.film_scene import BALL, SIZE, WORLD, blur, build, picture
@@ -48,8 +50,12 @@ def test_a_mirror_of_the_background_leaves_no_seam_in_it(tmp_path: Path, kind: s
     assert (film[..., 3] == 1.0).all()
 
 
-def test_all_beside_the_mirrors_are_the_bits_of_eevee(tmp_path: Path) -> None:
-    """A lamp on a floor, noise of shadows and all, and the ball small above it."""
+def test_all_beside_the_mirrors_are_the_bits_of_eevee(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A lamp on a floor, noise of shadows and all, and the ball small above it.
+
+    The mirrors are the bits of those of a render of all, though nothing else is drawn.
+    """
+    drawn, kinds = mirrors_drawn(monkeypatch)
     scene = build()
     bpy.data.objects[BALL].scale = (0.3,) * 3
     bpy.ops.mesh.primitive_plane_add(size=40.0, location=(0.0, 0.0, -1.0))
@@ -66,6 +72,36 @@ def test_all_beside_the_mirrors_are_the_bits_of_eevee(tmp_path: Path) -> None:
     assert 0.9 < beside.mean() < 0.99 and alone[beside].std() > 0.05
     assert np.array_equal(film[beside], alone[beside])
     assert not np.array_equal(film[~beside], alone[~beside])
+    assert set(kinds) == {True} and len(kinds) == scene.curvrefl.render_samples
+    remove(scene)
+    scene.render.engine = "CURVREFL"
+    bpy.context.view_layer.curvrefl.use_pass_mirror = True
+    picture(scene, tmp_path / "render.exr")
+    of_film, of_render = drawn
+    assert set(kinds) == {True, False} and of_render[..., 3].any()
+    assert np.array_equal(of_film, of_render)
+
+
+def mirrors_drawn(monkeypatch: pytest.MonkeyPatch) -> tuple[list[np.ndarray], list[bool]]:
+    """What mirrors show in the pictures that are drawn from now on, and of each sub-frame whether nothing else is."""
+    drawn: list[np.ndarray] = []
+    kinds: list[bool] = []
+    draw, add = RenderSession.draw, Renderer.add_sub_frame
+
+    def kept(*arguments: Any, **keywords: Any) -> Any:
+        area, pixels = draw(*arguments, **keywords)
+        drawn.append(pixels[MIRROR])
+        return area, pixels
+
+    def counted(
+        renderer: Renderer, canvas: Any, reflection: Any, index: int, weight: float, mirrors_only: bool = False
+    ) -> None:
+        kinds.append(mirrors_only)
+        add(renderer, canvas, reflection, index, weight, mirrors_only)
+
+    monkeypatch.setattr(RenderSession, "draw", kept)
+    monkeypatch.setattr(Renderer, "add_sub_frame", counted)
+    return drawn, kinds
 
 
 def test_edges_mix_the_mirror_and_what_is_behind_it_and_nothing_else(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside a Blender window: a film is set up, rendered in Blender's own thread, edited, undone.
+"""Runs inside a Blender window: a film is set up, rendered in Blender's own thread, edited, undone; then previews are
+saved (`previews.py`).
 
 Arguments after `--`: the zip, a .blend file with the mirror Ball, the folder for what was seen and rendered.
 """
@@ -16,6 +17,8 @@ from typing import Any
 import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from previews import previews
 from scripted import Script, arguments, in_view, install, play
 
 ARCHIVE, BLEND, FOLDER = arguments()[:3]
@@ -59,6 +62,10 @@ def played() -> Script:
         bpy.ops.ed.undo()
     yield 0.2
     seen["undone"] = blocks()
+    # (Previews are renders, too.)
+    seen["renders"] = [list(seen["ended"]), list(seen["threads"])]
+    (Path(FOLDER) / "previews").mkdir()
+    yield from previews(Path(FOLDER) / "previews", seen)
 
 
 def end(error: str) -> None:
