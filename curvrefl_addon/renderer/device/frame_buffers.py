@@ -49,6 +49,10 @@ class FrameBuffer:
         """As `gpu.types.GPUFrameBuffer.read_color`, while it is bound."""
         return self._here().read_color(*place)
 
+    def read_depth(self, *place: Any) -> Any:
+        """As `gpu.types.GPUFrameBuffer.read_depth`, while it is bound."""
+        return self._here().read_depth(*place)
+
     def let_go(self) -> None:
         """Be made anew where it is bound next."""
         self._made = None
