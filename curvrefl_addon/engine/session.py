@@ -99,7 +99,8 @@ class RenderSession:
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
         read_now = self._reading(depsgraph, camera, area)
         still, samples = Moment(self._arrays, view), self._settings.samples
-        moments, untold = read_moments(scene, still, samples, read_now, go_to)
+        read_moment = self._reading(depsgraph, camera, area, may_be_hidden=True)
+        moments, untold = read_moments(scene, still, samples, read_moment, go_to)
         renderer = self._up_to_date(self._arrays)
         has_mirrors = any(item.name == MIRROR for item in passes)
         # (Of a film's scene nothing else is seen.)
@@ -144,13 +145,13 @@ class RenderSession:
             self._renderer.free()
             self._renderer = None
 
-    def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area) -> ReadMoment:
-        """Reads what the depsgraph shows at its present time."""
+    def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area, may_be_hidden: bool = False) -> ReadMoment:
+        """Reads what the depsgraph shows at its present time. `may_be_hidden`: mirrors that come or go while the
+        shutter is open are not there at some moments; else that is an error."""
         scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
-            # (One that comes or goes while the shutter is open is not there at some moments.)
-            mirrors = shown_of(depsgraph, self._mirrors)
+            mirrors = shown_of(depsgraph, self._mirrors) if may_be_hidden else self._mirrors
             arrays = self._reader.read(depsgraph, _shown(depsgraph), mirrors, changes, overrides_of(mirrors))
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
