@@ -63,12 +63,15 @@ class EarlierFrames:
         moments: Sequence[Moment],
         made_for: Hashable,
         reuse: Reuse,
-        read_now: ReadMoment,
+        read: tuple[ReadMoment, ReadMoment],
         go_to: Callable[[int, float], None],
         draw: Callable[[Moment, Sequence[Moment], int], Drawn],
     ) -> tuple[Frame, Canvas | None]:
-        """The present frame with those before it, `scene.frame_step` apart. `made_for`: another one where frames kept
-        do not serve; `draw` draws a moment as the frame of a number. What `go_to` shows is as before at the end."""
+        """The present frame with those before it, `scene.frame_step` apart.
+
+        `made_for`: another one where frames kept do not serve; `read`: a frame, and a moment of its shutter; `draw`
+        draws a moment as the frame of a number. What `go_to` shows is as before at the end.
+        """
         if made_for != self._made_for:
             self._kept, self._made_for = {}, made_for
         now, part, step = scene.frame_current, scene.frame_subframe, scene.frame_step
@@ -79,7 +82,7 @@ class EarlierFrames:
             for number in missing:
                 go_to(number, part)
                 self._kept[number] = self._drawn_there(
-                    scene, camera, number + part, number // step, reuse, read_now, go_to, draw
+                    scene, camera, number + part, number // step, reuse, read, go_to, draw
                 )
         finally:
             if missing:
@@ -97,16 +100,16 @@ class EarlierFrames:
         time: float,
         number: int,
         reuse: Reuse,
-        read_now: ReadMoment,
+        read: tuple[ReadMoment, ReadMoment],
         go_to: Callable[[int, float], None],
         draw: Callable[[Moment, Sequence[Moment], int], Drawn],
     ) -> KeptFrame | None:
         if scene.camera != camera:
             return None
         try:
-            still = Moment(*read_now(Changes(frame=True)))
+            still = Moment(*read[0](Changes(frame=True)))
         except InputError:
             return None
-        moments, _ = read_moments(scene, still, reuse.samples, read_now, go_to, time)
+        moments, _ = read_moments(scene, still, reuse.samples, read[1], go_to, time)
         frame, alone, renderer = draw(still, moments, number)
         return with_frames_before(renderer, frame, alone, ())[2]

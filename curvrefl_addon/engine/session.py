@@ -105,8 +105,9 @@ class RenderSession:
         area = area_of(scene.render)
         view = area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
         read_now = self._reading(depsgraph, camera, area)
+        read_moment = self._reading(depsgraph, camera, area, may_be_hidden=True)
         still = Moment(self._arrays, view)
-        moments, untold = read_moments(scene, still, self._reuse.samples, read_now, go_to)
+        moments, untold = read_moments(scene, still, self._reuse.samples, read_moment, go_to)
         has_mirrors = any(item.name == MIRROR for item in passes)
         # (Of a film's scene nothing else is seen.)
         only_mirrors = has_mirrors and scene != depsgraph.scene
@@ -127,7 +128,7 @@ class RenderSession:
         if self._reuse.count:
             made_for = (self._settings, area, camera.session_uid, has_mirrors, only_mirrors, tuple(self._mirrors))
             frame, alone = self._earlier.draw(
-                scene, camera, still, moments, made_for, self._reuse, read_now, go_to, drawn
+                scene, camera, still, moments, made_for, self._reuse, (read_now, read_moment), go_to, drawn
             )
         else:
             frame, alone, _ = drawn(still, moments, 0)
@@ -164,13 +165,13 @@ class RenderSession:
             self._renderer.free()
             self._renderer = None
 
-    def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area) -> ReadMoment:
-        """Reads what the depsgraph shows at its present time."""
+    def _reading(self, depsgraph: Any, camera: bpy.types.Object, area: Area, may_be_hidden: bool = False) -> ReadMoment:
+        """Reads what the depsgraph shows at its present time. `may_be_hidden`: mirrors that come or go while the
+        shutter is open are not there at some moments; else that is an error."""
         scene = filmed(depsgraph.scene)
 
         def read_now(changes: Changes) -> tuple[SceneArrays, View]:
-            # (One that comes or goes while the shutter is open is not there at some moments.)
-            mirrors = shown_of(depsgraph, self._mirrors)
+            mirrors = shown_of(depsgraph, self._mirrors) if may_be_hidden else self._mirrors
             arrays = self._reader.read(depsgraph, _shown(depsgraph), mirrors, changes, overrides_of(mirrors))
             return arrays, area.view(view_of_camera(scene, camera, area.full_width, area.full_height, depsgraph))
 
