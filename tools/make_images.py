@@ -204,6 +204,13 @@ def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
 
 
+def _calm(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "make_scenes.py"), str(folder), "bumpy")
+    tool = str(ROOT / "tools" / "measure" / "reuse" / "measure_reuse.py")
+    given = ("--reflector", "Mirror", "--roughness", "0.3", "--frames", "1", "--picture", str(folder / "calm.jpg"))
+    _run(tool, str(folder / "bumpy.blend"), *given)
+
+
 def _dataset(folder: Path) -> None:
     _verb("dataset", "--output", str(folder / "dataset"), "--resolution", "320x240", "--samples", "64")
     tool = str(ROOT / "tools" / "measure" / "truth" / "draw_dataset.py")
@@ -283,6 +290,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "passes": _passes,
     "inspection": _inspection,
     "film": _film,
+    "calm": _calm,
     "dataset": _dataset,
     "sequence": _sequence,
     "quick_start": _quick_start,
@@ -310,6 +318,7 @@ IMAGES: dict[str, Picture] = {
     "passes.jpg": Picture("passes", _copied),
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
+    "calm.jpg": Picture("calm", _copied),
     "dataset.jpg": Picture("dataset", _copied),
     "sequence.jpg": Picture("sequence", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),

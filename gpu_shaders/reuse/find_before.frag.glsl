@@ -46,12 +46,12 @@ vec3 moved(vec3 point, int number)
               dot(fetch_record(motions, MOTION_RECORDS * number + 2), whole));
 }
 
-// The fitting pixel whose point is nearest, of the place itself and rings around it.
-bool nearest(vec2 start, out ivec2 found)
+// The fitting pixel whose point is nearest, of the first `count` of the place itself and rings around it.
+bool nearest(vec2 start, int count, out ivec2 found)
 {
   float least = 1e38;
   found = ivec2(floor(start));
-  for (int k = 0; k <= 8 * RINGS; k++) {
+  for (int k = 0; k < count; k++) {
     float radius = k == 0 ? 0.0 : exp2(float((k - 1) / 8));
     float turn = 0.7853982 * (float(k) + 0.5 * float((k - 1) / 8));
     ivec2 place = ivec2(floor(start + radius * vec2(cos(turn), sin(turn))));
@@ -162,8 +162,17 @@ void main()
     start = moved(own.xyz, int(own.w));
   }
   bool is_point = number > 0 || mirror > 0.5;
-  ivec2 place;
-  if (nearest(on_picture(start, is_point ? 1.0 : 0.0), place) && solved(place, area_now(pixel), at)) {
+  vec2 begun = on_picture(start, is_point ? 1.0 : 0.0);
+  float area = area_now(pixel);
+  // (Most are found at once. Software drivers leave out what a loop does not come to, but no branch.)
+  bool is_found = false;
+  for (int count = 1; count <= 1 + 8 * RINGS && !is_found; count += 8 * RINGS) {
+    ivec2 place;
+    if (nearest(begun, count, place)) {
+      is_found = solved(place, area, at);
+    }
+  }
+  if (is_found) {
     found_at = vec4(at, 1.0, 0.0);
   }
 }

@@ -26,8 +26,8 @@ NEWTON = Settings(method="newton", samples=1)
 
 @cache
 def room() -> SceneArrays:
-    """Always the same arrays, as what has not changed is followed by its identity: the soft room about a
-    mirror that bends differently everywhere."""
+    """The soft room about a mirror that bends differently everywhere. Always the same arrays, as what has not changed
+    is known by its identity."""
     scene = soft_room()
     shape = replace(scene.instances[MIRROR], matrix=np.diag([1.25, 0.8, 0.95, 1.0]))
     return replace(scene, instances=(shape, *scene.instances[1:]))

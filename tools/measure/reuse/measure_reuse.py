@@ -4,13 +4,15 @@
 
     .venv/bin/python tools/measure/reuse/measure_reuse.py FILE.blend --reflector A[,B..] [--size 320x240] [--samples 4]
         [--reuse 3] [--frames 4] [--step 0.5] [--converged 64] [--method exact] [--roughness R] [--keep DIR]
+        [--picture OUT.jpg]
 
 The camera goes round the vertical axis through the mirrors' middle, `--step` degrees a frame. Of the mirrors' pixels
 whose scene point the mirror showed a frame before too (by the exact solution in float64): *error*, the root mean square
 difference from the picture of `--converged` sub-frames, *flicker*, that of these differences from a frame to the next
 along the motion, both by 1/255 of the display's range, and FLIP. A row each of frames as they are without, and with the
 frames before; then how far the places are from the exact ones. `--roughness` is given to the mirrors' materials.
-`--keep`: strips of crops, without, with, converged.
+`--keep`: strips of the last two frames, without, with, converged; `--picture`: the mirrors of the last one, twice as
+large.
 """
 
 from __future__ import annotations
@@ -44,6 +46,9 @@ from curvrefl.curvrefl_addon.report.metrics import flip_in_mask  # noqa: E402
 from curvrefl.curvrefl_addon.scene.camera.view import View  # noqa: E402
 from light.given_file import GivenFile, file_parser  # noqa: E402
 from light.measure_jitter import turned  # noqa: E402
+from PIL import Image  # noqa: E402
+
+QUALITY = 90
 
 
 class Orbit:
@@ -123,6 +128,7 @@ def main() -> None:
     parser.add_argument("--method", default="exact")
     parser.add_argument("--roughness", type=float)
     parser.add_argument("--keep", type=Path)
+    parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
     given = GivenFile(options)
     still = given.read()
@@ -145,6 +151,17 @@ def main() -> None:
         options.keep.mkdir(parents=True, exist_ok=True)
         rows = [np.hstack([one[number] for one in (plain, calm, orbit.pictures)]) for number in (count - 2, count - 1)]
         save_png(options.keep / f"{options.file.stem}.png", np.vstack(rows))
+    if options.picture is not None:
+        save_mirrors(options.picture, [one[-1] for one in (plain, calm, orbit.pictures)], orbit.masks[-1])
+
+
+def save_mirrors(path: Path, pictures: list[np.ndarray], mask: np.ndarray) -> None:
+    """Side by side, cut out."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    cut = (slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1))
+    strip = np.hstack([display_transform(one[cut][..., :3])[::-1] for one in pictures])
+    drawn = Image.fromarray(np.round(255.0 * strip).astype(np.uint8))
+    drawn.resize((2 * drawn.width, 2 * drawn.height), Image.Resampling.NEAREST).save(path, quality=QUALITY)
 
 
 def roughened(scene: Any, roughness: float) -> Any:
