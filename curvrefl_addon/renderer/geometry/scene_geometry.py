@@ -24,6 +24,7 @@ from .chunk import Batches, Chunk, Placed
 from .instance_bounds import ChunkBoxes, InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
+    TOO_FINE,
     Difference,
     Sight,
     deformed_item,
@@ -31,22 +32,17 @@ from .placed_instances import (
     differs_in_vertices_only,
     in_groups,
     matched,
+    may_be_coarse,
     placed_elsewhere,
-    relative_positions,
     require_room,
-    split_for,
     stretches_of,
 )
-from .split import has_long_edges
+from .split import SplitAhead, is_coarse_for, slack_of, split_for
 from .vertex_uploads import VertexUploads
 
 CHUNK_TRIANGLES = 1 << 16
 """A chunk takes no more instances when it has so many: small enough to build again while something is edited, large
 enough that a scene has few"""
-SLACK = 0.8
-"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
-TOO_FINE = 3.9
-"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 
 
 class SceneGeometry:
@@ -74,6 +70,7 @@ class SceneGeometry:
         """Per instance the angle it is split with, endless where it is not"""
         self._sights: tuple[Sight, ...] = ()
         self._unchecked: set[int] = set()
+        self.ahead = SplitAhead()
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         """The scene and its mirrors of the last update"""
 
@@ -132,6 +129,7 @@ class SceneGeometry:
         self._bounds.follow(placed)
         self._rows.clear()
         self._unchecked = set(range(len(placed)))
+        self.ahead = SplitAhead()
         self._move(difference.moved)
         self._deform(difference.deformed)
         yield from self._build(dirty, stale)
@@ -147,15 +145,27 @@ class SceneGeometry:
         self._unchecked.clear()
         if len(chosen) == 0 or not sights:
             return
-        coarse = np.stack([self._may_be_coarse(sight, chosen) for sight in sights], axis=1)
         finest = min(sight.angle for sight in sights)
-        dirty = []
-        for row in np.flatnonzero(coarse.any(axis=1)):
-            index = int(chosen[row])
-            needed = [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
-            if self._split(index, needed, finest):
-                dirty.append(index)
-        outcome(self._build(dirty, set()))
+        needed = self._needed(sights, chosen)
+        outcome(self._build([index for index, some in needed.items() if self._split(index, some, finest)], set()))
+
+    def refine_ahead(self, sights: Sequence[Sight], share: float) -> None:
+        """Have this share done of the splitting that mirrors will need soon, or go on with it: nothing is drawn
+        otherwise until `refine` is told so, which then finds it done."""
+        if self.ahead.is_new(sights):
+            self.ahead.begin(sights, self._needed(sights, np.arange(len(self.placed))))
+        self.ahead.go_on(self.placed, share)
+
+    def _needed(self, sights: Sequence[Sight], chosen: NDArray[np.int64]) -> dict[int, list[Sight]]:
+        """Of these instances those that may have to be split otherwise, and for which mirrors."""
+        some = [self.placed[index] for index in chosen]
+        angles = np.array([self._angles[index] for index in chosen])
+        balls = self.balls(chosen)
+        coarse = np.stack([may_be_coarse(some, chosen, angles, balls, self.facts, sight) for sight in sights], axis=1)
+        return {
+            int(chosen[row]): [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
+            for row in np.flatnonzero(coarse.any(axis=1))
+        }
 
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
         """All that a mirror, the instance `own`, may show."""
@@ -321,26 +331,14 @@ class SceneGeometry:
                 self._where[index] = (chunk, local)
             self.counters["chunks built"] += 1
 
-    def _may_be_coarse(self, sight: Sight, chosen: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Which may have an edge that is too long for a mirror, or are far too fine: by balls and longest edges."""
-        centers, radii = self.balls(chosen)
-        matrices = np.array([self.placed[index].instance.matrix for index in chosen])
-        edges = np.array([self.facts.of(self.placed[index].drawn).longest_edge for index in chosen])
-        nearest = np.maximum(np.linalg.norm(centers - sight.center, axis=1) - radii, 0.0)
-        coarse = edges * stretches_of(matrices) > sight.angle * nearest
-        fine = np.array([self._angles[index] for index in chosen]) * TOO_FINE < sight.angle
-        shown = np.array([index != sight.own and self.placed[index].instance.visible_glossy for index in chosen])
-        return (coarse | fine) & shown
-
     def _split(self, index: int, sights: Sequence[Sight], finest: float) -> bool:
         """Split an instance for these mirrors; False where it is fine as it is."""
         item = self.placed[index]
         if self._angles[index] * TOO_FINE >= finest and not any(
-            has_long_edges(item.drawn, relative_positions(item.drawn, item.instance, sight), sight.angle)
-            for sight in sights
+            is_coarse_for(item.drawn, item.instance, sight) for sight in sights
         ):
             return False
-        drawn, parents = split_for(item, sights, 1.0 if item.drawn is item.mesh else SLACK)
+        drawn, parents = self.ahead.taken(index, item, sights) or split_for(item, sights, slack_of(item))
         pieces = self.facts.of(item.mesh).pieces.triangle_piece
         self.placed[index] = replace(item, drawn=drawn, pieces=pieces[parents])
         self._angles[index] = np.inf if drawn is item.mesh else min(sight.angle for sight in sights)
