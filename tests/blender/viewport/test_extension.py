@@ -30,7 +30,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_only_the_extension_is_packed(package: Path) -> None:
     names = zipfile.ZipFile(package).namelist()
     assert {name.split("/")[0] for name in names} == SHIPPED
-    assert {Path(name).suffix for name in names} <= {"", ".toml", ".md", ".py", ".glsl", ".npy", ".dat"}
+    assert {Path(name).suffix for name in names} <= {"", ".toml", ".md", ".py", ".glsl", ".npy", ".dat", ".yaml", ".js"}
     assert not [name for name in names if "__pycache__" in name]
 
 
