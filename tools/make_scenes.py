@@ -8,7 +8,8 @@
 Without names: sphere, ellipsoid, bumpy and demo. `dense` (a mirror of 130,000 triangles), `torus` and `bowl` (mirrors
 that show themselves), `lamps` (point lamp, spot and sun in the dark), `million` (a million vertices) and `hidden` (one
 small file per hidden-surface case) are written when asked for, and `anamorphosis`: a cylinder on paper, and a picture
-that it could show. So are the papers' animations: `kitchen`.
+that it could show. So are the papers' animations:
+`kitchen`, `city`, `ants`, `hand` and `chairs`.
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ from .choice import Choice, MirrorChoice, Scenery, choose, in_shadow
 from .device.cubes import cube_texture
 from .environments.cube import EnvironmentCube
 from .geometry.chunk import Batches, Chunk
+from .geometry.split import SOON, share_of_step
 from .mirrors.baked_shape import BakedShape
 from .mirrors.mirror import Mirror
 from .paths.left_out import lets_light_on
@@ -67,7 +68,7 @@ class Preparation:
         choice = self._choose(stage, view, settings, reasons, is_still, last)
         chosen: Sequence[MirrorChoice | None] = [None] * len(stage.mirrors) if choice is None else choice.mirrors
         used = [settings if item is None else item.settings for item in chosen]
-        self._split_scenery(stage, view, used)
+        self._split_scenery(stage, view, used, moves=last is not None and not at_rest)
         shown: list[Shown] = []
         warnings = [SHARP] if view.lens is not None and settings.samples == 1 else []
         for mirror, mine, item, old in zip(stage.mirrors, used, chosen, before, strict=True):
@@ -114,15 +115,23 @@ class Preparation:
         )
 
     @staticmethod
-    def _split_scenery(stage: Stage, view: View, settings: Sequence[Settings]) -> None:
-        """Split edges that solved mirrors would show bent."""
-        sights = [
-            mirror.sight(view, used.pixel_tolerance, mirror.shape(used.map_resolution))
+    def _split_scenery(stage: Stage, view: View, settings: Sequence[Settings], moves: bool) -> None:
+        """Split edges that solved mirrors would show bent; while the view `moves` also some of those that they will
+        when they are larger."""
+        solved = [
+            (mirror, used.pixel_tolerance, mirror.shape(used.map_resolution))
             for mirror, used in zip(stage.mirrors, settings, strict=True)
             if used.entry.solves_vertices and not mirror.holds_eye(view, mirror.shape(used.map_resolution))
         ]
-        if sights:
-            stage.geometry.refine(sights)
+        if not solved:
+            return
+        sights = [mirror.sight(view, tolerance, shape) for mirror, tolerance, shape in solved]
+        stage.geometry.refine(sights)
+        if moves:
+            share = max(share_of_step(shape.radius_pixels(view)) for _, _, shape in solved)
+            soon = [mirror.sight(view, tolerance, shape, SOON) for mirror, tolerance, shape in solved]
+            if soon != sights:
+                stage.geometry.refine_ahead(soon, share)
 
     def _show(
         self,

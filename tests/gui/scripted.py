@@ -47,7 +47,7 @@ def extension(name: str) -> ModuleType:
 
 def view_3d() -> tuple[bpy.types.Area, bpy.types.SpaceView3D, bpy.types.Region]:
     window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    area: Any = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     return area, area.spaces[0], next(region for region in area.regions if region.type == "WINDOW")
 
 

@@ -41,8 +41,9 @@ def directions_at(face: NDArray[np.integer], s: Float64Array, t: Float64Array) -
 def texel_directions(resolution: int) -> Float64Array:
     """Unit directions (6, n, n, 3) of the texel centers of a cube map with n = `resolution`."""
     centers = (2.0 * np.arange(resolution) + 1.0) / resolution - 1.0
-    face, t, s = np.meshgrid(np.arange(6), centers, centers, indexing="ij")
-    return directions_at(face, s, t)
+    t, s = np.meshgrid(centers, centers, indexing="ij")
+    # (A face at a time: what `directions_at` looks up for each point is one for all of them.)
+    return np.stack([directions_at(np.array(face), s, t) for face in range(6)])
 
 
 def face_coordinates(directions: Float64Array) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:

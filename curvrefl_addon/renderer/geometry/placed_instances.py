@@ -10,18 +10,15 @@ from itertools import compress
 from operator import attrgetter, is_not
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...memory import require_memory
-from ...scene.arrays import Float32Array, Float64Array, InstanceArrays, Int32Array, MeshArrays, SceneArrays
+from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from .chunk import Placed
 from .mesh_facts import MeshFactsCache
-from .split import has_long_edges, split_mesh
+from .split import TOO_FINE
 from .vertex_uploads import is_deformed
 
-SLACK = 0.8
-"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
-TOO_FINE = 3.9
-"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 """(8, 3) which end of a box each of its corners has"""
 
@@ -83,39 +80,31 @@ def require_room(scene: SceneArrays) -> None:
     require_memory(estimated_bytes(scene), "The scene", "hide objects, or make their meshes coarser")
 
 
-def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
-    """(vertices, 3) in world axes about the star center."""
-    shift = instance.matrix[:3, 3] - np.array(sight.center)
-    return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
-
-
-def split_again(
-    item: Placed, angle: float, sights: Sequence[Sight], finest: float
-) -> tuple[MeshArrays, Int32Array] | None:
-    """As `split_for`, where an instance that was split with `angle` is too coarse for a mirror or, for the `finest`
-    that any needs, far too fine; None where it is fine as it is."""
-    is_unfit = angle * TOO_FINE < finest or any(
-        has_long_edges(item.drawn, relative_positions(item.drawn, item.instance, sight), sight.angle)
-        for sight in sights
-    )
-    return split_for(item, sights, 1.0 if item.drawn is item.mesh else SLACK) if is_unfit else None
-
-
-def split_for(item: Placed, sights: Sequence[Sight], slack: float) -> tuple[MeshArrays, Int32Array]:
-    """The mesh of an instance with the edges halved that are long for some mirrors, `slack` times as finely as they
-    need, and the triangle that each of its triangles is a part of."""
-    drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
-    for sight in sights:
-        drawn, rows = split_mesh(drawn, relative_positions(drawn, item.instance, sight), slack * sight.angle)
-        parents = parents[rows]
-    return drawn, parents
-
-
 def stretches_of(matrices: Float64Array) -> Float64Array:
     """(n,) the most that matrices (n, 4, 4) lengthen anything, or a little more; exact without shear."""
     linear = matrices[:, :3, :3]
     squared = np.abs(np.einsum("nki,nkj->nij", linear, linear))
     return np.sqrt(squared.sum(axis=2).max(axis=1))
+
+
+def may_be_coarse(
+    some: Sequence[Placed],
+    indices: NDArray[np.int64],
+    angles: Float64Array,
+    balls: tuple[Float64Array, Float64Array],
+    facts: MeshFactsCache,
+    sight: Sight,
+) -> NDArray[np.bool_]:
+    """(n,) which instances may have an edge that is too long for a mirror, or are far too fine: by their balls (centers
+    (n, 3), radii (n,)), longest edges, and the angles (n,) that they are split with. `indices`: theirs in the scene."""
+    centers, radii = balls
+    matrices = np.array([item.instance.matrix for item in some])
+    edges = np.array([facts.of(item.drawn).longest_edge for item in some])
+    nearest = np.maximum(np.linalg.norm(centers - sight.center, axis=1) - radii, 0.0)
+    coarse = edges * stretches_of(matrices) > sight.angle * nearest
+    fine = angles * TOO_FINE < sight.angle
+    shown = (indices != sight.own) & np.array([item.instance.visible_glossy for item in some])
+    return (coarse | fine) & shown
 
 
 def instance_keys(instances: Iterable[InstanceArrays]) -> list[tuple[int, int]]:

@@ -24,7 +24,6 @@ from .chunk import Batches, Chunk, Placed
 from .instance_bounds import ChunkBoxes, InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
-    TOO_FINE,
     Difference,
     Sight,
     deformed_item,
@@ -32,11 +31,12 @@ from .placed_instances import (
     differs_in_vertices_only,
     in_groups,
     matched,
+    may_be_coarse,
     placed_elsewhere,
     require_room,
-    split_again,
     stretches_of,
 )
+from .split import SplitAhead
 from .vertex_uploads import VertexUploads
 
 CHUNK_TRIANGLES = 1 << 16
@@ -69,6 +69,7 @@ class SceneGeometry:
         """Per instance the angle it is split with, endless where it is not"""
         self._sights: tuple[Sight, ...] = ()
         self._unchecked: set[int] = set()
+        self.ahead = SplitAhead()
         self._followed: tuple[SceneArrays, dict[int, int]] | None = None
         """The scene and its mirrors of the last update"""
 
@@ -126,7 +127,7 @@ class SceneGeometry:
         self.placed, self._where = placed, where
         self._bounds.follow(placed)
         self._rows.clear()
-        self._unchecked = set(range(len(placed)))
+        self._unchecked, self.ahead = set(range(len(placed))), SplitAhead()
         self._move(difference.moved)
         self._deform(difference.deformed)
         yield from self._build(dirty, stale)
@@ -142,22 +143,32 @@ class SceneGeometry:
         self._unchecked.clear()
         if len(chosen) == 0 or not sights:
             return
-        coarse = np.stack([self._may_be_coarse(sight, chosen) for sight in sights], axis=1)
-        finest = min(sight.angle for sight in sights)
-        dirty = []
-        for row in np.flatnonzero(coarse.any(axis=1)):
-            index = int(chosen[row])
-            needed = [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
-            if self._split(index, needed, finest):
-                dirty.append(index)
-        outcome(self._build(dirty, set()))
+        finest, needed = min(sight.angle for sight in sights), self._needed(sights, chosen)
+        outcome(self._build([index for index, some in needed.items() if self._split(index, some, finest)], set()))
+
+    def refine_ahead(self, sights: Sequence[Sight], share: float) -> None:
+        """Have this share done of the splitting that mirrors will need soon: `refine` finds it done then."""
+        if self.ahead.is_new(sights):
+            self.ahead.begin(sights, self._needed(sights, np.arange(len(self.placed))))
+        self.ahead.go_on(self.placed, share)
+
+    def _needed(self, sights: Sequence[Sight], chosen: NDArray[np.int64]) -> dict[int, list[Sight]]:
+        """Of these instances those that may have to be split otherwise, and for which mirrors."""
+        some = [self.placed[index] for index in chosen]
+        angles = np.array([self._angles[index] for index in chosen])
+        balls = self.balls(chosen)
+        coarse = np.stack([may_be_coarse(some, chosen, angles, balls, self.facts, sight) for sight in sights], axis=1)
+        return {
+            int(chosen[row]): [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
+            for row in np.flatnonzero(coarse.any(axis=1))
+        }
 
     def join(self) -> None:
         """Draw all meshes as they are, until `refine` splits them as if for the first time."""
         split = [index for index, item in enumerate(self.placed) if item.drawn is not item.mesh]
         for index in split:
             self._draw(index, self.placed[index].mesh)
-        self._sights = ()
+        self._sights, self.ahead = (), SplitAhead()
         outcome(self._build(split, set()))
 
     def scenery(self, own: int) -> list[tuple[Chunk, Batches]]:
@@ -324,25 +335,14 @@ class SceneGeometry:
                 self._where[index] = (chunk, local)
             self.counters["chunks built"] += 1
 
-    def _may_be_coarse(self, sight: Sight, chosen: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Which may have an edge that is too long for a mirror, or are far too fine: by balls and longest edges."""
-        centers, radii = self.balls(chosen)
-        matrices = np.array([self.placed[index].instance.matrix for index in chosen])
-        edges = np.array([self.facts.of(self.placed[index].drawn).longest_edge for index in chosen])
-        nearest = np.maximum(np.linalg.norm(centers - sight.center, axis=1) - radii, 0.0)
-        coarse = edges * stretches_of(matrices) > sight.angle * nearest
-        fine = np.array([self._angles[index] for index in chosen]) * TOO_FINE < sight.angle
-        shown = np.array([index != sight.own and self.placed[index].instance.visible_glossy for index in chosen])
-        return (coarse | fine) & shown
-
     def _split(self, index: int, sights: Sequence[Sight], finest: float) -> bool:
         """Split an instance for these mirrors; False where it is fine as it is."""
-        before = self.placed[index].drawn
-        if (found := split_again(self.placed[index], self._angles[index], sights, finest)) is None:
+        item = self.placed[index]
+        if (found := self.ahead.split(index, item, self._angles[index], sights, finest)) is None:
             return False
         self._draw(index, found[0], min(sight.angle for sight in sights), found[1])
         self.counters["meshes split"] += 1
-        return found[0] is not before
+        return found[0] is not item.drawn
 
     def _draw(self, index: int, drawn: MeshArrays, angle: float = np.inf, parents: Any = slice(None)) -> None:
         item = self.placed[index]

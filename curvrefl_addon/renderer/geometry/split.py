@@ -5,19 +5,39 @@
 The papers tessellate their models when loading them. Here an edge is halved while it is longer than `angle` times
 its smallest distance to the star center. That depends on the edge alone, so both its triangles agree and no crack
 opens, and not on the eye, so that an orbit splits nothing anew.
+
+A mirror that the eye comes closer to wants everything split anew whenever its size in pixels has doubled: all at once
+that is a redraw several times as long as the others. What will be needed next is therefore found by and by in the
+redraws before, and only looked up then (`SplitAhead`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...scene.arrays import Float32Array, Int32Array, MeshArrays
+from ...scene.arrays import Float32Array, InstanceArrays, Int32Array, MeshArrays
+
+if TYPE_CHECKING:
+    from .chunk import Placed
+    from .placed_instances import Sight
 
 MOST_ROUNDS = 14
 """Halvings of one edge: a floor 16,000 times wider than the distance to the mirror's center."""
+SOON = 1.7
+"""A mirror that has to grow by less than this until edges are split anew is about to want that"""
+SLACK = 0.8
+"""What has to be split again while it moves is split so much finer, so that it need not be at every move"""
+TOO_FINE = 3.9
+"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
+SLICE = 0.125
+"""Of all that is to be split, at most at once"""
+MOST_TRIANGLES = 1 << 15
+"""Of what is split ahead: with more it would take a redraw's time by itself, perhaps for nothing"""
 _ROTATIONS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 
 
@@ -29,8 +49,16 @@ def split_angle(radius_pixels: float, tolerance_pixels: float) -> float:
     that towards the silhouette: a = sqrt(8 tolerance / R). R is rounded up to a power of two, so that a slow zoom
     rarely splits anew.
     """
-    quantized = 2.0 ** np.ceil(np.log2(max(radius_pixels, 8.0)))
-    return float(np.clip(np.sqrt(8.0 * tolerance_pixels / quantized), 0.02, 0.5))
+    return float(np.clip(np.sqrt(8.0 * tolerance_pixels / _quantized(radius_pixels)), 0.02, 0.5))
+
+
+def share_of_step(radius_pixels: float) -> float:
+    """How near a mirror that grows is to where edges are split anew: from 0, at 1 / `SOON` of that size, to 1 there."""
+    return float(np.clip(1.0 + np.log(radius_pixels / _quantized(radius_pixels)) / np.log(SOON), 0.0, 1.0))
+
+
+def _quantized(radius_pixels: float) -> float:
+    return float(2.0 ** np.ceil(np.log2(max(radius_pixels, 8.0))))
 
 
 def longest_edge(mesh: MeshArrays) -> float:
@@ -190,3 +218,103 @@ def subdivide(corners: Int32Array, middles: Int32Array) -> tuple[Int32Array, Int
         (m[:, 0], m[:, 1], m[:, 2]),
     )
     return np.concatenate(pieces), np.concatenate(parents)
+
+
+@dataclass(frozen=True, slots=True)
+class _Split:
+    """What splitting an instance came to."""
+
+    item: Placed
+    """As it was"""
+    sights: tuple[Sight, ...]
+    drawn: MeshArrays
+    parents: Int32Array
+
+
+class SplitAhead:
+    """What instances of a scene will be split into."""
+
+    def __init__(self) -> None:
+        self._wanted: list[tuple[float, int]] = []
+        """Angle and mirror of the sights that it is for: where the mirrors are may change"""
+        self._left: list[tuple[int, tuple[Sight, ...]]] = []
+        self._total = 0
+        self._found: dict[int, _Split] = {}
+        """By instance"""
+
+    def is_new(self, sights: Sequence[Sight]) -> bool:
+        """Whether these are others than those that it is at."""
+        return self._wanted != _wanted(sights)
+
+    def begin(self, sights: Sequence[Sight], needed: Mapping[int, Sequence[Sight]]) -> None:
+        """Be for these; `needed`: instances that may have to be split, and the mirrors that they have to be for."""
+        self._wanted = _wanted(sights)
+        self._left = [(index, tuple(some)) for index, some in needed.items()]
+        self._total = len(self._left)
+        self._found = {}
+
+    @property
+    def done(self) -> int:
+        """How many have been looked at."""
+        return self._total - len(self._left)
+
+    def go_on(self, placed: Sequence[Placed], share: float) -> None:
+        """Look at more of them until this share of all is done, but at no more than a SLICE."""
+        due = int(np.ceil(share * self._total)) - self.done
+        for _ in range(min(due, int(np.ceil(SLICE * self._total)))):
+            index, sights = self._left.pop()
+            item = placed[index]
+            is_small = len(item.drawn.triangles) <= MOST_TRIANGLES
+            if is_small and any(is_coarse_for(item.drawn, item.instance, sight) for sight in sights):
+                self._found[index] = _Split(item, sights, *split_for(item, sights, slack_of(item)))
+
+    def split(
+        self, index: int, item: Placed, angle: float, sights: Sequence[Sight], finest: float
+    ) -> tuple[MeshArrays, Int32Array] | None:
+        """As `split_for`, where an instance that was split with `angle` is too coarse for a mirror or, for the `finest`
+        that any needs, far too fine; None where it is fine as it is."""
+        if angle * TOO_FINE >= finest and not any(is_coarse_for(item.drawn, item.instance, one) for one in sights):
+            return None
+        return self.taken(index, item, sights) or split_for(item, sights, slack_of(item))
+
+    def taken(self, index: int, item: Placed, sights: Sequence[Sight]) -> tuple[MeshArrays, Int32Array] | None:
+        """What `split_for` would come to, or is as fine; None where that is not known."""
+        found = self._found.pop(index, None)
+        if found is None or found.item.mesh is not item.mesh:
+            return None
+        is_same = found.item.instance is item.instance and found.item.drawn is item.drawn
+        if is_same and found.sights == tuple(sights):
+            return found.drawn, found.parents
+        if any(is_coarse_for(found.drawn, item.instance, sight) for sight in sights):
+            return None
+        return found.drawn, found.parents
+
+
+def _wanted(sights: Sequence[Sight]) -> list[tuple[float, int]]:
+    return [(sight.angle, sight.own) for sight in sights]
+
+
+def relative_positions(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> Float32Array:
+    """(vertices, 3) in world axes about the star center."""
+    shift = instance.matrix[:3, 3] - np.array(sight.center)
+    return mesh.positions @ instance.matrix[:3, :3].T.astype(np.float32) + shift.astype(np.float32)
+
+
+def is_coarse_for(mesh: MeshArrays, instance: InstanceArrays, sight: Sight) -> bool:
+    """Whether a mesh, where an instance puts it, has edges that are too long for a mirror."""
+    return has_long_edges(mesh, relative_positions(mesh, instance, sight), sight.angle)
+
+
+def slack_of(item: Placed) -> float:
+    """How much finer than needed an instance is split."""
+    return 1.0 if item.drawn is item.mesh else SLACK
+
+
+def split_for(item: Placed, sights: Sequence[Sight], slack: float) -> tuple[MeshArrays, Int32Array]:
+    """The mesh of an instance with the edges halved that are long for some mirrors, `slack` times as finely as they
+    need, and the triangle that each of its triangles is a part of."""
+    drawn, parents = item.mesh, np.arange(len(item.mesh.triangles), dtype=np.int32)
+    for sight in sights:
+        drawn, rows = split_mesh(drawn, relative_positions(drawn, item.instance, sight), slack * sight.angle)
+        parents = parents[rows]
+    return drawn, parents

@@ -196,10 +196,10 @@ class Mirror:
         last = np.clip(np.ceil(pixels.max(axis=0)) + 1, 0, size).astype(int)
         return (int(first[0]), int(first[1]), int(last[0] - first[0]), int(last[1] - first[1]))
 
-    def sight(self, view: View, tolerance: float, shape: BakedShape) -> Sight:
-        """How finely `tolerance` pixels want the scenery split at the mirror's size in this view."""
+    def sight(self, view: View, tolerance: float, shape: BakedShape, growth: float = 1.0) -> Sight:
+        """How finely `tolerance` pixels want the scenery split at `growth` times the mirror's size in this view."""
         x, y, z = shape.center.tolist()
-        return Sight((x, y, z), split_angle(shape.radius_pixels(view), tolerance), self.index)
+        return Sight((x, y, z), split_angle(growth * shape.radius_pixels(view), tolerance), self.index)
 
     def side(self, view: View, shape: BakedShape) -> float:
         """1 where the eye sees more of the outer side of the mirror, -1 where it sees more of the inner one."""

@@ -22,7 +22,7 @@ from ...scene.arrays import LARGEST_COORDINATE, Float32Array, InstanceArrays, Me
 from ...scene.programs.program import Attribute
 from ..device.record_regions import UNIT, RecordRegions
 from ..device.records import set_records
-from ..device.shaders import Piece
+from ..device.shaders import Piece, knows
 from ..geometry.chunk_attributes import LACKING_BY_NAME, attributes_of
 from ..geometry.mesh_facts import MeshFactsCache
 from ..geometry.placed_instances import Elsewhere, things_elsewhere
@@ -43,15 +43,9 @@ from .mesh_rays import (
 )
 from .mesh_trees import WORSE, Arrivals, Fresh, tree_steps
 from .ray_instances import INSTANCE_RECORDS, fill_records, places_hit
-from .ray_records import (
-    NODE_RECORDS,
-    TRIANGLE_RECORDS,
-    InstanceFlag,
-    NumberLists,
-    node_records,
-    put_boxes,
-)
+from .ray_records import NODE_RECORDS, TRIANGLE_RECORDS, InstanceFlag, NumberLists, node_records, put_boxes
 
+COUNTED = ("hierarchies built", "hierarchies fitted", "hierarchies improved", "top levels built")
 STACK = 64
 """Levels of the top and the deepest mesh together"""
 RAYS = Piece(
@@ -75,8 +69,7 @@ class RayScene:
 
     def __init__(self, facts: MeshFactsCache, uploads: VertexUploads) -> None:
         self.regions = RecordRegions()
-        counted = ("hierarchies built", "hierarchies fitted", "hierarchies improved", "top levels built")
-        self.counters = dict.fromkeys(counted, 0)
+        self.counters = dict.fromkeys(COUNTED, 0)
         self.build_ms = 0.0
         """Of the last time that meshes came"""
         self._facts, self._uploads = facts, uploads
@@ -114,9 +107,10 @@ class RayScene:
         self._build: tuple[MeshRays, HierarchyBuild] | None = None
 
     def bind(self, shader: Any) -> None:
-        """Set what `RAYS` names on a bound shader."""
+        """Set what `RAYS` names on a bound shader, of which the compiler may have found that it follows none."""
         set_records(shader, "rays", self.regions.texture)
-        shader.uniform_int("rays_top", self._top_places)
+        if knows(shader, "rays_top"):
+            shader.uniform_int("rays_top", self._top_places)
 
     def follow(self, scene: SceneArrays, numbers: Mapping[int, int]) -> None:
         """Show a state of the scene; `numbers`: mirrors (1, 2, ...) by the index of their instance.

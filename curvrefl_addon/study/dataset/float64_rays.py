@@ -43,17 +43,20 @@ class Float64Rays:
     def _seen(self) -> WorldMesh:
         return world_mesh(self.scene, [i for i, item in enumerate(self.scene.instances) if item.visible_camera])
 
-    def points(self, view: View, say: Callable[[str], None]) -> ShownPoints:
-        """Of all pixels whose center shows a mirror; `say` is told how far it is."""
+    def points(self, view: View, say: Callable[[str], None], pixels: NDArray[np.int64] | None = None) -> ShownPoints:
+        """Of all pixels whose center shows a mirror, or of those of `pixels` (n,), indices row by row; `say` is told
+        how far it is."""
         origin, sight = view.lines_of_sight(view.pixel_centers)
+        looked_at = np.arange(len(origin)) if pixels is None else pixels
         found = []
-        for first in range(0, len(origin), RAYS):
-            say(f"rays {first} of {len(origin)}")
-            some = slice(first, first + RAYS)
-            found.append(self._points(view, origin[some], sight[some], first))
+        for first in range(0, len(looked_at), RAYS):
+            say(f"rays {first} of {len(looked_at)}")
+            some = looked_at[first : first + RAYS]
+            found.append(self._points(origin[some], sight[some], some))
         return ShownPoints(view, *(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
-    def _points(self, view: View, origin: Float64Array, sight: Float64Array, first: int) -> tuple[NDArray, ...]:
+    def _points(self, origin: Float64Array, sight: Float64Array, numbers: NDArray[np.int64]) -> tuple[NDArray, ...]:
+        """Of lines of sight (n, 3) through the centers of pixels of these numbers (n,)."""
         hits = self._seen.rays.first_hits(origin, sight)
         instance = np.where(hits.triangle >= 0, self._seen.instance[hits.triangle], NOTHING)
         on_mirror = (instance >= 0) & self._is_mirror[instance]
@@ -66,7 +69,7 @@ class Float64Rays:
         way = np.where(shown_instance >= 0, np.linalg.norm(shown[:, :3] - place, axis=1), np.inf)
         self._go_on(way, shown_instance, shown[:, :3], ray, normal)
         return (
-            pixel + first,
+            numbers[pixel],
             mirror,
             place,
             facing,

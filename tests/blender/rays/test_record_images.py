@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from curvrefl.curvrefl_addon.gpu_caches import clear_gpu_caches
 from curvrefl.curvrefl_addon.renderer.device import records, shaders
+from curvrefl.curvrefl_addon.renderer.rays.ray_scene import RAYS
 from curvrefl.curvrefl_addon.renderer.renderer import Renderer
 from curvrefl.curvrefl_addon.renderer.settings import Settings
+from curvrefl.gpu_shaders.loader import Snippet
 from scenes.mirror_halls import hall
 from scenes.views import look_at
 
@@ -56,3 +58,14 @@ def test_a_software_driver_reads_them_as_images(monkeypatch: pytest.MonkeyPatch)
         monkeypatch.setattr(records.context, "renderer_name", lambda name=name: name)
         monkeypatch.setattr(records.context, "backend_name", lambda backend=backend: backend)
         assert records.context.is_software_opengl() == is_software
+
+
+def test_a_shader_of_which_the_compiler_finds_that_it_follows_no_rays_is_bound() -> None:
+    """As of surfaces in a scene all of whose rays are shared."""
+    nothing = shaders.Piece(fragment=Snippet("a test", "void main() { color = vec4(1.0); }"))
+    color = shaders.Piece(outputs={"color": "VEC4"})
+    shader = shaders.build_shader("of a test", shaders.FULL_SCREEN, color, RAYS, nothing)
+    renderer = Renderer(hall("bowl"), Settings(method="exact", samples=1))
+    shader.bind()
+    renderer.rays().bind(shader)
+    renderer.free()

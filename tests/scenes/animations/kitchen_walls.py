@@ -33,18 +33,23 @@ def add_room() -> None:
     wall = matte("Wall", pixels=paint.plaster(512, (0.9, 0.86, 0.74)))
     paint_white = matte("White paint", WHITE, roughness=0.7)
     thick = 0.15
-    add_object("Floor", plane((RIGHT - LEFT, BACK - FRONT), (8, 8), tile=2.0), tiles, location=_middle(0.0))
-    ceiling = block((LEFT, FRONT, CEILING), (RIGHT, BACK, CEILING + thick))
+    # Walls, floor and ceiling go on in each other: where surfaces only touch, their curved reflections are drawn with
+    # edges of their own, which may let the sky through between them.
+    over = 0.1
+    low, high = -over, CEILING + over
+    left, right, back, front = LEFT - over, RIGHT + over, BACK + over, FRONT - over
+    ceiling = block((left, front, CEILING), (right, back, CEILING + thick))
     add_object("Ceiling", ceiling, paint_white)
-    add_object("Back wall", projected(block((LEFT, BACK, 0.0), (RIGHT, BACK + thick, CEILING)), 1.5), wall)
-    add_object("Right wall", projected(block((RIGHT, FRONT, 0.0), (RIGHT + thick, BACK, CEILING)), 1.5), wall)
+    add_object("Floor", plane((right - left, back - front), (8, 8), tile=2.0), tiles, location=_middle(0.0))
+    add_object("Back wall", projected(block((left, BACK, low), (right, BACK + thick, high)), 1.5), wall)
+    add_object("Right wall", projected(block((RIGHT, front, low), (RIGHT + thick, back, high)), 1.5), wall)
     openings = ((-1.75, 0.35, 0.95, 2.2),)
     for y0, y1, z0, z1 in openings:
         parts = [
-            block((LEFT - thick, FRONT, 0.0), (LEFT, y0, CEILING)),
-            block((LEFT - thick, y1, 0.0), (LEFT, BACK, CEILING)),
-            block((LEFT - thick, y0, 0.0), (LEFT, y1, z0)),
-            block((LEFT - thick, y0, z1), (LEFT, y1, CEILING)),
+            block((LEFT - thick, front, low), (LEFT, y0, high)),
+            block((LEFT - thick, y1, low), (LEFT, back, high)),
+            block((LEFT - thick, y0, low), (LEFT, y1, z0)),
+            block((LEFT - thick, y0, z1), (LEFT, y1, high)),
         ]
         add_object("Window wall", projected(joined(*parts), 1.5), wall)
         far, near, bar = LEFT - 0.1, LEFT - 0.05, 0.022
@@ -55,9 +60,9 @@ def add_room() -> None:
     # Behind the camera: a door to the garden, which only the pot shows.
     x0, x1, top = 0.1, 1.5, 2.15
     parts = [
-        block((LEFT, FRONT - thick, 0.0), (x0, FRONT, CEILING)),
-        block((x1, FRONT - thick, 0.0), (RIGHT, FRONT, CEILING)),
-        block((x0, FRONT - thick, top), (x1, FRONT, CEILING)),
+        block((left, FRONT - thick, low), (x0, FRONT, high)),
+        block((x1, FRONT - thick, low), (right, FRONT, high)),
+        block((x0, FRONT - thick, top), (x1, FRONT, high)),
     ]
     add_object("Garden wall", projected(joined(*parts), 1.5), wall)
     posts = [block((x, FRONT - 0.1, 0.0), (x + 0.06, FRONT - 0.04, top)) for x in np.linspace(x0, x1 - 0.06, 3)]

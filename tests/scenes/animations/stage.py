@@ -20,7 +20,7 @@ import bootstrap
 bootstrap.load_package()
 
 from curvrefl.curvrefl_addon.demo.data_blocks import add_camera, looking, start_empty_scene  # noqa: E402
-from curvrefl.curvrefl_addon.demo.shapes import Numbers  # noqa: E402
+from curvrefl.curvrefl_addon.demo.shapes import Numbers, rotation  # noqa: E402
 from curvrefl.curvrefl_addon.scene.arrays import Float64Array  # noqa: E402
 
 FRAMES = 120
@@ -92,6 +92,21 @@ def move(thing: bpy.types.Object, pose: Callable[[float], Float64Array]) -> None
         thing.keyframe_insert("location", frame=frame)
         thing.keyframe_insert("rotation_quaternion", frame=frame)
         last = turn.copy()
+
+
+def placed(place: Numbers, heading: float) -> Float64Array:
+    """(4, 4) world matrix of what stands at a place (3,), turned about Z by `heading` radians."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation(heading), place
+    return matrix
+
+
+def copied(thing: bpy.types.Object) -> bpy.types.Object:
+    """The same mesh once more, as an object of its own."""
+    copy: Any = thing.copy()
+    scene: Any = bpy.context.scene
+    scene.collection.objects.link(copy)
+    return copy
 
 
 def fly(eye: Path3, target: Path3, lens: float, clip: tuple[float, float] = (0.01, 100.0)) -> None:

@@ -6,7 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from curvrefl.curvrefl_addon.renderer.geometry.split import has_long_edges, longest_edge, split_mesh
+from curvrefl.curvrefl_addon.renderer.geometry.split import (
+    SOON,
+    has_long_edges,
+    longest_edge,
+    share_of_step,
+    split_angle,
+    split_mesh,
+)
 from curvrefl.curvrefl_addon.scene.arrays import MeshArrays
 
 
@@ -94,3 +101,12 @@ def test_limit_is_kept() -> None:
     result = split(floor(100.0, -1.0), 0.02, most_triangles=5000)
     assert len(result.triangles) <= 5000
     assert len(result.triangles) > 2
+
+
+@pytest.mark.parametrize(
+    ("radius", "share"), [(65.0, 0.0), (128.0 / SOON, 0.0), (127.99, 1.0), (128.0, 1.0), (2.0, 0.0)]
+)
+def test_a_mirror_that_grows_is_told_when_it_will_be_split_anew(radius: float, share: float) -> None:
+    assert share_of_step(radius) == pytest.approx(share, abs=1e-3)
+    if share > 0.0:
+        assert split_angle(SOON * radius, 0.5) < split_angle(radius, 0.5)
