@@ -204,6 +204,10 @@ def _film(folder: Path) -> None:
     _run(str(ROOT / "tools" / "measure" / "film" / "draw_film.py"), *given)
 
 
+def _animations(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "motion" / "draw_films.py"), str(folder / "animations.jpg"))
+
+
 def _dataset(folder: Path) -> None:
     _verb("dataset", "--output", str(folder / "dataset"), "--resolution", "320x240", "--samples", "64")
     tool = str(ROOT / "tools" / "measure" / "truth" / "draw_dataset.py")
@@ -283,6 +287,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "passes": _passes,
     "inspection": _inspection,
     "film": _film,
+    "animations": _animations,
     "dataset": _dataset,
     "sequence": _sequence,
     "quick_start": _quick_start,
@@ -310,6 +315,7 @@ IMAGES: dict[str, Picture] = {
     "passes.jpg": Picture("passes", _copied),
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
+    "animations.jpg": Picture("animations", _copied),
     "dataset.jpg": Picture("dataset", _copied),
     "sequence.jpg": Picture("sequence", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),
