@@ -211,6 +211,10 @@ def _calm(folder: Path) -> None:
     _run(tool, str(folder / "bumpy.blend"), *given)
 
 
+def _animations(folder: Path) -> None:
+    _run(str(ROOT / "tools" / "measure" / "motion" / "draw_films.py"), str(folder / "animations.jpg"))
+
+
 def _dataset(folder: Path) -> None:
     _verb("dataset", "--output", str(folder / "dataset"), "--resolution", "320x240", "--samples", "64")
     tool = str(ROOT / "tools" / "measure" / "truth" / "draw_dataset.py")
@@ -291,6 +295,7 @@ RESULTS: dict[str, Callable[[Path], Any]] = {
     "inspection": _inspection,
     "film": _film,
     "calm": _calm,
+    "animations": _animations,
     "dataset": _dataset,
     "sequence": _sequence,
     "quick_start": _quick_start,
@@ -319,6 +324,7 @@ IMAGES: dict[str, Picture] = {
     "inspection.jpg": Picture("inspection", _copied),
     "film.jpg": Picture("film", _copied),
     "calm.jpg": Picture("calm", _copied),
+    "animations.jpg": Picture("animations", _copied),
     "dataset.jpg": Picture("dataset", _copied),
     "sequence.jpg": Picture("sequence", _copied),
     "quick_start.jpg": Picture("quick_start", _drawn_steps),

@@ -16,12 +16,11 @@ from ...memory import require_memory
 from ...scene.arrays import Float64Array, InstanceArrays, MeshArrays, SceneArrays
 from .chunk import Placed
 from .mesh_facts import MeshFactsCache
+from .split import TOO_FINE
 from .vertex_uploads import is_deformed
 
 CORNERS = np.indices((2, 2, 2)).reshape(3, 8).T
 """(8, 3) which end of a box each of its corners has"""
-TOO_FINE = 3.9
-"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 
 
 @dataclass(slots=True)
@@ -227,19 +226,3 @@ def in_groups(items: Sequence[int], sizes: Sequence[int], enough: int) -> Iterat
             group, total = [], 0
     if group:
         yield group
-
-
-def coarse_for(
-    some: Sequence[Placed],
-    indices: NDArray[np.int64],
-    angles: Float64Array,
-    balls: tuple[Float64Array, Float64Array],
-    facts: MeshFactsCache,
-    sights: Sequence[Sight],
-) -> dict[int, list[Sight]]:
-    """Of these instances those that may have to be split otherwise, and for which mirrors; as `may_be_coarse`."""
-    coarse = np.stack([may_be_coarse(some, indices, angles, balls, facts, sight) for sight in sights], axis=1)
-    return {
-        int(indices[row]): [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
-        for row in np.flatnonzero(coarse.any(axis=1))
-    }

@@ -24,20 +24,19 @@ from .chunk import Batches, Chunk, Placed
 from .instance_bounds import ChunkBoxes, InstanceBounds
 from .mesh_facts import MeshFactsCache
 from .placed_instances import (
-    TOO_FINE,
     Difference,
     Sight,
-    coarse_for,
     deformed_item,
     differs_in_place_only,
     differs_in_vertices_only,
     in_groups,
     matched,
+    may_be_coarse,
     placed_elsewhere,
     require_room,
     stretches_of,
 )
-from .split import SplitAhead, is_coarse_for, slack_of, split_for
+from .split import SplitAhead
 from .vertex_uploads import VertexUploads
 
 CHUNK_TRIANGLES = 1 << 16
@@ -128,8 +127,7 @@ class SceneGeometry:
         self.placed, self._where = placed, where
         self._bounds.follow(placed)
         self._rows.clear()
-        self._unchecked = set(range(len(placed)))
-        self.ahead = SplitAhead()
+        self._unchecked, self.ahead = set(range(len(placed))), SplitAhead()
         self._move(difference.moved)
         self._deform(difference.deformed)
         yield from self._build(dirty, stale)
@@ -145,20 +143,25 @@ class SceneGeometry:
         self._unchecked.clear()
         if len(chosen) == 0 or not sights:
             return
-        finest = min(sight.angle for sight in sights)
-        needed = self._needed(sights, chosen)
+        finest, needed = min(sight.angle for sight in sights), self._needed(sights, chosen)
         outcome(self._build([index for index, some in needed.items() if self._split(index, some, finest)], set()))
 
     def refine_ahead(self, sights: Sequence[Sight], share: float) -> None:
-        """Have this share done of the splitting that mirrors will need soon, or go on with it: nothing is drawn
-        otherwise until `refine` is told so, which then finds it done."""
+        """Have this share done of the splitting that mirrors will need soon: `refine` finds it done then."""
         if self.ahead.is_new(sights):
             self.ahead.begin(sights, self._needed(sights, np.arange(len(self.placed))))
         self.ahead.go_on(self.placed, share)
 
     def _needed(self, sights: Sequence[Sight], chosen: NDArray[np.int64]) -> dict[int, list[Sight]]:
-        some, angles = [self.placed[index] for index in chosen], [self._angles[index] for index in chosen]
-        return coarse_for(some, chosen, np.array(angles), self.balls(chosen), self.facts, sights)
+        """Of these instances those that may have to be split otherwise, and for which mirrors."""
+        some = [self.placed[index] for index in chosen]
+        angles = np.array([self._angles[index] for index in chosen])
+        balls = self.balls(chosen)
+        coarse = np.stack([may_be_coarse(some, chosen, angles, balls, self.facts, sight) for sight in sights], axis=1)
+        return {
+            int(chosen[row]): [sight for sight, wanted in zip(sights, coarse[row], strict=True) if wanted]
+            for row in np.flatnonzero(coarse.any(axis=1))
+        }
 
     def join(self) -> None:
         """Draw all meshes as they are, until `refine` splits them as if for the first time."""
@@ -335,14 +338,11 @@ class SceneGeometry:
     def _split(self, index: int, sights: Sequence[Sight], finest: float) -> bool:
         """Split an instance for these mirrors; False where it is fine as it is."""
         item = self.placed[index]
-        if self._angles[index] * TOO_FINE >= finest and not any(
-            is_coarse_for(item.drawn, item.instance, sight) for sight in sights
-        ):
+        if (found := self.ahead.split(index, item, self._angles[index], sights, finest)) is None:
             return False
-        drawn, parents = self.ahead.taken(index, item, sights) or split_for(item, sights, slack_of(item))
-        self._draw(index, drawn, min(sight.angle for sight in sights), parents)
+        self._draw(index, found[0], min(sight.angle for sight in sights), found[1])
         self.counters["meshes split"] += 1
-        return drawn is not item.drawn
+        return found[0] is not item.drawn
 
     def _draw(self, index: int, drawn: MeshArrays, angle: float = np.inf, parents: Any = slice(None)) -> None:
         item = self.placed[index]

@@ -32,6 +32,8 @@ SOON = 1.7
 """A mirror that has to grow by less than this until edges are split anew is about to want that"""
 SLACK = 0.8
 """What has to be split again while it moves is split so much finer, so that it need not be at every move"""
+TOO_FINE = 3.9
+"""Split again where the angle asked for has grown by this factor (a factor of two each way is left alone)"""
 SLICE = 0.125
 """Of all that is to be split, at most at once"""
 MOST_TRIANGLES = 1 << 15
@@ -265,6 +267,15 @@ class SplitAhead:
             is_small = len(item.drawn.triangles) <= MOST_TRIANGLES
             if is_small and any(is_coarse_for(item.drawn, item.instance, sight) for sight in sights):
                 self._found[index] = _Split(item, sights, *split_for(item, sights, slack_of(item)))
+
+    def split(
+        self, index: int, item: Placed, angle: float, sights: Sequence[Sight], finest: float
+    ) -> tuple[MeshArrays, Int32Array] | None:
+        """As `split_for`, where an instance that was split with `angle` is too coarse for a mirror or, for the `finest`
+        that any needs, far too fine; None where it is fine as it is."""
+        if angle * TOO_FINE >= finest and not any(is_coarse_for(item.drawn, item.instance, one) for one in sights):
+            return None
+        return self.taken(index, item, sights) or split_for(item, sights, slack_of(item))
 
     def taken(self, index: int, item: Placed, sights: Sequence[Sight]) -> tuple[MeshArrays, Int32Array] | None:
         """What `split_for` would come to, or is as fine; None where that is not known."""

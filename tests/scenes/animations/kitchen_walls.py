@@ -53,8 +53,10 @@ def add_room() -> None:
         ]
         add_object("Window wall", projected(joined(*parts), 1.5), wall)
         far, near, bar = LEFT - 0.1, LEFT - 0.05, 0.022
-        frame = [block((far, y, z0), (near, y + 2 * bar, z1)) for y in np.linspace(y0, y1 - 2 * bar, 4)]
-        frame += [block((far, y0, z), (near, y1, z + 2 * bar)) for z in np.linspace(z0, z1 - 2 * bar, 3)]
+        # (So do frames and walls.)
+        a0, a1, b0, b1 = y0 - bar, y1 + bar, z0 - bar, z1 + bar
+        frame = [block((far, y, b0), (near, y + 2 * bar, b1)) for y in np.linspace(a0, a1 - 2 * bar, 4)]
+        frame += [block((far, a0, z), (near, a1, z + 2 * bar)) for z in np.linspace(b0, b1 - 2 * bar, 3)]
         frame.append(block((LEFT - 0.06, y0 - 0.05, z0 - 0.03), (LEFT + 0.1, y1 + 0.05, z0), bevel=0.005))
         add_object("Window frame", joined(*frame), paint_white)
     # Behind the camera: a door to the garden, which only the pot shows.
@@ -65,8 +67,10 @@ def add_room() -> None:
         block((x0, FRONT - thick, top), (x1, FRONT, high)),
     ]
     add_object("Garden wall", projected(joined(*parts), 1.5), wall)
-    posts = [block((x, FRONT - 0.1, 0.0), (x + 0.06, FRONT - 0.04, top)) for x in np.linspace(x0, x1 - 0.06, 3)]
-    posts += [block((x0, FRONT - 0.1, z), (x1, FRONT - 0.04, z + 0.06)) for z in (0.0, 0.7, top - 0.06)]
+    posts = [
+        block((x, FRONT - 0.1, 0.0), (x + 0.08, FRONT - 0.04, top + 0.03)) for x in np.linspace(x0 - 0.03, x1 - 0.05, 3)
+    ]
+    posts += [block((x0, FRONT - 0.1, z), (x1, FRONT - 0.04, z + 0.08)) for z in (-0.02, 0.7, top - 0.05)]
     add_object("Garden door", joined(*posts), matte("Green paint", (0.06, 0.17, 0.13), roughness=0.7))
     leaves = matte("Leaves", pixels=paint.leaves(256), roughness=0.9)
     lawn = plane((14.0, 14.0), (4, 4), tile=1.4)

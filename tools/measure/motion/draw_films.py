@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Curvrefl contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the papers' animations: a row for each, three frames by us and the last of these by Cycles.
+"""A picture of the papers' animations: stills of each, in full light.
 
-    python tools/measure/motion/draw_films.py OUT.jpg
-
-In full light, with as many samples of ours as are said here.
+python tools/measure/motion/draw_films.py OUT.jpg
 """
 
 from __future__ import annotations
@@ -25,49 +23,32 @@ import bpy  # noqa: E402, F401  (before the scenes)
 from PIL import Image  # noqa: E402
 from scenes.animations.films import ANIMATIONS  # noqa: E402
 
-FRAMES = {
-    "kitchen": (1, 60, 92),
-    "city": (1, 50, 110),
-    "ants": (20, 60, 100),
-    "hand": (30, 55, 80),
-    "chairs": (1, 60, 110),
-}
-SIZE = (240, 180)
-SAMPLES, REFERENCE = 16, 64
+STILLS = (("kitchen", 60), ("kitchen", 92), ("city", 100), ("ants", 60), ("hand", 70), ("chairs", 90))
+COLUMNS = 3
+SIZE, DRAWN = (400, 300), (320, 240)
+"""Of each as it is rendered, and as it is shown"""
+SAMPLES = 8
 QUALITY = 85
 
 
 def main(picture: Path) -> None:
+    sheet = Image.new("RGB", (COLUMNS * DRAWN[0], -(-len(STILLS) // COLUMNS) * DRAWN[1]))
     with tempfile.TemporaryDirectory() as work:
-        rows = [_row(Path(work), name) for name in FRAMES]
-    sheet = Image.new("RGB", (4 * SIZE[0], len(rows) * SIZE[1]))
-    for row, pictures in enumerate(rows):
-        for column, part in enumerate(pictures):
-            sheet.paste(part, (column * SIZE[0], row * SIZE[1]))
+        _run("make_scenes.py", work, *dict(STILLS))
+        for number, (name, frame) in enumerate(STILLS):
+            row, column = divmod(number, COLUMNS)
+            still = _still(Path(work), name, frame)
+            sheet.paste(still, (column * DRAWN[0], row * DRAWN[1]))
     sheet.save(picture, quality=QUALITY)
 
 
-def _row(folder: Path, name: str) -> list[Image.Image]:
-    _run("make_scenes.py", str(folder), name)
-    file, mirrors = str(folder / f"{name}.blend"), ",".join(ANIMATIONS[name].mirrors)
-    size = f"{SIZE[0]}x{SIZE[1]}"
-    *first, last = FRAMES[name]
-    found = []
-    for frame in first:
-        given = ("--reflector", mirrors, "--frame", str(frame), "--resolution", size, "--samples", str(SAMPLES))
-        out = folder / f"{name}_{frame}.png"
-        _run("run_verb.py", "--", "render", file, *given, "--output", str(out))
-        found.append(out)
-    given = ("--reflector", mirrors, "--frame", str(last), "--resolution", size, "--method", "auto")
-    samples = ("--sub-frames", str(SAMPLES), "--samples", str(REFERENCE), "--peers", "none")
-    _run("run_verb.py", "--", "compare", file, *given, *samples, "--output", str(folder / name))
-    found += [folder / name / "auto.png", folder / name / "reference.png"]
-    return [_opened(path) for path in found]
-
-
-def _opened(path: Path) -> Image.Image:
-    with Image.open(path) as opened:
-        return opened.convert("RGB").resize(SIZE)
+def _still(folder: Path, name: str, frame: int) -> Image.Image:
+    out = folder / f"{name}_{frame}.png"
+    given = ("--reflector", ",".join(ANIMATIONS[name].mirrors), "--frame", str(frame))
+    size = ("--resolution", f"{SIZE[0]}x{SIZE[1]}", "--samples", str(SAMPLES))
+    _run("run_verb.py", "--", "render", str(folder / f"{name}.blend"), *given, *size, "--output", str(out))
+    with Image.open(out) as opened:
+        return opened.convert("RGB").resize(DRAWN, Image.Resampling.LANCZOS)
 
 
 def _run(tool: str, *arguments: str) -> None:
