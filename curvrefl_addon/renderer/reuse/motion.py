@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...scene.arrays import Float64Array, MeshArrays, SceneArrays
 from ..truth.motion import same_instances
@@ -91,13 +90,9 @@ def _motion(now: SceneArrays, index: int, then: SceneArrays, other: int) -> Floa
 
 def _has_same_shape(mesh: MeshArrays, other: MeshArrays) -> bool:
     return mesh is other or all(
-        _is_same_array(getattr(mesh, name), getattr(other, name))
+        _is_same(getattr(mesh, name), getattr(other, name))
         for name in ("positions", "triangles", "corner_vertex", "corner_normals")
     )
-
-
-def _is_same_array(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
-    return one is other or np.array_equal(one, other)
 
 
 def _is_same(one: object, other: object) -> bool:

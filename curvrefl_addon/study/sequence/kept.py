@@ -26,7 +26,7 @@ PICTURES, TOLD, REPORT, PAGE = "kept.exr", "kept.json", "report.json", "report.h
 VERSION = 1
 """Of these files; another one where what they hold differs"""
 REFERENCE = "reference"
-LARGEST = 65504.0
+LARGEST = float(np.finfo(np.float16).max)
 """That 16 bits hold"""
 FAILED = -1
 """In place of an object's number: the method shows no mirror there, or no color or place that is a number"""
